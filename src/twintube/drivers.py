@@ -1,0 +1,99 @@
+"""Loops over the kernel, in the kernel's own subset so that numba compiles them together with it.
+
+`p`, `d`, `s`, `f` are records of `variables.py`: dataclasses in the interpreter, rows of structured arrays in numba.
+"""
+
+from typing import Any
+
+from twintube.kernel import step
+from twintube.quarter_car import kick
+
+# Columns that `run_record` writes, in this order; all but the shares and `z` are in SI units of the state's fields.
+COLUMNS = (
+    "force",
+    "k_degr",
+    "F_fluid",
+    "F_friction",
+    "F_gas",
+    "work",
+    "V1_oil",
+    "V1_gas",
+    "V1_foam",
+    "V2_oil",
+    "V2_gas",
+    "V2_foam",
+    "V3_oil",
+    "V3_foam",
+    "V_cav",
+)
+
+
+def run_record(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, out: Any) -> int:
+    """Drive the damper over the strokes `z` [m] and velocities `v` [m/s], both (n,), and write `out` (n, 15).
+
+    Row 0 is the state at the first sample. Returns the number of samples done, less than n if a step failed.
+    """
+    before = v[0]
+    for i in range(len(z)):
+        if not step(p, d, s, f, z[i], before, v[i]):
+            return i
+        before = v[i]
+        row = out[i]
+        row[0] = s.F_fluid + s.F_friction + s.F_gas
+        row[1] = s.k_degr
+        row[2] = s.F_fluid
+        row[3] = s.F_friction
+        row[4] = s.F_gas
+        row[5] = s.work
+        row[6] = s.V1_oil
+        row[7] = s.V1_gas
+        row[8] = s.V1_foam
+        row[9] = s.V2_oil
+        row[10] = s.V2_gas
+        row[11] = s.V2_foam
+        row[12] = s.V3_oil
+        row[13] = s.V3_foam
+        row[14] = s.V_cav
+    return len(z)
+
+
+def run_work(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, marks: Any, out: Any) -> int:
+    """As `run_record`, but only the dissipated work [J] at the samples `marks` (m,), written to `out` (m,)."""
+    before = v[0]
+    mark = 0
+    for i in range(len(z)):
+        if not step(p, d, s, f, z[i], before, v[i]):
+            return i
+        before = v[i]
+        if mark < len(marks) and i == marks[mark]:
+            out[mark] = s.work
+            mark += 1
+    return len(z)
+
+
+def run_drive(p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, dt: float, limit: float, out: Any) -> int:
+    """Quarter car over the road heights `road` [m] (n,), one every `dt` [s]; `out` (n, 4) takes the stroke [m], the
+    damper velocity [m/s], the damper force [N] and the wheel load [N].
+
+    Returns the number of samples done, less than n if the piston would leave the tube (`limit` [m]) or a step failed.
+    """
+    before = 0.0
+    force = s.F_fluid + s.F_friction + s.F_gas
+    earlier = force
+    for i in range(len(road)):
+        stroke = m.z_body - m.z_wheel
+        rate = (road[i] - road[i - 1]) / dt if i > 0 else 0.0
+        load = kick(car, m, road[i], rate, 1.5 * force - 0.5 * earlier, dt)
+        velocity = m.v_body - m.v_wheel
+        row = out[i]
+        row[0] = stroke
+        row[1] = velocity
+        row[2] = force
+        row[3] = load
+        end = m.z_body - m.z_wheel
+        if not (-limit <= end <= limit) or not step(p, d, s, f, end, before, velocity):
+            return i
+        before = velocity
+        earlier = force
+        force = s.F_fluid + s.F_friction + s.F_gas
+    return len(road)

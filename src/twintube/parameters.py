@@ -1,0 +1,236 @@
+"""Parameter sets in TOML: read, check, write. A named set is a file in `dampers/`."""
+
+import difflib
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pint
+import tomlkit
+
+from twintube.checks import problems
+from twintube.variables import FV_POINTS, Parameters, fmi_name
+
+FOLDER = Path(__file__).parent / "dampers"
+BRANCHES = {"rebound": ("v_re", "F_re"), "compression": ("v_co", "F_co")}
+PINT_UNITS = {"m3": "m**3", "1": "dimensionless"}
+
+
+class ParameterError(ValueError):
+    """A parameter set that cannot be used; the message names file, line, quantity, value and allowed range."""
+
+
+@dataclass(frozen=True)
+class Damper:
+    """A named, sourced and checked parameter set. Do not change its parameters; `with_` makes another one."""
+
+    name: str
+    title: str
+    parameters: Parameters
+    sources: Mapping[str, str]  # where the values come from, by group or by group and name
+    assumed: Mapping[str, str]  # the same for stand-ins of unpublished values: the reasoning
+    measured_levels: tuple[float, ...] = ()  # oil levels of the degraded states that were measured, highest first
+
+    def with_(self, **changes: Any) -> "Damper":
+        """The same damper with other parameters, e.g. `oil_level=0.4, gas_preload=0`; raises ParameterError."""
+        known = {item.name for item in fields(Parameters)}
+        for name in changes:
+            if name not in known:
+                raise ParameterError(f"{self.name}: unknown parameter {name}{suggestion(name, known)}")
+        changed = replace(self.parameters, **changes)
+        refuse(self.name, problems(changed))
+        return replace(self, parameters=changed)
+
+
+def names() -> list[str]:
+    """The named dampers."""
+    return sorted(path.stem for path in FOLDER.glob("*.toml"))
+
+
+def load(damper: str | Path) -> Damper:
+    """A named damper (`"SA8"`) or a parameter file; raises ParameterError."""
+    path = FOLDER / f"{damper}.toml"
+    if not path.is_file():
+        path = Path(damper)
+    if not path.is_file():
+        raise ParameterError(f"unknown damper {damper}: neither a file nor one of {', '.join(names())}")
+    try:
+        text = path.read_text(encoding="utf-8")
+        content = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ParameterError(f"{path.name}: {error}") from error
+    return from_content(content, text, path.name)
+
+
+def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
+    """A damper from parsed TOML; `text` and `file` serve the messages only."""
+    found: list[str] = []
+    values: dict[str, Any] = {}
+    known: dict[str, set[str]] = {"": {"name", "title", "sources", "assumed", "measured_oil"}, "fv": {"velocity_unit", "force_unit"}}
+    for item in fields(Parameters):
+        group, name = item.metadata["group"], item.name
+        if item.metadata["size"] > 1:
+            continue
+        known.setdefault(group, set()).add(name)
+        table = content.get(group, {}) if group else content
+        if name in table:
+            try:
+                values[name] = quantity(table[name], item.metadata["unit"])
+                if item.metadata["integer"]:
+                    values[name] = int(values[name])
+            except ValueError as error:
+                found.append(f"{line_of(text, group, name)}{fmi_name(item)}: {error}")
+        elif item.metadata["default"] is not None:
+            values[name] = item.metadata["default"]
+        else:
+            found.append(f"{fmi_name(item)} is missing")
+    known["fv"] |= set(BRANCHES)
+    found += unknown_keys(content, text, known)
+    measured: list[float] = []
+    try:
+        measured = [quantity(volume, "m3") for volume in content.get("measured_oil", [])]
+    except ValueError as error:
+        found.append(f"{line_of(text, '', 'measured_oil')}measured_oil: {error}")
+    found += read_curve(content.get("fv", {}), values)
+    refuse(file, found)
+    p = Parameters(**values)
+    refuse(file, [located(text, message) for message in problems(p)])
+    return Damper(
+        name=str(content.get("name", Path(file).stem)),
+        title=str(content.get("title", "")),
+        parameters=p,
+        sources=content.get("sources", {}),
+        assumed=content.get("assumed", {}),
+        measured_levels=tuple(volume / p.V_oil for volume in measured),
+    )
+
+
+def quantity(value: Any, unit: str) -> float:
+    """SI value of `"29.8 mm"` or of a plain SI number; raises ValueError."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise ValueError(f"{value!r} is no number and no quantity like '29.8 mm'")
+    if isinstance(value, (int, float)):
+        return float(value)
+    try:
+        return float(registry().Quantity(value).to(PINT_UNITS.get(unit, unit)).magnitude)
+    except (pint.PintError, TypeError, AttributeError, AssertionError) as error:
+        raise ValueError(f"{value!r} is no quantity in {unit} ({error})") from error
+
+
+@cache
+def registry() -> Any:
+    """pint's units, made once because it takes a while."""
+    return pint.UnitRegistry()
+
+
+def read_curve(table: dict[str, Any], values: dict[str, Any]) -> list[str]:
+    """Put the F-v curve into `values`; messages about what is wrong with it."""
+    found: list[str] = []
+    for branch, (v_name, F_name) in BRANCHES.items():
+        rows = table.get(branch)
+        if rows is None:
+            found.append(f"fv.{branch} is missing")
+            continue
+        if not isinstance(rows, list) or not all(
+            isinstance(row, list) and len(row) == 2 and all(type(x) in (int, float) for x in row) for row in rows
+        ):
+            found.append(f"fv.{branch}: must be a list of [velocity, force] pairs of numbers")
+            continue
+        if not 2 <= len(rows) <= FV_POINTS:
+            found.append(f"fv.{branch}: {len(rows)} points, must be from 2 to {FV_POINTS}")
+            continue
+        try:
+            v_unit = quantity("1 " + table.get("velocity_unit", "m/s"), "m/s")
+            F_unit = quantity("1 " + table.get("force_unit", "N"), "N")
+        except (ValueError, TypeError) as error:
+            found.append(f"fv: {error}")
+            continue
+        points = continued([(v * v_unit, F * F_unit) for v, F in rows])
+        values[v_name] = [v for v, _ in points]
+        values[F_name] = [F for _, F in points]
+    return found
+
+
+def continued(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The points of a branch, filled up to FV_POINTS along its last segment: the same curve."""
+    points = list(points)
+    step = (points[-1][0] - points[-2][0], points[-1][1] - points[-2][1])
+    while len(points) < FV_POINTS:
+        points.append((points[-1][0] + step[0], points[-1][1] + step[1]))
+    return points
+
+
+def unknown_keys(content: dict[str, Any], text: str, known: dict[str, set[str]]) -> list[str]:
+    """Messages about tables and keys that no parameter has."""
+    found = []
+    for key, value in content.items():
+        if isinstance(value, dict) and key in known:
+            for name in value:
+                if name not in known[key]:
+                    found.append(f"{line_of(text, key, name)}unknown {key}.{name}{suggestion(name, known[key])}")
+        elif key not in known[""]:
+            found.append(f"{line_of(text, '', key)}unknown {key}{suggestion(key, known[''] | set(known))}")
+    return found
+
+
+def suggestion(name: str, known: Any) -> str:
+    """`, did you mean ...?` where a known name is close."""
+    close = difflib.get_close_matches(name, known, n=1)
+    return f", did you mean {close[0]}?" if close else ""
+
+
+def line_of(text: str, group: str, name: str) -> str:
+    """`line 12: ` where the key stands in a TOML text, or an empty string."""
+    current = ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        header = re.match(r"\s*\[([^\[\]]+)\]", line)
+        if header:
+            current = header.group(1).strip()
+        elif current == group and re.match(rf"\s*\"?{re.escape(name)}\"?\s*=", line):
+            return f"line {number}: "
+    return ""
+
+
+def located(text: str, message: str) -> str:
+    """The message with the line of the parameter it starts with."""
+    group, _, name = message.split(" ", 1)[0].rstrip(":").rpartition(".")
+    return line_of(text, group, name) + message
+
+
+def refuse(where: str, found: list[str]) -> None:
+    """Raise ParameterError with all messages, if there are any."""
+    if found:
+        raise ParameterError(f"{where}: " + "; ".join(found))
+
+
+def to_toml(damper: Damper) -> str:
+    """The TOML text of a damper, in SI units, with all points of the F-v curve."""
+    document = tomlkit.document()
+    document["name"] = damper.name
+    document["title"] = damper.title
+    if damper.measured_levels:
+        document["measured_oil"] = [level * damper.parameters.V_oil for level in damper.measured_levels]
+    p = damper.parameters
+    for item in fields(Parameters):
+        group = item.metadata["group"]
+        if item.metadata["size"] > 1:
+            continue
+        if group and group not in document:
+            document[group] = tomlkit.table()
+        table: Any = document[group] if group else document
+        table[item.name] = getattr(p, item.name)
+        if item.metadata["unit"] != "1":
+            table[item.name].comment(item.metadata["unit"])
+    curve = tomlkit.table()
+    for branch, (v_name, F_name) in BRANCHES.items():
+        rows = tomlkit.array()
+        rows.extend([list(pair) for pair in zip(getattr(p, v_name), getattr(p, F_name), strict=True)])
+        curve[branch] = rows.multiline(True)
+    document["fv"] = curve
+    document["sources"] = dict(damper.sources)
+    document["assumed"] = dict(damper.assumed)
+    return tomlkit.dumps(document)

@@ -1,0 +1,89 @@
+"""The kernel driven over records: stroke and velocity in, forces and volumes out."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from twintube import compiled, drivers, kernel
+from twintube.checks import bad_input, problems, stroke_limit
+from twintube.parameters import Damper, refuse
+from twintube.variables import Derived, Flow, State, blank
+
+Array = NDArray[np.float64]
+
+
+class InputError(ValueError):
+    """A record that cannot be simulated; the message names the quantity, the sample, the value and the range."""
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What `simulate` returns; all arrays (n,), SI units, row i belongs to sample i of the record."""
+
+    stroke: Array
+    velocity: Array
+    columns: dict[str, Array]  # the names of drivers.COLUMNS, and V3_gas
+
+    def __getattr__(self, name: str) -> Array:
+        if name == "columns" or name not in self.columns:
+            raise AttributeError(f"no column {name}")
+        return self.columns[name]
+
+
+def checked(stroke: ArrayLike, velocity: ArrayLike, limit: float) -> tuple[Array, Array]:
+    """Stroke [m] and velocity [m/s] as arrays (n,); raises InputError at the first sample that is no good."""
+    z = np.ascontiguousarray(stroke, dtype=float)
+    v = np.ascontiguousarray(velocity, dtype=float)
+    if z.ndim != 1 or z.shape != v.shape or z.size == 0:
+        raise InputError(f"stroke {z.shape} and velocity {v.shape} must be arrays of one length above 0")
+    for i in np.flatnonzero(~(np.abs(z) <= limit) | ~(np.abs(v) <= 20.0))[:1]:
+        raise InputError(f"sample {i}: " + bad_input(float(z[i]), float(v[i]), limit))
+    return z, v
+
+
+def simulate(damper: Damper, stroke: ArrayLike, velocity: ArrayLike, *, interpreted: bool = False) -> Simulation:
+    """Simulate a record from rest at its first sample.
+
+    Args:
+        damper: parameters and condition (oil level, gas preload).
+        stroke: (n,) [m], positive in rebound, 0 in the middle position.
+        velocity: (n,) [m/s], positive in rebound; between two samples it changes evenly.
+        interpreted: run the kernel in plain Python instead of numba; the result is the same to the last bit.
+
+    Raises:
+        InputError: a sample is not finite, or the piston would leave the tube.
+        ParameterError: the parameters are not admissible.
+    """
+    p = damper.parameters
+    refuse(damper.name, problems(p))
+    d, s, f = blank(Derived), blank(State), blank(Flow)
+    kernel.prepare(p, d)
+    z, v = checked(stroke, velocity, stroke_limit(d))
+    kernel.fill(p, d, s, float(z[0]))
+    out = np.empty((len(z), len(drivers.COLUMNS)))
+    if interpreted:
+        done = drivers.run_record(p, d, s, f, z.tolist(), v.tolist(), out)
+    else:
+        P, D, S, F = (compiled.as_row(record)[0] for record in (p, d, s, f))
+        done = compiled.module().run_record(P, D, S, F, z, v, out)
+    if done < len(z):
+        raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
+    columns = {name: out[:, i] for i, name in enumerate(drivers.COLUMNS)}
+    columns["V3_gas"] = d.V_reserve - columns["V3_oil"] - columns["V3_foam"]
+    return Simulation(z, v, columns)
+
+
+def work_between(damper: Damper, stroke: Array, velocity: Array, marks: NDArray[np.int64]) -> Array:
+    """Work [J] dissipated between the samples `marks` (m,), shape (m-1,); as `simulate`, without the other outputs."""
+    d, s, f = blank(Derived), blank(State), blank(Flow)
+    kernel.prepare(damper.parameters, d)
+    z, v = checked(stroke, velocity, stroke_limit(d))
+    kernel.fill(damper.parameters, d, s, float(z[0]))
+    P, D, S, F = (compiled.as_row(record)[0] for record in (damper.parameters, d, s, f))
+    out = np.empty(len(marks))
+    done: Any = compiled.module().run_work(P, D, S, F, z, v, marks, out)
+    if done < len(z):
+        raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
+    return np.diff(out)

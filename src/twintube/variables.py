@@ -1,0 +1,254 @@
+"""The one table of variables: every name, symbol, unit, bound and source of the model.
+
+Four records hold all numbers of a damper: `Parameters` (given), `Derived` (follows from them), `State` (changes
+with time) and `Outputs`. The metadata of their fields is the only place where a variable is described; the FMI
+description, the bounds of an optimiser, the documentation and the checks on reading are made from it.
+
+Standard library only: this file travels inside the Python FMU. All values are SI.
+"""
+
+from dataclasses import Field, dataclass, field, fields
+from typing import Any
+
+# Points of each branch of the F-v curve; a shorter measured table is continued along its last segment.
+FV_POINTS = 20
+
+
+def var(
+    group: str,
+    symbol: str,
+    unit: str,
+    description: str,
+    *,
+    lower: float | None = None,
+    upper: float | None = None,
+    source: str = "",
+    tunable: bool = False,
+    integer: bool = False,
+    size: int = 1,
+    default: float | None = None,
+) -> Any:
+    """A record's field with its description; `unit` is an FMI base-unit expression, "1" where there is none."""
+    metadata = {
+        "group": group,
+        "symbol": symbol,
+        "unit": unit,
+        "description": description,
+        "lower": lower,
+        "upper": upper,
+        "source": source,
+        "tunable": tunable,
+        "integer": integer,
+        "size": size,
+        "default": default,
+    }
+    return field(metadata=metadata)
+
+
+def fmi_name(item: Field[Any]) -> str:
+    """The structured name of a field, as in the FMU: `geometry.D_li`, `V1.oil`, or `oil_level` where it has no group."""
+    group: str = item.metadata["group"]
+    if "." in group:
+        return group
+    return f"{group}.{item.name}" if group else item.name
+
+
+@dataclass(slots=True)
+class Parameters:
+    """Everything that is given about a damper and its condition."""
+
+    oil_level: float = var("", "", "1", "oil in the damper, share of the intact oil volume", lower=0, upper=1,
+                           source="Table 2", default=1.0)
+    gas_preload: int = var("", "", "1", "gas preload: 1 present, 0 lost", lower=0, upper=1, integer=True,
+                           source="Section 2", default=1)
+
+    D_a: float = var("geometry", "D_a", "m", "diameter of the outer tube", lower=0.02, upper=0.2, source="Table 5")
+    D_PR: float = var("geometry", "D_PR", "m", "diameter of the piston rod", lower=0.004, upper=0.08, source="Table 5")
+    D_li: float = var("geometry", "D_li", "m", "inner diameter of the inner tube", lower=0.01, upper=0.15,
+                      source="Table 5")
+    D_la: float = var("geometry", "D_la", "m", "outer diameter of the inner tube", lower=0.01, upper=0.16,
+                      source="Table 5")
+    h_l: float = var("geometry", "h_l", "m", "length of the inner tube", lower=0.05, upper=1.0, source="Table 5")
+    dead_length: float = var("geometry", "h_dead", "m", "tube length taken by piston, stops and foot valve",
+                             lower=0.0, upper=0.3, source="unpublished")
+    V_oil: float = var("geometry", "V_oil", "m3", "oil volume of the intact damper", lower=1e-5, upper=5e-3,
+                       source="Table 2")
+    stroke_max: float = var("geometry", "z_max", "m", "maximum stroke to each side of the middle position", lower=0.001,
+                            upper=0.4, source="unpublished")
+
+    v_re: list[float] = var("fv", "v", "m/s", "F-v curve, rebound: velocities", lower=0, size=FV_POINTS,
+                            source="Figure 3, unpublished")
+    F_re: list[float] = var("fv", "d", "N", "F-v curve, rebound: forces", lower=0, size=FV_POINTS,
+                            source="Figure 3, unpublished")
+    v_co: list[float] = var("fv", "v", "m/s", "F-v curve, compression: velocities (magnitude)", lower=0,
+                            size=FV_POINTS, source="Figure 3, unpublished")
+    F_co: list[float] = var("fv", "d", "N", "F-v curve, compression: forces (magnitude)", lower=0, size=FV_POINTS,
+                            source="Figure 3, unpublished")
+
+    F_FrS: float = var("friction", "F_FrS", "N", "saturated quasi-static friction force", lower=0, upper=2000,
+                       source="equation 2, unpublished", tunable=True)
+    sigma_0: float = var("friction", "sigma_0", "N/m", "slope of the friction hysteresis at reversal", lower=1.0,
+                         upper=1e8, source="equation 2, unpublished", tunable=True)
+    delta_D: float = var("friction", "delta_D", "1", "exponent of the friction gradient", lower=0.1, upper=5,
+                         source="equation 2, unpublished", tunable=True)
+    k_high: float = var("friction", "k_FrS", "1", "Stribeck scaling of the friction at high velocity", lower=0, upper=5,
+                        source="Figure 12, unpublished", tunable=True)
+    v_S: float = var("friction", "v_S", "m/s", "velocity over which the Stribeck scaling settles", lower=1e-4, upper=2,
+                     source="Figure 12, unpublished", tunable=True)
+    oil_loss_gain: float = var("friction", "", "1", "relative rise of the friction at full oil loss", lower=0, upper=5,
+                               source="Section 3.2, unpublished", tunable=True)
+
+    F_0: float = var("gas_spring", "F_0", "N", "gas force at stroke 0 with preload (pushes the rod out)", lower=0,
+                     upper=5000, source="Figure 7, unpublished", tunable=True)
+    c_gas: float = var("gas_spring", "c_gas", "N/m", "gas spring stiffness with preload", lower=0, upper=1e5,
+                       source="Figure 7, unpublished", tunable=True)
+    c_gas_lost: float = var("gas_spring", "c_gas", "N/m", "gas spring stiffness after the loss of the preload", lower=0,
+                            upper=1e5, source="Figure 7, unpublished", tunable=True)
+
+    X_Re: float = var("degradation", "X_Re", "1", "oil share of the mixed flow through the piston valve in rebound",
+                      lower=0, upper=1, source="Table 9, equation 22", tunable=True)
+    L_PV: float = var("degradation", "L_PV", "1", "leakage: oil through the piston valve that makes no force", lower=0,
+                      upper=1, source="Table 9, equation 22", tunable=True)
+    G_PV: float = var("degradation", "G_PV", "1", "share of the compression force made by surplus piston valve flow",
+                      lower=0, upper=1, source="Table 9, equation 29", tunable=True)
+    X_Co1: float = var("degradation", "X_Co1", "1", "bottom valve flow in compression while V2 holds oil and gas",
+                       lower=0, upper=1, source="Table 9, equation 27", tunable=True)
+    X_Co2: float = var("degradation", "X_Co2", "1", "bottom valve flow in compression while V2 is full and V1 is not",
+                       lower=0, upper=1, source="Table 9, equation 28", tunable=True)
+
+    S_BV: float = var("foam", "S_BV", "1", "share of the bottom valve's gas flow that foams in rebound", lower=0, upper=1,
+                      source="Table 9, equation 30", tunable=True)
+    S_BVoil: float = var("foam", "S_BVoil", "1", "oil per gas in the foam made at the bottom valve", lower=0, upper=1,
+                         source="Table 9, equation 34", tunable=True)
+    S_PV: float = var("foam", "S_PV", "1", "share of the piston valve's gas flow that foams in compression", lower=0,
+                      upper=1, source="Table 9, equation 30", tunable=True)
+    S_PVoil: float = var("foam", "S_PVoil", "1", "oil per gas in the foam made at the piston valve", lower=0, upper=1,
+                         source="Table 9, equation 34", tunable=True)
+    B: float = var("foam", "B", "1", "foam acts like oil (1) or like gas (0)", lower=0, upper=1,
+                   source="Table 9, equation 36", tunable=True)
+    E: float = var("foam", "E", "1", "exponent of the foam's oil share in its force", lower=0, upper=100,
+                   source="Table 9, equation 36", tunable=True)
+    v_foam: float = var("foam", "v_foam", "m/s", "velocity above which gas through oil foams", lower=0, upper=10,
+                        source="Section 3.2", tunable=True, default=0.05)
+
+    v_cav: float = var("cavitation", "v_cav", "m/s", "velocity above which the piston valve cavitates", lower=0, upper=10,
+                       source="Table 9, equation 40", tunable=True)
+    Y_Co_cav: float = var("cavitation", "Y_Co", "1", "share of the piston valve's oil that becomes gas in compression",
+                          lower=0, upper=1, source="Table 9, equation 40", tunable=True)
+    Y_Re_cav: float = var("cavitation", "Y_Re", "1", "share of the piston valve's oil that becomes gas in rebound",
+                          lower=0, upper=1, source="Table 9, equation 40", tunable=True)
+
+    leak_carries_oil: int = var("reading", "", "1", "1: the leak L_PV adds oil to the mixed flow (reading B)", lower=0,
+                                upper=1, integer=True, source="open choice 1", default=0)
+    foam_leaves_with_gas: int = var("reading", "", "1", "1: beside gas, foam leaves a chamber before oil; 0: oil first",
+                                    lower=0, upper=1, integer=True, source="open choice 4", default=1)
+    foam_decays: int = var("reading", "", "1", "1: foam leaving V1 beside oil separates into oil and gas", lower=0,
+                           upper=1, integer=True, source="open choice 5", default=1)
+    cavitation_foams: int = var("reading", "", "1", "1: gas freed by cavitation foams as S_PV says", lower=0, upper=1,
+                                integer=True, source="equation 40 beside 30", default=0)
+    cavitation_needs: int = var("reading", "", "1", "cavitation needs 2: oil and preload lost, 1: preload lost, 0: nothing",
+                                lower=0, upper=2, integer=True, source="open choice 3", default=2)
+
+
+@dataclass(slots=True)
+class Inputs:
+    """What the surroundings set before each step."""
+
+    stroke: float = var("", "z", "m", "stroke, positive in rebound (rod out), 0 in the middle", lower=-0.5, upper=0.5,
+                        default=0.0)
+    velocity: float = var("", "z_dot", "m/s", "velocity, positive in rebound", lower=-20, upper=20, default=0.0)
+
+
+@dataclass(slots=True)
+class Outputs:
+    """What the surroundings read. Force is positive where the damper is pulled in rebound."""
+
+    force: float = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1")
+    k_degr: float = var("", "k_degr", "1", "degradation factor: fluid force relative to the intact damper", lower=0,
+                        upper=1, source="equations 23-39")
+    V1_oil: float = var("V1.oil", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5")
+    V1_gas: float = var("V1.gas", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5")
+    V1_foam: float = var("V1.foam", "V_1foam", "m3", "foam in the rebound chamber", lower=0, source="equation 5")
+    V2_oil: float = var("V2.oil", "V_2oil", "m3", "oil in the compression chamber", lower=0, source="equation 5")
+    V2_gas: float = var("V2.gas", "V_2gas", "m3", "gas in the compression chamber", lower=0, source="equation 5")
+    V2_foam: float = var("V2.foam", "V_2foam", "m3", "foam in the compression chamber", lower=0, source="equation 5")
+    V3_oil: float = var("V3.oil", "V_3oil", "m3", "oil in the reserve chamber", lower=0, source="equation 5")
+    V3_gas: float = var("V3.gas", "V_3gas", "m3", "gas in the reserve chamber", lower=0, source="the rest of its volume")
+    V3_foam: float = var("V3.foam", "V_3foam", "m3", "foam in the reserve chamber", lower=0, source="equation 5")
+    force_fluid: float = var("", "F_Fl k_degr", "N", "fluid force, degraded", source="equation 1")
+    force_friction: float = var("", "F_Fr", "N", "friction force", source="equation 2")
+    force_gas: float = var("", "F_S", "N", "gas force", source="equation 1")
+    work: float = var("", "W", "J", "work dissipated since the start, by fluid and friction", source="Section 3.1")
+
+
+@dataclass(slots=True)
+class Derived:
+    """What follows from the parameters alone; `kernel.prepare` fills it."""
+
+    A_1: float = var("derived", "A_1", "m2", "piston area towards the rebound chamber", source="equation 3", default=0.0)
+    A_2: float = var("derived", "A_2", "m2", "piston area towards the compression chamber", source="equation 3", default=0.0)
+    A_rod: float = var("derived", "A_rod", "m2", "cross-section of the piston rod", default=0.0)
+    half_length: float = var("derived", "", "m", "free length of each working chamber at stroke 0", default=0.0)
+    V_reserve: float = var("derived", "", "m3", "volume between the tubes", default=0.0)
+    F_FrS: float = var("derived", "F_FrS", "N", "saturated friction force in this condition", default=0.0)
+    F_0: float = var("derived", "F_0", "N", "gas force at stroke 0 in this condition", default=0.0)
+    c_gas: float = var("derived", "c_gas", "N/m", "gas spring stiffness in this condition", default=0.0)
+    W_kPV: float = var("derived", "W_kPV", "1", "oil share of the mixed rebound flow", source="equation 22", default=0.0)
+    W_kBV_1: float = var("derived", "W_kBV", "1", "bottom valve flow, V2 with gas", source="equation 27", default=0.0)
+    W_kBV_2: float = var("derived", "W_kBV", "1", "bottom valve flow, V2 full", source="equation 28", default=0.0)
+    k_Co2: float = var("derived", "k_degr", "1", "k_degr in compression, V2 full, V1 not", source="equation 29", default=0.0)
+    Y_Co: float = var("derived", "Y_Co", "1", "cavitation share in compression in this condition", default=0.0)
+    Y_Re: float = var("derived", "Y_Re", "1", "cavitation share in rebound in this condition", default=0.0)
+
+
+@dataclass(slots=True)
+class State:
+    """What the damper remembers. Foam is kept as its volume and the oil in it: mixing (equation 35) is then a sum."""
+
+    z: float = var("state", "z", "m", "stroke, positive in rebound", default=0.0)
+    V1_oil: float = var("V1", "V_1oil", "m3", "oil in the rebound chamber", default=0.0)
+    V1_gas: float = var("V1", "V_1gas", "m3", "gas in the rebound chamber", default=0.0)
+    V1_foam: float = var("V1", "V_1foam", "m3", "foam in the rebound chamber", default=0.0)
+    V1_foam_oil: float = var("V1", "", "m3", "oil held by the foam of the rebound chamber", default=0.0)
+    V2_oil: float = var("V2", "V_2oil", "m3", "oil in the compression chamber", default=0.0)
+    V2_gas: float = var("V2", "V_2gas", "m3", "gas in the compression chamber", default=0.0)
+    V2_foam: float = var("V2", "V_2foam", "m3", "foam in the compression chamber", default=0.0)
+    V2_foam_oil: float = var("V2", "", "m3", "oil held by the foam of the compression chamber", default=0.0)
+    V3_oil: float = var("V3", "V_3oil", "m3", "oil in the reserve chamber", default=0.0)
+    V3_foam: float = var("V3", "V_3foam", "m3", "foam in the reserve chamber", default=0.0)
+    V3_foam_oil: float = var("V3", "", "m3", "oil held by the foam of the reserve chamber", default=0.0)
+    V_cav: float = var("state", "", "m3", "oil lost to gas by cavitation so far", default=0.0)
+    F_D: float = var("state", "F_D", "N", "Dahl friction state", default=0.0)
+    k_degr: float = var("state", "k_degr", "1", "degradation factor", default=1.0)
+    F_fluid: float = var("state", "F_Fl", "N", "fluid force, degraded", default=0.0)
+    F_friction: float = var("state", "F_Fr", "N", "friction force", default=0.0)
+    F_gas: float = var("state", "F_S", "N", "gas force", default=0.0)
+    work: float = var("state", "W", "J", "dissipated work", default=0.0)
+
+
+@dataclass(slots=True)
+class Flow:
+    """Change of every phase per metre of stroke [m2] while the phases present stay the same; scratch of one step."""
+
+    V1_oil: float = var("flow", "", "m2", "oil of V1", default=0.0)
+    V1_gas: float = var("flow", "", "m2", "gas of V1", default=0.0)
+    V1_foam: float = var("flow", "", "m2", "foam of V1", default=0.0)
+    V1_foam_oil: float = var("flow", "", "m2", "oil in the foam of V1", default=0.0)
+    V2_oil: float = var("flow", "", "m2", "oil of V2", default=0.0)
+    V2_gas: float = var("flow", "", "m2", "gas of V2", default=0.0)
+    V2_foam: float = var("flow", "", "m2", "foam of V2", default=0.0)
+    V2_foam_oil: float = var("flow", "", "m2", "oil in the foam of V2", default=0.0)
+    V3_oil: float = var("flow", "", "m2", "oil of V3", default=0.0)
+    V3_foam: float = var("flow", "", "m2", "foam of V3", default=0.0)
+    V3_foam_oil: float = var("flow", "", "m2", "oil in the foam of V3", default=0.0)
+    cavitated: float = var("flow", "", "m2", "oil that becomes gas", default=0.0)
+    k_degr: float = var("flow", "k_degr", "1", "degradation factor", default=1.0)
+
+
+def blank(record: type) -> Any:
+    """A record with every field at its default; raises TypeError where a field has none."""
+    values = {item.name: item.metadata["default"] for item in fields(record)}
+    missing = [name for name, value in values.items() if value is None]
+    if missing:
+        raise TypeError(f"{record.__name__} has no default for {', '.join(missing)}")
+    return record(**values)
