@@ -1,0 +1,61 @@
+"""The documentation page inside the FMU, made from the table of variables and the parameter set."""
+
+from dataclasses import fields
+from html import escape
+
+from twintube import __version__
+from twintube.parameters import Damper
+from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+
+STYLE = (
+    "body{font-family:sans-serif;max-width:60em;margin:2em auto;color:#222}table{border-collapse:collapse}"
+    "td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}.assumed{color:#a40}"
+)
+MEANING = """
+<p>Inputs are the values at the start of a communication step: the damper moves from its own stroke to
+<em>stroke + velocity &middot; step</em>, and the velocity holds within the step. Give the mean velocity of the coming step
+where you know it. Outputs are those at the end of the step and change in doStep only. The error shrinks in proportion
+to the communication step; 1 ms is usual.</p>
+<p>A degraded damper must be preconditioned before its force means anything: the paper moves it six times at
+0.05 m/s. The model holds still at rest, however long.</p>
+<p>A refused step (stroke beyond the tube, NaN, negative step, parameter out of its range) is answered by
+<em>fmi2Discard</em>, a log message of status Error that names the quantity, its value and the allowed range, and the state as
+before.</p>
+<p>This FMU carries its equations as Python source and runs them in the Python 3.11 or newer of the host computer; it
+needs no package, only that Python's shared library is found.</p>
+"""
+
+
+def origin(damper: Damper, name: str, group: str) -> str:
+    """Where a parameter's value comes from, as HTML."""
+    for key in (name, group):
+        if key in damper.assumed:
+            return f'<span class="assumed">assumed: {escape(damper.assumed[key])}</span>'
+    for key in (name, group):
+        if key in damper.sources:
+            return escape(damper.sources[key])
+    return ""
+
+
+def page(damper: Damper) -> str:
+    """One self-contained HTML page."""
+    rows = []
+    for record, causality in ((Inputs, "input"), (Outputs, "output"), (Parameters, "parameter")):
+        for item in fields(record):
+            meta, name = item.metadata, fmi_name(item)
+            value = getattr(damper.parameters, item.name) if record is Parameters else ""
+            text = f"{len(value)} values" if isinstance(value, list) else f"{value:g}" if value != "" else ""
+            limits = ", ".join(
+                f"{word} {bound:g}" for word, bound in (("from", meta["lower"]), ("to", meta["upper"])) if bound is not None
+            )
+            cells = (name, meta["symbol"], causality, meta["unit"], text, limits, meta["description"], meta["source"])
+            came = origin(damper, name, meta["group"]) if record is Parameters else ""
+            rows.append("<tr>" + "".join(f"<td>{escape(c)}</td>" for c in cells) + f"<td>{came}</td></tr>")
+    heads = ("name", "symbol", "causality", "unit", "value", "range", "meaning", "source", "origin of the value")
+    return (
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>twintube {escape(damper.name)}</title>'
+        f"<style>{STYLE}</style><h1>twintube: {escape(damper.name)}</h1><p>{escape(damper.title)}. Semi-physical model of "
+        "a twin-tube shock absorber after oil and gas loss, after Schramm, Zwosta, Prokop, Vehicles 2025, 7(1), 26, "
+        f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}<table><tr>"
+        + "".join(f"<th>{h}</th>" for h in heads) + "</tr>" + "\n".join(rows) + "</table></html>"
+    )
