@@ -82,7 +82,7 @@ def run_drive(p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, dt: f
     earlier = force
     for i in range(len(road)):
         stroke = m.z_body - m.z_wheel
-        rate = (road[i] - road[i - 1]) / dt if i > 0 else 0.0
+        rate = 0.5 * (road[i + 1] - road[i - 1]) / dt if 0 < i < len(road) - 1 else 0.0
         load = kick(car, m, road[i], rate, 1.5 * force - 0.5 * earlier, dt)
         velocity = m.v_body - m.v_wheel
         row = out[i]

@@ -34,11 +34,13 @@ class Motion:
     z_wheel: float = var("motion", "z_w", "m", "height of the wheel", default=0.0)
     v_body: float = var("motion", "v_b", "m/s", "vertical velocity of the body", default=0.0)
     v_wheel: float = var("motion", "v_w", "m/s", "vertical velocity of the wheel", default=0.0)
+    dv_body: float = var("motion", "", "m/s", "last change of the body's velocity", default=0.0)
+    dv_wheel: float = var("motion", "", "m/s", "last change of the wheel's velocity", default=0.0)
 
 
 # Assumed: a corner of a car of the Passat B8 class with two persons (about 1650 kg, 55 % front); body near 1.3 Hz, wheel
-# near 12 Hz. Dampers act at the wheel, ratio 1.
-PASSAT = {"c_tyre": 230e3, "d_tyre": 200.0, "d_links": 300.0, "travel": 0.055, "c_stop": 1e9, "d_stop": 1.0}
+# near 12 Hz. Dampers act at the wheel, ratio 1. Without a damper, bushings and links leave a damping ratio of 0.08.
+PASSAT = {"c_tyre": 230e3, "d_tyre": 200.0, "d_links": 450.0, "travel": 0.055, "c_stop": 1e9, "d_stop": 1.0}
 PASSAT_FRONT = PASSAT | {"m_body": 405.0, "m_wheel": 46.0, "c_body": 26e3}
 PASSAT_REAR = PASSAT | {"m_body": 330.0, "m_wheel": 42.0, "c_body": 23e3}
 
@@ -60,18 +62,23 @@ def kick(car: Car, m: Motion, road: float, road_velocity: float, force: float, d
 
     The wheel load is never negative: the tyre does not pull on the road (`road` [m], rising at `road_velocity` [m/s]).
     """
+    # Velocities of this moment: half a step on from the stored ones.
+    v_body = m.v_body + 0.5 * m.dv_body
+    v_wheel = m.v_wheel + 0.5 * m.dv_wheel
     weight = (car.m_body + car.m_wheel) * GRAVITY
     load = weight + car.c_tyre * (road - m.z_wheel)
     if load > 0.0:
-        load += car.d_tyre * (road_velocity - m.v_wheel)
+        load += car.d_tyre * (road_velocity - v_wheel)
     if load < 0.0:
         load = 0.0
     stroke = m.z_body - m.z_wheel
-    velocity = m.v_body - m.v_wheel
+    velocity = v_body - v_wheel
     pull = car.c_body * stroke + car.d_links * velocity + force - car.F_rest
     pull += stop_force(car, stroke - car.travel, velocity) - stop_force(car, -stroke - car.travel, -velocity)
-    m.v_body -= dt * pull / car.m_body
-    m.v_wheel += dt * (pull + load - weight) / car.m_wheel
+    m.dv_body = -dt * pull / car.m_body
+    m.dv_wheel = dt * (pull + load - weight) / car.m_wheel
+    m.v_body += m.dv_body
+    m.v_wheel += m.dv_wheel
     m.z_body += dt * m.v_body
     m.z_wheel += dt * m.v_wheel
     return load

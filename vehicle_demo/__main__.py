@@ -1,0 +1,135 @@
+"""The main job: damper -> FMU -> fmpy -> quarter car on a class D road -> wheel-load fluctuation over oil loss."""
+
+import json
+import tempfile
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from tqdm import tqdm
+
+import build_fmu
+from twintube import road
+from twintube.parameters import Damper, ParameterError, load
+from twintube.quarter_car import PASSAT_FRONT, PASSAT_REAR, Car, static_load
+from vehicle_demo.damper_fmu import FmuError
+from vehicle_demo.measures import measures
+from vehicle_demo.ride import Case, Ride, heights, ride
+
+SPEEDS = (30.0, 50.0)  # [km/h]
+LEVELS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
+
+
+def cases() -> list[Case]:
+    """Intact, all oil levels without preload, and the scalar-factor damper of variant 1, at both speeds."""
+    found = []
+    for speed in SPEEDS:
+        found.append(Case(speed, 1.0, 1))
+        found += [Case(speed, level, 0) for level in LEVELS]
+        found += [Case(speed, level, 0, scalar=True) for level in LEVELS]
+    return found
+
+
+def corner(damper: Damper) -> Car:
+    """The corner of the car that the damper sits in; its spring is set for the intact damper."""
+    values = PASSAT_FRONT if "front" in damper.title else PASSAT_REAR
+    return Car(**values, F_rest=-damper.parameters.F_0)
+
+
+def run(fmu: Path, car: Car, case: Case, seconds: float, dt: float, seed: int) -> Ride:
+    """One case, in a process of its own."""
+    return ride(fmu, car, case, heights(case, seconds, dt, seed), dt)
+
+
+def run_all(fmu: Path, car: Car, seconds: float, dt: float, seed: int) -> list[Ride]:
+    """All cases on all cores, in the order of `cases`."""
+    todo = cases()
+    with ProcessPoolExecutor() as pool:
+        futures = {pool.submit(run, fmu, car, case, seconds, dt, seed): i for i, case in enumerate(todo)}
+        done = {}
+        for future in tqdm(as_completed(futures), total=len(todo), unit="ride", desc="quarter car"):
+            done[futures[future]] = future.result()
+    return [done[i] for i in range(len(todo))]
+
+
+def summary(damper: Damper, car: Car, rides: list[Ride], seconds: float, dt: float, seed: int) -> dict[str, Any]:
+    """Everything that the pictures show, as numbers."""
+    static = static_load(car)
+    profile = road.generate(seconds * max(SPEEDS) / 3.6, seed=seed)
+    centres, density = road.measured_density(profile.height)
+    speeds = []
+    for speed in SPEEDS:
+        of_speed = [r for r in rides if r.case.speed_kmh == speed]
+        full = [measures(r, static) for r in of_speed if not r.case.scalar]
+        scalar = {r.case.oil_level: measures(r, static) for r in of_speed if r.case.scalar}
+        for entry in full[1:]:
+            other = scalar[entry["oil_level"]]
+            entry["scalar_factor"] = {k: other[k] for k in ("dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share")}
+        speeds.append({"speed_kmh": speed, "intact": full[0], "oil_levels": full[1:]})
+    return {
+        "damper": damper.name,
+        "assumed": dict(damper.assumed) | {"vehicle": "a corner of a car of the Passat B8 class, see twintube.quarter_car"},
+        "road": {
+            "class": "D",
+            "seed": seed,
+            "length_without_repetition_m": profile.length,
+            "gd_n0_m3": road.measured_gd_n0(profile.height),
+            "density_m3_by_octave": dict(zip(map(float, centres), map(float, density), strict=True)),
+        },
+        "step_s": dt,
+        "seconds": seconds,
+        "static_wheel_load_N": static,
+        "speeds": speeds,
+    }
+
+
+def table(result: dict[str, Any]) -> str:
+    """The figures for the terminal."""
+    lines = [f"{'km/h':>5} {'oil':>7} {'DLC':>6} {'scalar':>7} {'RMS N':>6} {'min N':>6} {'no contact':>10} {'damper J':>9}"]
+    for block in result["speeds"]:
+        for entry in [block["intact"], *block["oil_levels"]]:
+            name = "intact" if entry["gas_preload"] else f"{entry['oil_level']:.0%}"
+            scalar = f"{entry['scalar_factor']['dlc']:.3f}" if "scalar_factor" in entry else ""
+            lines.append(
+                f"{block['speed_kmh']:5.0f} {name:>7} {entry['dlc']:6.3f} {scalar:>7} {entry['wheel_load_rms_N']:6.0f} "
+                f"{entry['min_wheel_load_N']:6.0f} {entry['contact_loss_share']:10.2%} {entry['damping_work_J']:9.0f}"
+            )
+    return "\n".join(lines)
+
+
+app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+@app.command(epilog="Example: python -m vehicle_demo --damper SA7 --output results/front")
+def main(
+    output: Annotated[Path, typer.Option(help="Folder for summary.json and the pictures.")] = Path("results/vehicle_demo"),
+    damper: Annotated[str, typer.Option(help="A named damper or a parameter file.")] = "SA8",
+    seconds: Annotated[float, typer.Option(help="Length of each ride [s].", min=10.0, max=3600.0)] = 60.0,
+    step_ms: Annotated[float, typer.Option(help="Communication step [ms].", min=0.05, max=1.0)] = 1.0,
+    seed: Annotated[int, typer.Option(help="Seed of the road.")] = 1,
+) -> None:
+    """Drive a quarter car over a class D road with the damper FMU, from intact to 30 % oil."""
+    from vehicle_demo.pictures import draw
+
+    try:
+        chosen = load(damper)
+        car = corner(chosen)
+        output.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory() as folder:
+            fmu = build_fmu.build(chosen, Path(folder))
+            rides = run_all(fmu, car, seconds, step_ms * 1e-3, seed)
+        result = summary(chosen, car, rides, seconds, step_ms * 1e-3, seed)
+        pictures = draw(output, chosen, rides, result)
+        part = output / "summary.json.part"
+        part.write_text(json.dumps(result, indent=1), encoding="utf-8")
+        part.replace(output / "summary.json")
+    except (ParameterError, build_fmu.BuildError, FmuError, OSError) as error:
+        typer.echo(f"error: {error}", err=True)
+        raise typer.Exit(2) from None
+    typer.echo(table(result))
+    typer.echo(f"{output / 'summary.json'} and {', '.join(p.name for p in pictures)}")
+
+
+if __name__ == "__main__":
+    app()
