@@ -1,8 +1,8 @@
 """Build the damper as an FMI 2.0 co-simulation FMU: parameter set -> FMU -> validated.
 
-    python build_fmu.py SA8
-    python build_fmu.py SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu
-    python build_fmu.py --parameters my_damper.toml
+python build_fmu.py SA8
+python build_fmu.py SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu
+python build_fmu.py --parameters my_damper.toml
 """
 
 import contextlib
@@ -16,7 +16,7 @@ import tempfile
 import uuid
 import zipfile
 from dataclasses import asdict
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -98,7 +98,7 @@ def pythonfmu_build(script: Path, folder: Path) -> Path:
 
 def completed(built: Path, damper: Damper, target: Path) -> None:
     """Copy the FMU to `target` with the full model description, documentation, icon and licence."""
-    date = datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    date = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     with zipfile.ZipFile(built) as old, zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as new:
         content = {name: old.read(name) for name in old.namelist() if "/tests/" not in name}
         identity = json.dumps(sorted((n, hashlib.sha256(c).hexdigest()) for n, c in content.items() if n[-4:] != ".xml"))

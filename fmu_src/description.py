@@ -48,9 +48,9 @@ def complete(xml: bytes, guid: str, date: str) -> bytes:
             if bound is not None:
                 kind.set(name, str(int(bound)) if whole else repr(float(bound)))
     definitions = ET.Element("UnitDefinitions")
-    for name in UNITS:
+    for name, exponents in UNITS.items():
         if name in used:
-            ET.SubElement(ET.SubElement(definitions, "Unit", name=name), "BaseUnit", UNITS[name])
+            ET.SubElement(ET.SubElement(definitions, "Unit", name=name), "BaseUnit", exponents)
     root.insert([child.tag for child in root].index("CoSimulation") + 1, definitions)
 
     outputs = structure.find("Outputs")
@@ -61,4 +61,5 @@ def complete(xml: bytes, guid: str, date: str) -> bytes:
         unknown.set("dependencies", "")
         ET.SubElement(initial, "Unknown", index=unknown.attrib["index"])
     ET.indent(root)
-    return b'<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="utf-8")
+    body: bytes = ET.tostring(root, encoding="utf-8")
+    return b'<?xml version="1.0" encoding="UTF-8"?>\n' + body

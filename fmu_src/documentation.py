@@ -19,8 +19,8 @@ to the communication step; 1 ms is usual.</p>
 <p>A degraded damper must be preconditioned before its force means anything: the paper moves it six times at
 0.05 m/s. The model holds still at rest, however long.</p>
 <p>A refused step (stroke beyond the tube, NaN, negative step, parameter out of its range) is answered by
-<em>fmi2Discard</em>, a log message of status Error that names the quantity, its value and the allowed range, and the state as
-before.</p>
+<em>fmi2Discard</em>, a log message of status Error that names the quantity, its value and the allowed range, and the
+state as before.</p>
 <p>This FMU carries its equations as Python source and runs them in the Python 3.11 or newer of the host computer; it
 needs no package, only that Python's shared library is found.</p>
 """
@@ -57,5 +57,8 @@ def page(damper: Damper) -> str:
         f"<style>{STYLE}</style><h1>twintube: {escape(damper.name)}</h1><p>{escape(damper.title)}. Semi-physical model of "
         "a twin-tube shock absorber after oil and gas loss, after Schramm, Zwosta, Prokop, Vehicles 2025, 7(1), 26, "
         f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}<table><tr>"
-        + "".join(f"<th>{h}</th>" for h in heads) + "</tr>" + "\n".join(rows) + "</table></html>"
+        + "".join(f"<th>{h}</th>" for h in heads)
+        + "</tr>"
+        + "\n".join(rows)
+        + "</table></html>"
     )

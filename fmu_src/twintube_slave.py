@@ -33,12 +33,14 @@ READ: dict[str, Callable[[State], float]] = {
 }
 
 
-class TwinTube(Fmi2Slave):
+class TwinTube(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is untyped
     """A degraded twin-tube shock absorber."""
 
     author = "twintube"
     license = "MIT"
-    description = "Twin-tube shock absorber after oil and gas loss (Schramm, Zwosta, Prokop 2025): stroke and velocity in, force out"
+    description = (
+        "Twin-tube shock absorber after oil and gas loss (Schramm, Zwosta, Prokop 2025): stroke and velocity in, force out"
+    )
     default_experiment = DefaultExperiment(start_time=0.0, stop_time=1.0, step_size=1e-3)
 
     def __init__(self, **kwargs: Any) -> None:
@@ -76,8 +78,12 @@ class TwinTube(Fmi2Slave):
         read, write = access
         kind = Integer if item.metadata["integer"] else Real
         variable = kind(
-            name, causality=causality, variability=variability, description=item.metadata["description"],
-            getter=read, setter=write,
+            name,
+            causality=causality,
+            variability=variability,
+            description=item.metadata["description"],
+            getter=read,
+            setter=write,
         )
         self.register_variable(variable, nested=False)
         self._read.append(read)
@@ -109,7 +115,7 @@ class TwinTube(Fmi2Slave):
 
     # pythonfmu's own accessors look the variable up and check its type on every call; these are called in every step.
     def set_real(self, vrs: list[int], values: list[float]) -> None:
-        for vr, value in zip(vrs, values):
+        for vr, value in zip(vrs, values, strict=True):
             self._write[vr](value)
 
     def get_real(self, vrs: list[int]) -> list[float]:
@@ -118,7 +124,7 @@ class TwinTube(Fmi2Slave):
         return [self._read[vr]() for vr in vrs]
 
     def set_integer(self, vrs: list[int], values: list[int]) -> None:
-        for vr, value in zip(vrs, values):
+        for vr, value in zip(vrs, values, strict=True):
             self._write[vr](value)
 
     def _start(self) -> None:
@@ -143,8 +149,16 @@ class TwinTube(Fmi2Slave):
     def do_step(self, current_time: float, step_size: float) -> bool:
         z, v = self.inputs.stroke, self.inputs.velocity
         end = z + v * step_size
-        if self.problem or self.changed or not (-self.limit <= z <= self.limit and -self.limit <= end <= self.limit
-                                                and step_size >= 0.0 and -20.0 <= v <= 20.0):
+        if (
+            self.problem
+            or self.changed
+            or not (
+                -self.limit <= z <= self.limit
+                and -self.limit <= end <= self.limit
+                and step_size >= 0.0
+                and -20.0 <= v <= 20.0
+            )
+        ):
             refusal = self.problem or self._apply_changes() or self._refusal(current_time, step_size)
             if refusal:
                 self.log(f"time {current_time:g} s: {refusal}", Fmi2Status.error)

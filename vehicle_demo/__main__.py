@@ -65,7 +65,9 @@ def summary(damper: Damper, car: Car, rides: list[Ride], seconds: float, dt: flo
         scalar = {r.case.oil_level: measures(r, static) for r in of_speed if r.case.scalar}
         for entry in full[1:]:
             other = scalar[entry["oil_level"]]
-            entry["scalar_factor"] = {k: other[k] for k in ("dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share")}
+            entry["scalar_factor"] = {
+                k: other[k] for k in ("dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share")
+            }
         speeds.append({"speed_kmh": speed, "intact": full[0], "oil_levels": full[1:]})
     return {
         "damper": damper.name,

@@ -3,15 +3,15 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from twintube.arrays import Array
 from vehicle_demo.ride import EVERY, Ride
 
 SETTLED = 5.0  # [s] left out at the start of a ride
 WINDOW = 10.0  # [s] over which the development is reported
 
 
-def dynamic_load_coefficient(load: NDArray[np.float64], static: float) -> float:
+def dynamic_load_coefficient(load: Array, static: float) -> float:
     """Standard deviation of the wheel load over the static load [1]."""
     return float(np.std(load) / static)
 
@@ -40,13 +40,15 @@ def measures(ride: Ride, static: float) -> dict[str, Any]:
     for start in np.arange(0.0, ride.time[-1] - WINDOW + dt, WINDOW):
         inside = (ride.time >= max(start, 1.0)) & (ride.time < start + WINDOW)
         ends = np.searchsorted(ride.time[::EVERY], [start, start + WINDOW - EVERY * dt])
-        development.append({
-            "from_s": float(start),
-            "to_s": float(start + WINDOW),
-            "dlc": dynamic_load_coefficient(ride.wheel_load[inside], static),
-            "contact_loss_share": float((ride.wheel_load[inside] <= 0.0).mean()),
-            "damping_work_J": float(ride.work[ends[1]] - ride.work[ends[0]]),
-            "oil_mL": float(ride.volumes[ends[1]][[0, 3, 6]].sum() * 1e6),
-        })
+        development.append(
+            {
+                "from_s": float(start),
+                "to_s": float(start + WINDOW),
+                "dlc": dynamic_load_coefficient(ride.wheel_load[inside], static),
+                "contact_loss_share": float((ride.wheel_load[inside] <= 0.0).mean()),
+                "damping_work_J": float(ride.work[ends[1]] - ride.work[ends[0]]),
+                "oil_mL": float(ride.volumes[ends[1]][[0, 3, 6]].sum() * 1e6),
+            }
+        )
     found["development"] = development
     return found

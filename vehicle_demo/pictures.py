@@ -21,8 +21,16 @@ PHASES = {"oil": "#c98b1f", "foam": "#f0d9a8", "gas": "#cfe0ee"}
 SHOWN = (0.9, 0.6, 0.4)  # oil levels that the line plots show beside the intact damper
 COLOURS = ("#1b1b1b", "#2a7f9e", "#d98c21", "#b3282d")
 
-plt.rcParams |= {"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False,
-                 "font.size": 10, "figure.dpi": 110, "savefig.dpi": 130, "legend.frameon": False}
+plt.rcParams |= {
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "font.size": 10,
+    "figure.dpi": 110,
+    "savefig.dpi": 130,
+    "legend.frameon": False,
+}
 
 
 def name_of(ride: Ride) -> str:
@@ -55,8 +63,16 @@ def wheel_load(folder: Path, label: str, rides: list[Ride], static: float) -> Pa
     for (ride, colour), ax in zip(shown, axes, strict=True):
         late = ride.time >= ride.time[-1] - 4
         ax.plot(ride.time[late], ride.wheel_load[late] / 1e3, color=colour, lw=0.9)
-        ax.fill_between(ride.time[late], 0, 1, where=ride.wheel_load[late] <= 0, color="#b3282d", alpha=0.25, lw=0,
-                        transform=ax.get_xaxis_transform())
+        ax.fill_between(
+            ride.time[late],
+            0,
+            1,
+            where=ride.wheel_load[late] <= 0,
+            color="#b3282d",
+            alpha=0.25,
+            lw=0,
+            transform=ax.get_xaxis_transform(),
+        )
         ax.axhline(static / 1e3, color="#999", lw=0.8, ls="--")
         ax.set_title(name_of(ride), loc="left", fontsize=10)
         ax.set_ylabel("wheel load [kN]")
@@ -85,8 +101,14 @@ def dlc(folder: Path, name: str, result: dict[str, Any]) -> Path:
         levels = [100 * e["oil_level"] for e in block["oil_levels"]]
         speed = f"{block['speed_kmh']:.0f} km/h"
         ax.plot(levels, [e["dlc"] for e in block["oil_levels"]], "o-", color=colour, label=f"{speed}, full model")
-        ax.plot(levels, [e["scalar_factor"]["dlc"] for e in block["oil_levels"]], "s:", color=colour, mfc="white",
-                label=f"{speed}, scalar factor (variant 1)")
+        ax.plot(
+            levels,
+            [e["scalar_factor"]["dlc"] for e in block["oil_levels"]],
+            "s:",
+            color=colour,
+            mfc="white",
+            label=f"{speed}, scalar factor (variant 1)",
+        )
         ax.axhline(block["intact"]["dlc"], color=colour, lw=0.8, ls="--", label=f"{speed}, intact")
     ax.set_xlabel("oil level [%], gas preload lost")
     ax.set_ylabel("dynamic load coefficient [1]")
@@ -125,7 +147,9 @@ def loops(folder: Path, label: str, rides: list[Ride]) -> Path:
         end = ride.time[-1]
         for start, ink, order, text in ((2.0, "#b9c4cc", 1, "2-7 s"), (end - 5, colour, 2, f"{end - 5:.0f}-{end:.0f} s")):
             part = (ride.time >= start) & (ride.time < start + 5)
-            axes[0][column].plot(ride.stroke[part] * 1e3, ride.force[part] / 1e3, color=ink, lw=0.6, zorder=order, label=text)
+            axes[0][column].plot(
+                ride.stroke[part] * 1e3, ride.force[part] / 1e3, color=ink, lw=0.6, zorder=order, label=text
+            )
             axes[1][column].plot(ride.velocity[part], ride.force[part] / 1e3, ".", color=ink, ms=1.5, zorder=order)
         axes[0][column].set_title(name_of(ride), loc="left", fontsize=10)
         axes[0][column].set_xlabel("stroke [mm]")

@@ -6,18 +6,18 @@ carried to the start of the next one by its last change.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from twintube import road
+from twintube.arrays import Array
 from twintube.quarter_car import Car, Motion, kick
 from twintube.rig import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, oscillations
 from twintube.variables import blank
 from vehicle_demo.damper_fmu import VOLUMES, DamperFmu
 
-Array = NDArray[np.float64]
 EVERY = 20  # steps between two records of the volumes
 
 
@@ -57,7 +57,7 @@ def heights(case: Case, seconds: float, dt: float, seed: int) -> Array:
 def precondition(damper: DamperFmu) -> None:
     """The paper's six oscillations at 0.05 m/s, in steps of 5 ms; the damper ends at stroke 0."""
     _, stroke, _ = oscillations(V_PRECONDITIONING, AMPLITUDE, PRECONDITIONING, 5e-3)
-    for z, following in zip(stroke[:-1], stroke[1:], strict=True):
+    for z, following in pairwise(stroke):
         damper.step(float(z), float(following - z) / 5e-3, 5e-3)
 
 

@@ -46,9 +46,7 @@ def not_monotone(p: Parameters) -> list[str]:
             found.append(f"fv.{branch}: velocity 1 = {v[0]:g} m/s must be above 0")
         for i in range(1, FV_POINTS):
             if v[i] <= v[i - 1]:
-                found.append(
-                    f"fv.{branch}: velocity {i + 1} = {v[i]:g} m/s must be above velocity {i} = {v[i - 1]:g} m/s"
-                )
+                found.append(f"fv.{branch}: velocity {i + 1} = {v[i]:g} m/s must be above velocity {i} = {v[i - 1]:g} m/s")
                 break
             if F[i] < F[i - 1]:
                 found.append(

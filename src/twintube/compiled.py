@@ -47,8 +47,6 @@ def joined_source() -> str:
     return "\n\n".join(parts) + "\n"
 
 
-
-
 @cache
 def module() -> ModuleType:
     """The compiled kernel and drivers, as functions of structured arrays' rows."""
@@ -88,7 +86,8 @@ def dtype(record: type) -> np.dtype[Any]:
 
 def as_row(record: Any) -> np.ndarray[Any, Any]:
     """A record as a structured array of length 1."""
-    row = np.zeros(1, dtype(type(record)))
+    kind: type = type(record)
+    row = np.zeros(1, dtype(kind))
     for item in fields(record):
         row[0][item.name] = getattr(record, item.name)
     return row

@@ -4,15 +4,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from twintube import compiled, kernel, quarter_car
+from twintube.arrays import Array
 from twintube.checks import stroke_limit
 from twintube.parameters import Damper
 from twintube.simulate import InputError
 from twintube.variables import Derived, Flow, State, blank
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

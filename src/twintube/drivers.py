@@ -72,8 +72,9 @@ def run_work(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, marks: Any, out: An
 
 
 def run_drive(p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, dt: float, limit: float, out: Any) -> int:
-    """Quarter car over the road heights `road` [m] (n,), one every `dt` [s]; `out` (n, 4) takes the stroke [m], the
-    damper velocity [m/s], the damper force [N] and the wheel load [N].
+    """Quarter car over the road heights `road` [m] (n,), one every `dt` [s].
+
+    `out` (n, 4) takes the stroke [m], the damper velocity [m/s], the damper force [N] and the wheel load [N].
 
     Returns the number of samples done, less than n if the piston would leave the tube (`limit` [m]) or a step failed.
     """

@@ -70,7 +70,10 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     """A damper from parsed TOML; `text` and `file` serve the messages only."""
     found: list[str] = []
     values: dict[str, Any] = {}
-    known: dict[str, set[str]] = {"": {"name", "title", "sources", "assumed", "measured_oil"}, "fv": {"velocity_unit", "force_unit"}}
+    known: dict[str, set[str]] = {
+        "": {"name", "title", "sources", "assumed", "measured_oil"},
+        "fv": {"velocity_unit", "force_unit"},
+    }
     for item in fields(Parameters):
         group, name = item.metadata["group"], item.name
         if item.metadata["size"] > 1:
@@ -123,7 +126,7 @@ def quantity(value: Any, unit: str) -> float:
 
 @cache
 def registry() -> Any:
-    """pint's units, made once because it takes a while."""
+    """Pint's units, made once because it takes a while."""
     return pint.UnitRegistry()
 
 

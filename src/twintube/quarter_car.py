@@ -69,8 +69,7 @@ def kick(car: Car, m: Motion, road: float, road_velocity: float, force: float, d
     load = weight + car.c_tyre * (road - m.z_wheel)
     if load > 0.0:
         load += car.d_tyre * (road_velocity - v_wheel)
-    if load < 0.0:
-        load = 0.0
+    load = max(load, 0.0)
     stroke = m.z_body - m.z_wheel
     velocity = v_body - v_wheel
     pull = car.c_body * stroke + car.d_links * velocity + force - car.F_rest

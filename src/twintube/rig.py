@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from twintube.arrays import Array
 
 OSCILLATIONS = 19
 PRECONDITIONING = 6

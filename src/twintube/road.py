@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import signal
 
-Array = NDArray[np.float64]
+from twintube.arrays import Array
 
 N_0 = 0.1  # reference spatial frequency [cycles/m]
 WAVINESS = 2.0

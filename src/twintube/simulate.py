@@ -7,11 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from twintube import compiled, drivers, kernel
+from twintube.arrays import Array
 from twintube.checks import bad_input, problems, stroke_limit
 from twintube.parameters import Damper, refuse
 from twintube.variables import Derived, Flow, State, blank
-
-Array = NDArray[np.float64]
 
 
 class InputError(ValueError):
@@ -55,6 +54,7 @@ def simulate(damper: Damper, stroke: ArrayLike, velocity: ArrayLike, *, interpre
     Raises:
         InputError: a sample is not finite, or the piston would leave the tube.
         ParameterError: the parameters are not admissible.
+
     """
     p = damper.parameters
     refuse(damper.name, problems(p))
@@ -70,7 +70,7 @@ def simulate(damper: Damper, stroke: ArrayLike, velocity: ArrayLike, *, interpre
         done = compiled.module().run_record(P, D, S, F, z, v, out)
     if done < len(z):
         raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
-    columns = {name: out[:, i] for i, name in enumerate(drivers.COLUMNS)}
+    columns: dict[str, Array] = {name: out[:, i] for i, name in enumerate(drivers.COLUMNS)}
     columns["V3_gas"] = d.V_reserve - columns["V3_oil"] - columns["V3_foam"]
     return Simulation(z, v, columns)
 

@@ -164,7 +164,7 @@ class Outputs:
     """What the surroundings read. Force is positive where the damper is pulled in rebound."""
 
     force: float = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1")
-    k_degr: float = var("", "k_degr", "1", "degradation factor: fluid force relative to the intact damper", lower=0,
+    k_degr: float = var("", "k_degr", "1", "fluid force relative to the intact damper, mean over the step", lower=0,
                         upper=1, source="equations 23-39")
     V1_oil: float = var("V1.oil", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5")
     V1_gas: float = var("V1.gas", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5")
@@ -219,7 +219,7 @@ class State:
     V3_foam_oil: float = var("V3", "", "m3", "oil held by the foam of the reserve chamber", default=0.0)
     V_cav: float = var("state", "", "m3", "oil lost to gas by cavitation so far", default=0.0)
     F_D: float = var("state", "F_D", "N", "Dahl friction state", default=0.0)
-    k_degr: float = var("state", "k_degr", "1", "degradation factor", default=1.0)
+    k_degr: float = var("state", "k_degr", "1", "degradation factor, mean over the last step", default=1.0)
     F_fluid: float = var("state", "F_Fl", "N", "fluid force, degraded", default=0.0)
     F_friction: float = var("state", "F_Fr", "N", "friction force", default=0.0)
     F_gas: float = var("state", "F_S", "N", "gas force", default=0.0)

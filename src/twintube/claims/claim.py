@@ -5,8 +5,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from twintube.arrays import Array
 from twintube.parameters import Damper
-from twintube.rig import Array, harmonic_block
+from twintube.rig import harmonic_block
 from twintube.simulate import work_between
 
 Dampers = dict[str, Damper]
@@ -65,7 +66,8 @@ def works(damper: Damper, oil_level: float, velocity: float) -> Array:
 
 def relative(damper: Damper, oil_level: float, velocity: float) -> Array:
     """Works of the 19 oscillations relative to the first one of the intact damper [1]."""
-    return works(damper, oil_level, velocity) / works(damper, 1.0, velocity)[0]
+    share: Array = works(damper, oil_level, velocity) / works(damper, 1.0, velocity)[0]
+    return share
 
 
 def rounded(value: float, digits: int = 3) -> float:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from twintube import road
+from twintube.arrays import Array
 from twintube.claims.claim import Claim, Dampers, rounded
 from twintube.drive import drive
 from twintube.parameters import Damper
@@ -16,7 +17,7 @@ BUMP_HEIGHT, BUMP_LENGTH = 0.05, 0.5  # [m], assumed
 MANEUVERS = ("speed bump 8 km/h", "uneven road 30 km/h", "uneven road 50 km/h")
 
 
-def heights(maneuver: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+def heights(maneuver: str) -> Array:
     """Road heights [m] under the wheel, one every `DT` seconds."""
     time = np.arange(0.0, SECONDS, DT)
     if "bump" in maneuver:
@@ -26,7 +27,8 @@ def heights(maneuver: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     speed = 30 / 3.6 if "30" in maneuver else 50 / 3.6
     profile = road.generate(SECONDS * speed)
     h = profile.at(time * speed)
-    return (h - h[0]) * np.clip(time, 0.0, 1.0)
+    faded: Array = (h - h[0]) * np.clip(time, 0.0, 1.0)
+    return faded
 
 
 def relative_works(damper: Damper, car: dict[str, float], maneuver: str) -> list[float]:

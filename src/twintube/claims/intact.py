@@ -23,7 +23,10 @@ def slope(damper: Damper) -> float:
 def c11(dampers: Dampers) -> Claim:
     """The quasi-static slope tells the preload."""
     table = {
-        name: [rounded(slope(d.with_(gas_preload=1)), 0), rounded(slope(d.with_(oil_level=d.measured_levels[0], gas_preload=0)), 0)]
+        name: [
+            rounded(slope(d.with_(gas_preload=1)), 0),
+            rounded(slope(d.with_(oil_level=d.measured_levels[0], gas_preload=0)), 0),
+        ]
         for name, d in dampers.items()
     }
     return Claim(

@@ -64,7 +64,8 @@ def squeeze_reserve(d: Derived, s: State) -> None:
 def step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float) -> bool:
     """Carry `s` to the stroke `z` [m] while the velocity goes evenly from `v0` to `v1` [m/s].
 
-    Time enters through stroke and velocity only: every process of the paper is tied to the stroke. False when the
+    Time enters through stroke and velocity only: every process of the paper is tied to the stroke. `k_degr` is the mean
+    over the step, the forces are those at its end with that mean. False when the
     step could not be finished within `MAX_SPLITS`, which no admissible parameter set is known to cause.
     """
     dz = z - s.z
@@ -94,7 +95,8 @@ def step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: 
         squeeze_reserve(d, s)
     s.z = z
     s.F_D = dahl(p, d, s.F_D, dz)
-    s.k_degr = f.k_degr
+    # The mean over the step: force times stroke is then the work, wherever in the step a phase ran out.
+    s.k_degr = acting / (dz if rising else -dz)
     if (v1 < 0.0) == rising:
         settle(p, d, s, f, v1)
     friction = s.F_friction

@@ -1,0 +1,174 @@
+"""The command `twintube`."""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from tqdm import tqdm
+
+from twintube import parameters
+from twintube.parameters import ParameterError
+from twintube.simulate import InputError
+from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="Twin-tube shock absorber after oil and gas loss: parameter sets, simulation, claims of the paper.",
+)
+
+
+@contextmanager
+def answering() -> Iterator[None]:
+    """Bad input ends with one line on standard error and exit status 2."""
+    try:
+        yield
+    except (ParameterError, InputError, OSError) as error:
+        typer.echo(f"error: {error}", err=True)
+        raise typer.Exit(2) from None
+
+
+def write(path: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+@app.command(epilog="Example: twintube dampers SA8")
+def dampers(damper: Annotated[str | None, typer.Argument(help="Show this one: a name or a parameter file.")] = None) -> None:
+    """List the named dampers, or show one as TOML with its sources."""
+    with answering():
+        if damper is not None:
+            typer.echo(parameters.to_toml(parameters.load(damper)), nl=False)
+            return
+        for name in parameters.names():
+            one = parameters.load(name)
+            levels = ", ".join(f"{level:.0%}" for level in one.measured_levels)
+            typer.echo(f"{name}  {one.title:36} {one.parameters.V_oil * 1e6:4.0f} mL, measured at 100%, {levels}")
+
+
+@app.command(epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv")
+def simulate(
+    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
+    record: Annotated[
+        Path | None, typer.Option(help="CSV with 'time [s]', 'stroke [mm]', optional 'velocity [mm/s]'.")
+    ] = None,
+    velocity: Annotated[float, typer.Option(help="Without a record: maximum velocity [m/s] of a harmonic block.")] = 1.048,
+    amplitude_mm: Annotated[float, typer.Option(help="Without a record: amplitude of the block [mm].")] = 45.0,
+    oil_level: Annotated[float, typer.Option(help="Oil, share of the intact volume.")] = 1.0,
+    gas_lost: Annotated[bool, typer.Option("--gas-lost", help="The gas preload is lost.")] = False,
+    output: Annotated[Path, typer.Option(help="CSV file for the result.")] = Path("simulation.csv"),
+) -> None:
+    """Simulate a record, or a harmonic block with its preconditioning, and write forces and volumes."""
+    from twintube.record import read_csv
+    from twintube.rig import harmonic_block
+    from twintube.simulate import simulate as run
+
+    with answering():
+        chosen = parameters.load(damper).with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1)
+        if record is not None:
+            time, stroke, speed = read_csv(record)
+        elif not (0.001 <= velocity <= 20 and 0.1 <= amplitude_mm <= 500):
+            raise InputError(f"velocity = {velocity:g} m/s, amplitude = {amplitude_mm:g} mm: 0.001 to 20 m/s, 0.1 to 500 mm")
+        else:
+            signal = harmonic_block(velocity, amplitude_mm * 1e-3)
+            time, stroke, speed = signal.time, signal.stroke, signal.velocity
+        result = run(chosen, stroke, speed)
+        head = ["time [s]", "stroke [m]", "velocity [m/s]"]
+        columns: list[Any] = [time, result.stroke, result.velocity]
+        units = {"force": "N", "k_degr": "1", "work": "J"}
+        for name, values in result.columns.items():
+            head.append(f"{name} [{units.get(name, 'N' if name[0] == 'F' else 'm3')}]")
+            columns.append(values)
+        lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
+        write(output, "\n".join(lines) + "\n")
+        typer.echo(
+            f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
+            f"force from {result.force.min():.0f} to {result.force.max():.0f} N"
+        )
+
+
+@app.command(epilog="Example: twintube claims --json claims.json")
+def claims(
+    json_file: Annotated[Path | None, typer.Option("--json", help="Write one entry per claim to this file.")] = None,
+    reading: Annotated[
+        list[str] | None, typer.Option(help="Another reading of the paper, e.g. leak_carries_oil=1; repeatable.")
+    ] = None,
+) -> None:
+    """Evaluate the paper's statements C1 to C14 with its published parameters."""
+    from twintube.claims import EVALUATORS, evaluate
+
+    with answering():
+        readings = dict(parsed_reading(text) for text in reading or [])
+        found = list(tqdm(evaluate(readings), total=len(EVALUATORS), unit="claim", leave=False))
+        if json_file is not None:
+            write(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in found], indent=1) + "\n")
+        for c in found:
+            mark = "calibrated" if c.calibrated else "by assumption" if c.assumed else "evidence"
+            typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{mark:15}{c.statement} ({c.source})")
+            for name, value in c.figures.items():
+                typer.echo(f"      {name}: {json.dumps(value)}")
+            if c.needs:
+                typer.echo(f"      needs: {c.needs}")
+            if c.reason:
+                typer.echo(f"      why not: {c.reason}")
+        for kind in (True, False):
+            some = [c for c in found if c.evidence is kind]
+            what = "evidence" if kind else "calibrated or by assumption"
+            typer.echo(f"{what}: {sum(c.holds for c in some)} of {len(some)} hold")
+
+
+def parsed_reading(text: str) -> tuple[str, int]:
+    """`name=value` of a reading; raises ParameterError."""
+    name, _, value = text.partition("=")
+    known = [item.name for item in fields(Parameters) if item.metadata["group"] == "reading"]
+    if name not in known or not value.isdigit():
+        raise ParameterError(f"--reading {text}: must be NAME=INTEGER with a name of {', '.join(known)}")
+    return name, int(value)
+
+
+@app.command(epilog="Example: twintube calibrate SA8")
+def calibrate(damper: Annotated[str, typer.Argument(help="A name or a parameter file.")]) -> None:
+    """Find the dead length of the chambers from the claims C2, C5 and C7, as it was done for the named dampers."""
+    from twintube.calibrate import calibrate as run
+
+    with answering():
+        for i, fit in enumerate(run(parameters.load(damper))):
+            found = ", ".join(f"{name} {value:.3f}" for name, value in fit.figures.items())
+            typer.echo(f"{'best' if i == 0 else '':5}{fit.dead_length * 1e3:5.0f} mm  misfit {fit.misfit:.4f}  {found}")
+
+
+@app.command(epilog="Example: twintube variables > docs/variables.md")
+def variables() -> None:
+    """Print the table of all inputs, outputs and parameters as Markdown."""
+    typer.echo("| name | symbol | unit | from | to | meaning | source |\n|---|---|---|---|---|---|---|")
+    for record in (Inputs, Outputs, Parameters):
+        for item in fields(record):
+            meta = item.metadata
+            low, high = ("" if bound is None else f"{bound:g}" for bound in (meta["lower"], meta["upper"]))
+            size = f"[1..{meta['size']}]" if meta["size"] > 1 else ""
+            cells = (
+                f"`{fmi_name(item)}{size}`",
+                meta["symbol"],
+                meta["unit"],
+                low,
+                high,
+                meta["description"],
+                meta["source"],
+            )
+            typer.echo("| " + " | ".join(cells) + " |")
+
+
+if __name__ == "__main__":
+    app()
