@@ -71,7 +71,7 @@ def simulate(damper: Damper, stroke: ArrayLike, velocity: ArrayLike, *, interpre
     if done < len(z):
         raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
     columns: dict[str, Array] = {name: out[:, i] for i, name in enumerate(drivers.COLUMNS)}
-    columns["V3_gas"] = d.V_reserve - columns["V3_oil"] - columns["V3_foam"]
+    columns["V3_gas"] = np.maximum(0.0, d.V_reserve - columns["V3_oil"] - columns["V3_foam"])
     return Simulation(z, v, columns)
 
 

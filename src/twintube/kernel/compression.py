@@ -9,28 +9,25 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
 
     `foaming` and `cavitating` are the shares [1] of the step above the two threshold velocities.
     """
-    gas = 0.0
-    W_kBV = d.A_rod / d.A_2
     # The liquid that leaves V2 is foam where there is foam, but beside oil and gas the reading says which.
     as_foam = s.V2_foam > 0.0 and (s.V2_gas <= 0.0 or s.V2_oil <= 0.0 or p.foam_leaves_with_gas > 0)
+    gas = 0.0
+    piston = 0.0
+    # Eq. 15: W_kBV gives the bottom valve's flow; as in Eq. 27-29 it is counted relative to the flow out of V2.
     if s.V2_gas > 0.0:
-        W_kBV = 0.0
+        bottom = 0.0
         f.k_degr = 0.0  # Eq. 18: only gas
         if as_foam or s.V2_oil > 0.0:
-            W_kBV = d.W_kBV_1
+            bottom = d.W_kBV_1 * d.A_2
             f.k_degr = p.X_Co1
-        gas = (1.0 - W_kBV) * d.A_2
+        gas = d.A_2 - bottom
     else:
         # Eq. 19: V1 and V2 without gas, the flows and the force of the intact damper
-        f.k_degr = 1.0
-        venting = 1.0
-        if s.V1_gas <= 0.0:
-            venting = vented_share(p, d, as_foam, foaming, cavitating)
+        venting = 1.0 if s.V1_gas > 0.0 else vented_share(p, d, as_foam, foaming, cavitating)
         # While V1 holds gas the flows are those of Eq. 28, 29, and the surplus drives the gas out.
-        W_kBV += venting * (d.W_kBV_2 - W_kBV)
-        f.k_degr += venting * (d.k_Co2 - f.k_degr)
-    bottom = W_kBV * d.A_2
-    piston = d.A_2 - bottom - gas
+        bottom = d.A_rod + venting * (d.W_kBV_2 * d.A_2 - d.A_rod)
+        piston = d.A_2 - bottom
+        f.k_degr = 1.0 + venting * (d.k_Co2 - 1.0)
 
     f.V2_gas = -gas
     f.V2_oil = 0.0
@@ -59,10 +56,9 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
         f.cavitated = cavitating * d.Y_Co * piston
         oil = piston - f.cavitated
 
-    # V1 takes A_1; the surplus of the piston valve leaves it as gas through the rod guide (Eq. 8, 13).
-    surplus = gas + piston - d.A_1
+    # V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13).
+    kept = d.A_1 + f.cavitated - piston
     foamable = gas + p.cavitation_foams * f.cavitated
-    kept = gas + f.cavitated - surplus
     if foaming > 0.0 and p.S_PV > 0.0 and foamable > 0.0 and (s.V1_oil > 0.0 or oil > 0.0):
         frothed = foaming * p.S_PV * foamable
         if s.V1_gas <= 0.0 and frothed > kept:

@@ -21,6 +21,7 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
             # Eq. 39: B p1^E W_kPV/(1 - L_PV), and W_kPV/(1 - L_PV) is X_Re
             f.k_degr = foam_factor(p, s.V1_foam_oil, s.V1_foam) * p.X_Re
         elif s.V1_oil > 0.0:
+            # Eq. 14: W_kPV is the oil flow relative to the intact one, which is A_1
             oil = d.W_kPV * d.A_1
             gas = d.A_1 - oil
             # Eq. 25
