@@ -1,0 +1,92 @@
+"""What the FMU says about itself."""
+
+import zipfile
+from dataclasses import fields
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+
+import build_fmu
+from fmu_src.description import UNITS
+from twintube.parameters import load, names
+from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+
+CONTRACT = (
+    "stroke velocity force k_degr V1.oil V1.gas V1.foam V2.oil V2.gas V2.foam V3.oil V3.gas V3.foam force_fluid "
+    "force_friction force_gas work oil_level gas_preload geometry.D_li degradation.X_Re"
+).split()
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_damper_builds_and_validates_without_a_message(name: str, tmp_path: Path) -> None:
+    fmu = build_fmu.build(load(name), tmp_path / "a.fmu")
+    assert validate_fmu(str(fmu)) == []
+    assert [p.name for p in tmp_path.iterdir()] == ["a.fmu"]
+
+
+def test_variables_have_units_bounds_and_descriptions(sa8_fmu: Path) -> None:
+    description = fmpy.read_model_description(str(sa8_fmu))
+    found = {v.name: v for v in description.modelVariables}
+    assert set(CONTRACT) <= set(found)
+    assert {u.name for u in description.unitDefinitions} == set(UNITS)
+    for record in (Inputs, Outputs, Parameters):
+        for item in fields(record):
+            name = fmi_name(item) + ("[1]" if item.metadata["size"] > 1 else "")
+            variable, meta = found[name], item.metadata
+            assert variable.description == meta["description"]
+            assert variable.unit == (None if meta["unit"] == "1" else meta["unit"])
+            assert len(name) <= 55  # Simulink
+            if meta["lower"] is not None:
+                assert float(variable.min) == meta["lower"]
+            if record is Parameters:
+                assert variable.causality == "parameter"
+                assert variable.variability == ("tunable" if meta["tunable"] else "fixed")
+    assert float(found["oil_level"].start) == 1.0
+    assert float(found["geometry.D_li"].start) == pytest.approx(0.0298)
+
+
+def test_outputs_do_not_feed_through(sa8_fmu: Path) -> None:
+    with zipfile.ZipFile(sa8_fmu) as archive:
+        root = ET.fromstring(archive.read("modelDescription.xml"))
+    outputs = root.findall("ModelStructure/Outputs/Unknown")
+    assert len(outputs) == len(fields(Outputs))
+    assert all(unknown.get("dependencies") == "" for unknown in outputs)
+    assert len(root.findall("ModelStructure/InitialUnknowns/Unknown")) == len(outputs)
+    simulation = root.find("CoSimulation")
+    assert simulation is not None
+    assert simulation.get("canGetAndSetFMUstate") == "true"
+    assert simulation.get("canBeInstantiatedOnlyOncePerProcess") == "false"
+
+
+def test_page_icon_and_licence_travel_along(sa8_fmu: Path) -> None:
+    with zipfile.ZipFile(sa8_fmu) as archive:
+        listed = archive.namelist()
+        page = archive.read("documentation/index.html").decode()
+        assert archive.read("model.png").startswith(b"\x89PNG")
+    assert "documentation/licenses/license.txt" in listed
+    assert "assumed:" in page
+    assert "fv.v_re" in page
+    # Standard library only on the target: nothing of numpy or numba, no path of the machine that built it.
+    with zipfile.ZipFile(sa8_fmu) as archive:
+        for name in listed:
+            if name.startswith("resources/") and "/pythonfmu/" not in name and name.endswith(".py"):
+                text = archive.read(name).decode()
+                assert "numpy" not in text
+                assert "numba" not in text.replace("numba compiles", "")
+
+
+def test_a_failed_build_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="file"):
+        build_fmu.build(load("SA8"), tmp_path / "file" / "a.fmu")
+
+    def refuse(_: Path) -> None:
+        raise build_fmu.BuildError("not valid")
+
+    monkeypatch.setattr(build_fmu, "validated", refuse)
+    with pytest.raises(build_fmu.BuildError):
+        build_fmu.build(load("SA8"), tmp_path / "a.fmu")
+    assert [p.name for p in tmp_path.iterdir()] == ["file"]

@@ -1,0 +1,43 @@
+"""The main job end to end, short."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from typer.testing import CliRunner
+
+from vehicle_demo.__main__ import app
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "vehicle_demo", "--output", str(tmp_path / "out"), "--seconds", "20"],
+        cwd=ROOT, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert "intact" in done.stdout
+    result = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert result["road"]["class"] == "D"
+    assert 512e-6 < result["road"]["gd_n0_m3"] < 2048e-6
+    assert [block["speed_kmh"] for block in result["speeds"]] == [30.0, 50.0]
+    for block in result["speeds"]:
+        assert [e["oil_level"] for e in block["oil_levels"]] == [1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3]
+        for entry in [block["intact"], *block["oil_levels"]]:
+            assert {"dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share", "damping_work_J"} <= set(entry)
+            assert entry["min_wheel_load_N"] >= 0.0
+    assert "fv" in result["assumed"]
+    pictures = {p.name for p in (tmp_path / "out").glob("*.png")}
+    assert pictures == {"dlc_over_oil_level.png", "wheel_load.png", "spectrum.png", "development.png", "loops.png",
+                        "volumes.png"}  # fmt: skip
+
+
+def test_demo_answers_bad_input_with_one_line(tmp_path: Path) -> None:
+    run = CliRunner().invoke(app, ["--damper", "SA9", "--output", str(tmp_path / "x")])
+    assert run.exit_code == 2
+    assert run.stderr.startswith("error: unknown damper SA9")
+    (tmp_path / "file").write_text("")
+    run = CliRunner().invoke(app, ["--output", str(tmp_path / "file" / "x")])
+    assert run.exit_code == 2
+    assert run.stderr.count("\n") == 1
