@@ -87,8 +87,7 @@ def inconsistent(p: Parameters) -> list[str]:
 
 def problems(p: Parameters) -> list[str]:
     """All messages about a parameter set; an empty list if it is admissible."""
-    found = out_of_bounds(p)
-    return found or not_monotone(p) + inconsistent(p)
+    return not_monotone(p) + out_of_bounds(p) or inconsistent(p)
 
 
 def stroke_limit(d: Derived) -> float:

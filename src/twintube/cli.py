@@ -149,6 +149,15 @@ def calibrate(damper: Annotated[str, typer.Argument(help="A name or a parameter 
             typer.echo(f"{'best' if i == 0 else '':5}{fit.dead_length * 1e3:5.0f} mm  misfit {fit.misfit:.4f}  {found}")
 
 
+@app.command(epilog="Example: twintube readings")
+def readings() -> None:
+    """Measure what each other reading of the paper does to the claims."""
+    from twintube.claims import compare_readings
+
+    for name, value, flips, moves in tqdm(compare_readings(), total=6, unit="reading", leave=False):
+        tqdm.write(f"{name} = {value}: {', '.join(flips) or 'no claim flips'}; {'; '.join(moves) or 'no figure moves'}")
+
+
 @app.command(epilog="Example: twintube variables > docs/variables.md")
 def variables() -> None:
     """Print the table of all inputs, outputs and parameters as Markdown."""

@@ -119,7 +119,8 @@ def quantity(value: Any, unit: str) -> float:
     if isinstance(value, (int, float)):
         return float(value)
     try:
-        return float(registry().Quantity(value).to(PINT_UNITS.get(unit, unit)).magnitude)
+        converted = float(registry().Quantity(value).to(PINT_UNITS.get(unit, unit)).magnitude)
+        return float(f"{converted:.15g}")  # 13 mm are 0.013 m, not 0.013000000000000001 m
     except (pint.PintError, TypeError, AttributeError, AssertionError) as error:
         raise ValueError(f"{value!r} is no quantity in {unit} ({error})") from error
 

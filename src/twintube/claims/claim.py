@@ -29,6 +29,9 @@ class Claim:
     calibrated: bool = False
     assumed: bool = False
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "holds", bool(self.holds))  # numpy's own bool is no JSON
+
     @property
     def evidence(self) -> bool:
         """True where the claim was neither used for the calibration nor put in by assumption."""

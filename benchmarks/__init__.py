@@ -1,0 +1,1 @@
+"""Measurements of speed; they print a table and assert nothing."""

@@ -1,0 +1,112 @@
+"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car."""
+
+import json
+import os
+import platform
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+import build_fmu
+from twintube import compiled, kernel
+from twintube.parameters import load
+from twintube.quarter_car import PASSAT_REAR, Car
+from twintube.rig import harmonic_block
+from twintube.simulate import work_between
+from twintube.variables import Derived, Flow, State, blank
+from vehicle_demo.damper_fmu import DamperFmu
+from vehicle_demo.ride import Case, heights, ride
+
+REPEATS = 5
+
+
+def best(job: Callable[[], object]) -> float:
+    """Shortest of several times [s]: the one least disturbed by the rest of the machine."""
+    times = []
+    for _ in range(REPEATS):
+        start = time.perf_counter()
+        job()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def bench_kernel() -> dict[str, float]:
+    """Time per step of the compiled and the interpreted kernel on one signal, SA8 at 60 % oil, 1.048 m/s."""
+    damper = load("SA8").with_(oil_level=0.6, gas_preload=0)
+    block = harmonic_block(1.048)
+    n = len(block.stroke)
+    work_between(damper, block.stroke, block.velocity, block.marks)
+    fast = best(lambda: work_between(damper, block.stroke, block.velocity, block.marks))
+    stroke, velocity = block.stroke.tolist(), block.velocity.tolist()
+
+    def interpreted() -> None:
+        p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
+        kernel.prepare(p, d)
+        kernel.fill(p, d, s, 0.0)
+        before = velocity[0]
+        for z, v in zip(stroke, velocity, strict=True):
+            kernel.step(p, d, s, f, z, before, v)
+            before = v
+
+    slow = best(interpreted)
+    return {"ns_per_step": fast / n * 1e9, "interpreted_ns_per_step": slow / n * 1e9, "speed_up": slow / fast}
+
+
+def bench_fmu_step() -> dict[str, float]:
+    """Set, step and get of the FMU through its library, in turn with the bare kernel step as reference."""
+    damper = load("SA8").with_(oil_level=0.6, gas_preload=0)
+    stroke = 0.03 * np.sin(np.arange(20001) * 0.02)
+    moves = list(zip(stroke[:-1].tolist(), (np.diff(stroke) / 1e-3).tolist(), strict=True))
+    with tempfile.TemporaryDirectory() as folder:
+        fmu = build_fmu.build(damper, Path(folder))
+        with DamperFmu(fmu) as unit:
+            p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
+            kernel.prepare(p, d)
+            kernel.fill(p, d, s, 0.0)
+            found = best(lambda: [unit.step(z, v, 1e-3) for z, v in moves])
+            reference = best(lambda: [kernel.step(p, d, s, f, z + v * 1e-3, v, v) for z, v in moves])
+    n = len(moves)
+    return {"us_per_step": found / n * 1e6, "reference_us_per_step": reference / n * 1e6, "ratio": found / reference}
+
+
+def bench_quarter_car() -> dict[str, float]:
+    """One case of the demo on one core: 60 s at 50 km/h, 60 % oil, steps of 1 ms, FMU in the loop."""
+    damper = load("SA8")
+    car = Car(**PASSAT_REAR, F_rest=-damper.parameters.F_0)
+    case = Case(50.0, 0.6, 0)
+    height = heights(case, 60.0, 1e-3, seed=1)
+    with tempfile.TemporaryDirectory() as folder:
+        fmu = build_fmu.build(damper, Path(folder))
+        seconds = best(lambda: ride(fmu, car, case, height, 1e-3))
+    return {"times_real_time": 60.0 / seconds, "seconds": seconds}
+
+
+BENCHMARKS = {"kernel": bench_kernel, "fmu_step": bench_fmu_step, "quarter_car": bench_quarter_car}
+app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+@app.command(epilog="Example: python -m benchmarks kernel --json kernel.json")
+def main(
+    name: Annotated[str, typer.Argument(help=f"One of {', '.join(BENCHMARKS)}.")],
+    json_file: Annotated[Path | None, typer.Option("--json", help="Write the figures to this file.")] = None,
+) -> None:
+    """Measure speed and print a table."""
+    if name not in BENCHMARKS:
+        typer.echo(f"error: unknown benchmark {name}: must be one of {', '.join(BENCHMARKS)}", err=True)
+        raise typer.Exit(2)
+    compiled.module()
+    figures = BENCHMARKS[name]()
+    typer.echo(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, best of {REPEATS}")
+    for key, value in figures.items():
+        typer.echo(f"{key:26}{value:12.3f}")
+    if json_file is not None:
+        json_file.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    app()

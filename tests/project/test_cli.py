@@ -1,0 +1,128 @@
+"""The command line: it does its job with status 0, or says why not in one line with status 2."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import build_fmu
+from twintube.cli import app
+
+RUNNER = CliRunner()
+
+
+@pytest.mark.parametrize("command", ["dampers", "simulate", "claims", "calibrate", "variables", "readings"])
+def test_help_has_an_example(command: str) -> None:
+    run = RUNNER.invoke(app, [command, "--help"])
+    assert run.exit_code == 0
+    assert f"Example: twintube {command}" in run.output
+
+
+def test_dampers_are_listed_and_shown(tmp_path: Path) -> None:
+    assert RUNNER.invoke(app, ["dampers"]).output.count("\n") == 8
+    shown = RUNNER.invoke(app, ["dampers", "SA8"]).output
+    (tmp_path / "copy.toml").write_text(shown)
+    assert RUNNER.invoke(app, ["dampers", str(tmp_path / "copy.toml")]).output == shown
+
+
+def test_simulate_a_block(tmp_path: Path) -> None:
+    out = tmp_path / "new" / "loop.csv"
+    run = RUNNER.invoke(app, ["simulate", "SA8", "--oil-level", "0.6", "--gas-lost", "--velocity", "1.0", "--output", str(out)])
+    assert run.exit_code == 0, run.output
+    rows = list(csv.reader(out.open()))
+    assert rows[0][:4] == ["time [s]", "stroke [m]", "velocity [m/s]", "force [N]"]
+    assert len(rows) > 1000
+
+
+def test_simulate_a_record(tmp_path: Path) -> None:
+    record = tmp_path / "in.csv"
+    record.write_text("time [ms],stroke [mm]\n" + "".join(f"{i},{i * 0.5}\n" for i in range(50)))
+    out = tmp_path / "out.csv"
+    run = RUNNER.invoke(app, ["simulate", "SA8", "--record", str(record), "--output", str(out)])
+    assert run.exit_code == 0, run.output
+    rows = list(csv.DictReader(out.open()))
+    assert float(rows[-1]["stroke [m]"]) == pytest.approx(0.0245)
+    assert float(rows[-1]["velocity [m/s]"]) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("time [s],stroke [mm]\n0,1\n1,x\n", "in.csv: row 3, column stroke: 'x' is no finite number"),
+        ("time [s],stroke [mm]\n0,1\n1,nan\n", "in.csv: row 3, column stroke: 'nan' is no finite number"),
+        ("time [s],stroke [mm]\n0,1\n0,2\n", "in.csv: row 3, column time: 0 s is not after the row before"),
+        ("time [s],stroke [N]\n0,1\n1,2\n", "in.csv: row 1, column 'stroke [N]'"),
+        ("time [s],strok [mm]\n0,1\n1,2\n", "in.csv: row 1: no column 'stroke [m]'"),
+        ("time [s],stroke [mm]\n0,1\n1,200\n", "sample 1: stroke = 0.2 m: must be a number from -0.11"),
+        ("", "in.csv: the file is empty"),
+    ],
+)
+def test_bad_records(tmp_path: Path, text: str, message: str) -> None:
+    record = tmp_path / "in.csv"
+    record.write_text(text)
+    run = RUNNER.invoke(app, ["simulate", "SA8", "--record", str(record), "--output", str(tmp_path / "out.csv")])
+    assert run.exit_code == 2
+    assert message in run.stderr
+    assert run.stderr.startswith("error: ")
+    assert run.stderr.count("\n") == 1
+    assert [p.name for p in tmp_path.iterdir()] == ["in.csv"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["simulate", "SA9"], "error: unknown damper SA9"),
+        (["simulate", "SA8", "--oil-level", "1.7"], "error: SA8: oil_level = 1.7 1: must be a number from 0 to 1"),
+        (["simulate", "SA8", "--velocity", "nan"], "error: velocity = nan m/s"),
+        (["simulate", "SA8", "--amplitude-mm", "200"], "stroke = "),
+        (["claims", "--reading", "leaks=1"], "error: --reading leaks=1: must be NAME=INTEGER with a name of leak_carries_oil"),
+        (["claims", "--reading", "foam_decays=7"], "reading.foam_decays = 7 1: must be a number from 0 to 1"),
+    ],
+)
+def test_bad_arguments(arguments: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    run = RUNNER.invoke(app, arguments)
+    assert run.exit_code == 2
+    assert message in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_unwritable_output(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    run = RUNNER.invoke(app, ["simulate", "SA8", "--output", str(tmp_path / "file" / "x.csv")])
+    assert run.exit_code == 2
+    assert run.stderr.startswith("error: ")
+
+
+def test_claims_as_json(tmp_path: Path) -> None:
+    out = tmp_path / "claims.json"
+    run = RUNNER.invoke(app, ["claims", "--json", str(out)])
+    assert run.exit_code == 0, run.output
+    found = json.loads(out.read_text())
+    assert [c["id"] for c in found] == [f"C{i}" for i in range(1, 15)]
+    assert {"id", "holds", "figures", "needs"} <= set(found[0])
+    assert "evidence: " in run.output
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["SA9"], "error: unknown damper SA9"),
+        (["SA8", "--oil-level", "1.7"], "oil_level = 1.7 1: must be a number from 0 to 1"),
+    ],
+)
+def test_build_fmu_bad_arguments(arguments: list[str], message: str, tmp_path: Path) -> None:
+    run = RUNNER.invoke(build_fmu.app, [*arguments, "--output", str(tmp_path)])
+    assert run.exit_code == 2
+    assert message in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_build_fmu_of_a_users_own_damper(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.toml"
+    mine.write_text(RUNNER.invoke(app, ["dampers", "SA8"]).output.replace('name = "SA8"', 'name = "My damper"'))
+    run = RUNNER.invoke(build_fmu.app, ["--parameters", str(mine), "--output", str(tmp_path)])
+    assert run.exit_code == 0, run.output
+    assert (tmp_path / "twintube_My_damper.fmu").is_file()
