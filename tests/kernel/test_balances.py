@@ -23,7 +23,8 @@ def dampers(draw: st.DrawFn, cavitating: bool) -> Parameters:
     if not cavitating:
         shares |= {"Y_Co_cav": 0.0, "Y_Re_cav": 0.0}
     readings = {
-        name: draw(st.integers(0, 1)) for name in ("leak_carries_oil", "foam_leaves_with_gas", "foam_decays", "cavitation_foams")
+        name: draw(st.integers(0, 1))
+        for name in ("leak_carries_oil", "foam_leaves_with_gas", "foam_decays", "cavitation_foams")
     }
     return replace(
         p,

@@ -29,7 +29,9 @@ def test_dampers_are_listed_and_shown(tmp_path: Path) -> None:
 
 def test_simulate_a_block(tmp_path: Path) -> None:
     out = tmp_path / "new" / "loop.csv"
-    run = RUNNER.invoke(app, ["simulate", "SA8", "--oil-level", "0.6", "--gas-lost", "--velocity", "1.0", "--output", str(out)])
+    run = RUNNER.invoke(
+        app, ["simulate", "SA8", "--oil-level", "0.6", "--gas-lost", "--velocity", "1.0", "--output", str(out)]
+    )
     assert run.exit_code == 0, run.output
     rows = list(csv.reader(out.open()))
     assert rows[0][:4] == ["time [s]", "stroke [m]", "velocity [m/s]", "force [N]"]
@@ -77,7 +79,10 @@ def test_bad_records(tmp_path: Path, text: str, message: str) -> None:
         (["simulate", "SA8", "--oil-level", "1.7"], "error: SA8: oil_level = 1.7 1: must be a number from 0 to 1"),
         (["simulate", "SA8", "--velocity", "nan"], "error: velocity = nan m/s"),
         (["simulate", "SA8", "--amplitude-mm", "200"], "stroke = "),
-        (["claims", "--reading", "leaks=1"], "error: --reading leaks=1: must be NAME=INTEGER with a name of leak_carries_oil"),
+        (
+            ["claims", "--reading", "leaks=1"],
+            "error: --reading leaks=1: must be NAME=INTEGER with a name of leak_carries_oil",
+        ),
         (["claims", "--reading", "foam_decays=7"], "reading.foam_decays = 7 1: must be a number from 0 to 1"),
     ],
 )

@@ -52,8 +52,6 @@ def test_table_of_variables_is_current() -> None:
     assert table in (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
 
 
-
-
 def test_no_path_of_a_machine_is_committed() -> None:
     pattern = re.compile(r"/(home|root|tmp|Users)/[a-z]")
     for path in [*ROOT.glob("src/**/*.py"), *ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("*.py")]:

@@ -49,8 +49,8 @@ def compare_readings() -> Iterator[tuple[str, int, list[str], list[str]]]:
             other = {c.id: c for c in evaluate({item.name: value})}
             flips = [f"{i} {'holds' if other[i].holds else 'fails'}" for i in base if other[i].holds != base[i].holds]
             moves = []
-            for i in base:
-                a, b = (dict(numbers(c.figures, i)) for c in (base[i], other[i]))
+            for i, claim in base.items():
+                a, b = (dict(numbers(c.figures, i)) for c in (claim, other[i]))
                 moves += [(abs(a[k] - b[k]), f"{k} {a[k]:g} -> {b[k]:g}") for k in a if k in b and abs(a[k]) <= 10]
             moves.sort(reverse=True)
             yield item.name, value, flips, [text for size, text in moves[:3] if size > 0.005]
