@@ -8,8 +8,9 @@ from twintube.parameters import Damper
 from twintube.variables import Inputs, Outputs, Parameters, fmi_name
 
 STYLE = (
-    "body{font-family:sans-serif;max-width:60em;margin:2em auto;color:#222}table{border-collapse:collapse}"
+    "body{font-family:sans-serif;max-width:84em;padding:0 2em;margin:2em auto;color:#222}table{border-collapse:collapse}"
     "td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}.assumed{color:#a40}"
+    "td:nth-child(7),td:nth-child(9){min-width:17em}"
 )
 MEANING = """
 <p>Inputs are the values at the start of a communication step: the damper moves from its own stroke to

@@ -170,8 +170,12 @@ class TwinTube(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is untyped
                 f"time {current_time:g} s: stroke = {z:g} m, but the velocity led to {s.z:g} m; check its sign and unit",
                 Fmi2Status.warning,
             )
-        if not step(self.p, self.d, s, self.f, end, v, v):
-            self.problem = "the step could not be split finely enough; please report this parameter set"
+        try:
+            done = step(self.p, self.d, s, self.f, end, v, v)
+        except ArithmeticError:
+            done = False
+        if not done:
+            self.problem = "the step could not be computed; please report this parameter set"
             self.log(f"time {current_time:g} s: {self.problem}", Fmi2Status.error)
             return False
         return True

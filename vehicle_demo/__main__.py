@@ -31,9 +31,14 @@ def cases() -> list[Case]:
     return found
 
 
+def axle(damper: Damper) -> str:
+    """`front` where the damper's title says so, else `rear`."""
+    return "front" if "front" in damper.title.lower() else "rear"
+
+
 def corner(damper: Damper) -> Car:
     """The corner of the car that the damper sits in; its spring is set for the intact damper."""
-    values = PASSAT_FRONT if "front" in damper.title else PASSAT_REAR
+    values = PASSAT_FRONT if axle(damper) == "front" else PASSAT_REAR
     return Car(**values, F_rest=-damper.parameters.F_0)
 
 
@@ -71,6 +76,7 @@ def summary(damper: Damper, car: Car, rides: list[Ride], seconds: float, dt: flo
         speeds.append({"speed_kmh": speed, "intact": full[0], "oil_levels": full[1:]})
     return {
         "damper": damper.name,
+        "axle": axle(damper),
         "assumed": dict(damper.assumed) | {"vehicle": "a corner of a car of the Passat B8 class, see twintube.quarter_car"},
         "road": {
             "class": "D",
@@ -129,6 +135,7 @@ def main(
     except (ParameterError, build_fmu.BuildError, FmuError, OSError) as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from None
+    typer.echo(f"{chosen.name} in the {axle(chosen)} corner of a car of the Passat B8 class (assumed)")
     typer.echo(table(result))
     typer.echo(f"{output / 'summary.json'} and {', '.join(p.name for p in pictures)}")
 

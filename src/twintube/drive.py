@@ -1,16 +1,15 @@
 """The quarter car with the damper of this process, for strokes as a drive makes them."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from twintube import compiled, kernel, quarter_car
+from twintube import compiled, quarter_car
 from twintube.arrays import Array
 from twintube.checks import stroke_limit
 from twintube.parameters import Damper
-from twintube.simulate import InputError
-from twintube.variables import Derived, Flow, State, blank
+from twintube.simulate import InputError, at_rest, rows
+from twintube.variables import blank
 
 
 @dataclass(frozen=True)
@@ -30,14 +29,11 @@ def drive(damper: Damper, car: dict[str, float], heights: Array, dt: float) -> D
     `car` holds the values of `quarter_car.Car` but for the damper's force at rest. Raises InputError where the piston
     would leave the tube.
     """
-    p = damper.parameters
-    d, s, f = blank(Derived), blank(State), blank(Flow)
-    kernel.prepare(p, d)
-    kernel.fill(p, d, s, 0.0)
-    corner = quarter_car.Car(**car, F_rest=-p.F_0)
-    records: list[Any] = [compiled.as_row(x)[0] for x in (p, d, s, f, corner, blank(quarter_car.Motion))]
+    records = at_rest(damper, 0.0)
+    corner = quarter_car.Car(**car, F_rest=-damper.parameters.F_0)
+    limit = stroke_limit(records[1])
     out = np.empty((len(heights), 4))
-    done: int = compiled.module().run_drive(*records, heights, dt, stroke_limit(d), out)
+    done: int = compiled.module().run_drive(*rows([*records, corner, blank(quarter_car.Motion)]), heights, dt, limit, out)
     if done < len(heights):
-        raise InputError(f"time {done * dt:g} s: stroke must be from {-stroke_limit(d):g} to {stroke_limit(d):g} m")
+        raise InputError(f"time {done * dt:g} s: stroke must be from {-limit:g} to {limit:g} m")
     return Drive(np.arange(len(heights)) * dt, *out.T)

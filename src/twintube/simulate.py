@@ -42,6 +42,35 @@ def checked(stroke: ArrayLike, velocity: ArrayLike, limit: float) -> tuple[Array
     return z, v
 
 
+def at_rest(damper: Damper, z: float) -> list[Any]:
+    """The kernel's records p, d, s, f with the damper at rest at the stroke `z` [m]; raises ParameterError."""
+    p = damper.parameters
+    refuse(damper.name, problems(p))
+    d, s, f = blank(Derived), blank(State), blank(Flow)
+    kernel.prepare(p, d)
+    kernel.fill(p, d, s, z)
+    return [p, d, s, f]
+
+
+def started(damper: Damper, stroke: ArrayLike, velocity: ArrayLike) -> tuple[list[Any], Array, Array]:
+    """The kernel's records at the first sample, and the checked record."""
+    p, d, s, f = at_rest(damper, 0.0)
+    z, v = checked(stroke, velocity, stroke_limit(d))
+    kernel.fill(p, d, s, float(z[0]))
+    return [p, d, s, f], z, v
+
+
+def rows(records: list[Any]) -> list[Any]:
+    """The records as numba takes them."""
+    return [compiled.as_row(record)[0] for record in records]
+
+
+def finished(done: int, z: Array) -> None:
+    """Raise InputError if not all samples were done."""
+    if done < len(z):
+        raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
+
+
 def simulate(damper: Damper, stroke: ArrayLike, velocity: ArrayLike, *, interpreted: bool = False) -> Simulation:
     """Simulate a record from rest at its first sample.
 
@@ -56,34 +85,22 @@ def simulate(damper: Damper, stroke: ArrayLike, velocity: ArrayLike, *, interpre
         ParameterError: the parameters are not admissible.
 
     """
-    p = damper.parameters
-    refuse(damper.name, problems(p))
-    d, s, f = blank(Derived), blank(State), blank(Flow)
-    kernel.prepare(p, d)
-    z, v = checked(stroke, velocity, stroke_limit(d))
-    kernel.fill(p, d, s, float(z[0]))
+    records, z, v = started(damper, stroke, velocity)
     out = np.empty((len(z), len(drivers.COLUMNS)))
     if interpreted:
+        p, d, s, f = records
         done = drivers.run_record(p, d, s, f, z.tolist(), v.tolist(), out)
     else:
-        P, D, S, F = (compiled.as_row(record)[0] for record in (p, d, s, f))
-        done = compiled.module().run_record(P, D, S, F, z, v, out)
-    if done < len(z):
-        raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
+        done = compiled.module().run_record(*rows(records), z, v, out)
+    finished(done, z)
     columns: dict[str, Array] = {name: out[:, i] for i, name in enumerate(drivers.COLUMNS)}
-    columns["V3_gas"] = np.maximum(0.0, d.V_reserve - columns["V3_oil"] - columns["V3_foam"])
+    columns["V3_gas"] = np.maximum(0.0, records[1].V_reserve - columns["V3_oil"] - columns["V3_foam"])
     return Simulation(z, v, columns)
 
 
 def work_between(damper: Damper, stroke: Array, velocity: Array, marks: NDArray[np.int64]) -> Array:
     """Work [J] dissipated between the samples `marks` (m,), shape (m-1,); as `simulate`, without the other outputs."""
-    d, s, f = blank(Derived), blank(State), blank(Flow)
-    kernel.prepare(damper.parameters, d)
-    z, v = checked(stroke, velocity, stroke_limit(d))
-    kernel.fill(damper.parameters, d, s, float(z[0]))
-    P, D, S, F = (compiled.as_row(record)[0] for record in (damper.parameters, d, s, f))
+    records, z, v = started(damper, stroke, velocity)
     out = np.empty(len(marks))
-    done: Any = compiled.module().run_work(P, D, S, F, z, v, marks, out)
-    if done < len(z):
-        raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
+    finished(compiled.module().run_work(*rows(records), z, v, marks, out), z)
     return np.diff(out)

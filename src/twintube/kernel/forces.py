@@ -40,10 +40,10 @@ def dahl(p: Parameters, d: Derived, F_D: float, dz: float) -> float:
     way = p.sigma_0 / d.F_FrS * abs(dz)
     size = abs(gap)
     if size > 0.0:
-        if p.delta_D == 1.0:
+        q = 1.0 - p.delta_D
+        if abs(q) < 1e-6:  # the limit, free of 0/0
             size *= math.exp(-way)
         else:
-            q = 1.0 - p.delta_D
             left = math.exp(q * math.log(size)) - q * way
             size = math.exp(math.log(left) / q) if left > 0.0 else 0.0
     return direction * d.F_FrS * (1.0 - side * size)
