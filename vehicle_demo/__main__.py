@@ -11,8 +11,9 @@ from tqdm import tqdm
 
 import build_fmu
 from twintube import road
+from twintube.drive import CORNERS, axle
 from twintube.parameters import Damper, ParameterError, load
-from twintube.quarter_car import PASSAT_FRONT, PASSAT_REAR, Car, static_load
+from twintube.quarter_car import Car, static_load
 from vehicle_demo.damper_fmu import FmuError
 from vehicle_demo.measures import measures
 from vehicle_demo.ride import Case, Ride, heights, ride
@@ -31,15 +32,9 @@ def cases() -> list[Case]:
     return found
 
 
-def axle(damper: Damper) -> str:
-    """`front` where the damper's title says so, else `rear`."""
-    return "front" if "front" in damper.title.lower() else "rear"
-
-
 def corner(damper: Damper) -> Car:
     """The corner of the car that the damper sits in; its spring is set for the intact damper."""
-    values = PASSAT_FRONT if axle(damper) == "front" else PASSAT_REAR
-    return Car(**values, F_rest=-damper.parameters.F_0)
+    return Car(**CORNERS[axle(damper)], F_rest=-damper.parameters.F_0)
 
 
 def run(fmu: Path, car: Car, case: Case, seconds: float, dt: float, seed: int) -> Ride:

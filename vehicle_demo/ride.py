@@ -80,7 +80,7 @@ def ride(fmu: Path, car: Car, case: Case, height: Array, dt: float) -> Ride:
                 volumes[i // EVERY] = damper.volumes()
             carried = now if earlier is None else 1.5 * now - 0.5 * earlier
             z = m.z_body - m.z_wheel
-            load[i] = kick(car, m, h, rates[i], carried, dt)
+            load[i] = kick(car, m, h, rates[i], carried, 0.0, dt)
             v = m.v_body - m.v_wheel
             stroke[i], velocity[i], force[i] = z, v, now
             earlier = now

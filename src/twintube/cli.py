@@ -1,12 +1,14 @@
 """The command `twintube`."""
 
 import json
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 from tqdm import tqdm
 
@@ -97,6 +99,32 @@ def simulate(
             f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
             f"force from {result.force.min():.0f} to {result.force.max():.0f} N"
         )
+
+
+@app.command(epilog="Example: twintube rig SA8 --output excitations")
+def rig(
+    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
+    output: Annotated[Path, typer.Option(help="Folder for one CSV per measurement and plan.json.")] = Path("rig"),
+    seed: Annotated[int, typer.Option(help="Seed of the uneven road.")] = 1,
+) -> None:
+    """Write the excitations of the paper's measurement plan (Table 3) for a damper."""
+    from twintube.plan import REST, plan
+
+    with answering():
+        chosen = parameters.load(damper)
+        listed = []
+        for m in tqdm(list(plan(chosen, seed)), unit="signal", leave=False):
+            name = f"{m.number:02}_{re.sub(r'[^a-z0-9.]+', '_', m.name.lower()).strip('_')}.csv"
+            table = np.column_stack([m.signal.time, m.signal.stroke * 1e3, m.signal.velocity * 1e3])
+            lines = ["time [s],stroke [mm],velocity [mm/s]"] + [f"{t:.6g},{z:.6g},{v:.6g}" for t, z, v in table]
+            write(output / name, "\n".join(lines) + "\n")
+            start, end = (float(m.signal.time[m.signal.marks[i]]) for i in (0, -1))
+            listed.append({"number": m.number, "name": m.name, "measurement": m.kind, "file": name,
+                           "measured_from_s": start, "measured_to_s": end})  # fmt: skip
+        about = {"damper": chosen.name, "seed": seed, "rest_before_each_s": REST, "signals": listed}
+        about["assumed"] = "block velocities, strokes of the drives (quarter car, road, obstacles), maximum stroke"
+        write(output / "plan.json", json.dumps(about, indent=1) + "\n")
+        typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
 
 
 @app.command(epilog="Example: twintube claims --json claims.json")

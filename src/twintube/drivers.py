@@ -71,8 +71,10 @@ def run_work(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, marks: Any, out: An
     return len(z)
 
 
-def run_drive(p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, dt: float, limit: float, out: Any) -> int:
-    """Quarter car over the road heights `road` [m] (n,), one every `dt` [s].
+def run_drive(
+    p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, push: Any, dt: float, limit: float, out: Any
+) -> int:
+    """Quarter car over the road heights `road` [m] (n,), one every `dt` [s], pressed down by `push` [N] (n,).
 
     `out` (n, 4) takes the stroke [m], the damper velocity [m/s], the damper force [N] and the wheel load [N].
 
@@ -84,7 +86,7 @@ def run_drive(p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, dt: f
     for i in range(len(road)):
         stroke = m.z_body - m.z_wheel
         rate = 0.5 * (road[i + 1] - road[i - 1]) / dt if 0 < i < len(road) - 1 else 0.0
-        load = kick(car, m, road[i], rate, 1.5 * force - 0.5 * earlier, dt)
+        load = kick(car, m, road[i], rate, 1.5 * force - 0.5 * earlier, push[i], dt)
         velocity = m.v_body - m.v_wheel
         row = out[i]
         row[0] = stroke

@@ -57,8 +57,10 @@ def stop_force(car: Car, over: float, velocity: float) -> float:
     return max(0.0, car.c_stop * over * over * over * (1.0 + car.d_stop * velocity))
 
 
-def kick(car: Car, m: Motion, road: float, road_velocity: float, force: float, dt: float) -> float:
+def kick(car: Car, m: Motion, road: float, road_velocity: float, force: float, push: float, dt: float) -> float:
     """One leapfrog step of `dt` [s] with the damper `force` [N] of this moment; returns the wheel load [N].
+
+    `push` [N] presses the body down: the load that braking moves to the front axle.
 
     The wheel load is never negative: the tyre does not pull on the road (`road` [m], rising at `road_velocity` [m/s]).
     """
@@ -74,7 +76,7 @@ def kick(car: Car, m: Motion, road: float, road_velocity: float, force: float, d
     velocity = v_body - v_wheel
     pull = car.c_body * stroke + car.d_links * velocity + force - car.F_rest
     pull += stop_force(car, stroke - car.travel, velocity) - stop_force(car, -stroke - car.travel, -velocity)
-    m.dv_body = -dt * pull / car.m_body
+    m.dv_body = -dt * (pull + push) / car.m_body
     m.dv_wheel = dt * (pull + load - weight) / car.m_wheel
     m.v_body += m.dv_body
     m.v_wheel += m.dv_wheel
