@@ -1,4 +1,4 @@
-"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car."""
+"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, identify."""
 
 import json
 import os
@@ -14,10 +14,12 @@ import typer
 
 import build_fmu
 from twintube import compiled, kernel
+from twintube.identify import Harmonic, Objective, minimise
+from twintube.identify.objective import TABLE_6, TABLES_7_8
 from twintube.parameters import load
 from twintube.quarter_car import PASSAT_REAR, Car
-from twintube.rig import harmonic_block
-from twintube.simulate import work_between
+from twintube.rig import BLOCKS, harmonic_block
+from twintube.simulate import simulate, work_between
 from twintube.variables import Derived, Flow, State, blank
 from vehicle_demo.damper_fmu import DamperFmu
 from vehicle_demo.ride import Case, heights, ride
@@ -86,7 +88,38 @@ def bench_quarter_car() -> dict[str, float]:
     return {"times_real_time": 60.0 / seconds, "seconds": seconds}
 
 
-BENCHMARKS = {"kernel": bench_kernel, "fmu_step": bench_fmu_step, "quarter_car": bench_quarter_car}
+def bench_identify() -> dict[str, float]:
+    """The paper's identification: 2 levels, 8 velocities, 48 x 100 for Table 6, 120 x 500 for Tables 7 and 8."""
+    damper = load("SA8")
+    records = []
+    for level in damper.measured_levels:
+        for v in BLOCKS:
+            block = harmonic_block(v, dt=4e-4)
+            force = simulate(damper.with_(oil_level=level, gas_preload=0), block.stroke, block.velocity).force
+            records.append(Harmonic(level, 0, block.time, block.stroke, block.velocity, force, block.marks))
+    basic = damper.with_(S_BV=0.0, S_PV=0.0, Y_Co_cav=0.0, Y_Re_cav=0.0)
+    slow = Objective(basic, TABLE_6, [r for r in records if r.top_speed <= 0.53], with_work=False)
+    full = Objective(damper, TABLES_7_8, records, with_work=True)
+    slow(slow.bounds[:, 0][None])
+    start = time.perf_counter()
+    third = minimise(slow, slow.bounds, population=48, generations=100)
+    fourth = minimise(full, full.bounds, population=120, generations=500)
+    seconds = time.perf_counter() - start
+    steps = third.evaluations * len(slow.z) + fourth.evaluations * len(full.z)
+    slow_step = bench_kernel()["interpreted_ns_per_step"] * 1e-9
+    return {
+        "seconds": seconds,
+        "evaluations": float(third.evaluations + fourth.evaluations),
+        "speed_up_over_interpreted": steps * slow_step / seconds,
+    }
+
+
+BENCHMARKS = {
+    "kernel": bench_kernel,
+    "fmu_step": bench_fmu_step,
+    "quarter_car": bench_quarter_car,
+    "identify": bench_identify,
+}
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 

@@ -5,7 +5,7 @@
 
 from typing import Any
 
-from twintube.kernel import step
+from twintube.kernel import fill, fluid_force, prepare, step
 from twintube.quarter_car import kick
 
 # Columns that `run_record` writes, in this order; all but the shares and `z` are in SI units of the state's fields.
@@ -100,3 +100,43 @@ def run_drive(
         earlier = force
         force = s.F_fluid + s.F_friction + s.F_gas
     return len(road)
+
+
+def run_errors(
+    p: Any, d: Any, s: Any, f: Any, states: Any, z: Any, v: Any, force: Any, starts: Any, marks: Any, work: Any, out: Any
+) -> int:
+    """Squared errors of a parameter set `p` against all records, laid end to end.
+
+    `states` (r, 2) are the records' oil level and preload, `starts` (r + 1,) where they begin, `marks` (r, c + 1) where
+    their oscillations begin and end; samples before the first mark count nothing. `out` (r, 2) takes the sums of the
+    squared errors of the force [N2] and of the works of the oscillations [J2], `work` (r, c) being the measured ones.
+    Returns the number of records done.
+    """
+    cycles = marks.shape[1] - 1
+    for r in range(len(states)):
+        p.oil_level = states[r, 0]
+        p.gas_preload = int(states[r, 1])
+        prepare(p, d)
+        first = starts[r]
+        fill(p, d, s, z[first])
+        before = v[first]
+        done = 0.0
+        cycle = 0
+        out[r, 0] = 0.0
+        out[r, 1] = 0.0
+        for i in range(first, starts[r + 1]):
+            if not step(p, d, s, f, z[i], before, v[i]):
+                return r
+            before = v[i]
+            if i == marks[r, 0]:
+                done = s.work
+            if i >= marks[r, 0]:
+                # k_degr of this moment, not the mean over the step: samples are far apart here.
+                error = fluid_force(p, v[i]) * f.k_degr + s.F_friction + s.F_gas - force[i]
+                out[r, 0] += error * error
+            if cycle < cycles and i == marks[r, cycle + 1]:
+                error = s.work - done - work[r, cycle]
+                out[r, 1] += error * error
+                done = s.work
+                cycle += 1
+    return len(states)

@@ -39,11 +39,14 @@ def velocities(damper: Damper) -> tuple[float, ...]:
 
 
 def quasi_static(damper: Damper) -> Signal:
-    """Ramps at 1 mm/s over 90 % of the stroke, from the middle and back, sampled at 20 Hz."""
+    """Ramps at 1 mm/s over 90 % of the stroke, from the middle and back.
+
+    Sampled at 100 Hz, because the friction reverses within tenths of a millimetre.
+    """
     reach = amplitude(damper)
     corners = np.concatenate([[0.0], np.tile([reach, -reach], RAMPS), [0.0]])
     at = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(corners)))]) / V_QUASI_STATIC
-    time = np.arange(0.0, at[-1], 0.05)
+    time = np.arange(0.0, at[-1], 0.01)
     stroke = np.interp(time, at, corners)
     direction = np.sign(np.diff(corners))[np.clip(np.searchsorted(at, time, side="right") - 1, 0, len(corners) - 2)]
     return Signal(time, stroke, V_QUASI_STATIC * direction, np.array([0, len(time) - 1]))

@@ -1,0 +1,131 @@
+"""Optimisers from libraries behind one call, seeded and resumable.
+
+Every generation's objective values go to a journal. A run that was killed is started again with the same seed: the optimiser
+repeats its own cheap moves and reads the expensive values from the journal, so that the result is that of an
+uninterrupted run, whatever the optimiser.
+"""
+
+import hashlib
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from twintube.arrays import Array
+
+Objective = Callable[[Array], Array]
+
+
+@dataclass(frozen=True)
+class Best:
+    """The result of a search: the best parameters (k,), their error, the best error after each generation."""
+
+    x: Array
+    error: float
+    trace: Array
+    evaluations: int
+
+
+class Journal:
+    """An objective that remembers: values per generation in a file of JSON lines, and the best of all."""
+
+    def __init__(self, objective: Objective, path: Path | None, progress: Callable[[float], None] | None) -> None:
+        self.objective, self.path, self.progress = objective, path, progress
+        self.known: list[dict[str, Any]] = []
+        if path is not None and path.exists():
+            for line in path.read_text(encoding="utf-8").splitlines():
+                try:
+                    self.known.append(json.loads(line))
+                except json.JSONDecodeError:
+                    break  # the line that was being written when the run was killed
+            path.write_text("".join(json.dumps(entry) + "\n" for entry in self.known), encoding="utf-8")
+        self.generation = 0
+        self.evaluations = 0
+        self.x, self.error = np.array([]), np.inf
+        self.trace: list[float] = []
+
+    def __call__(self, X: Array) -> Array:
+        """Values (m,) of a generation X (m, k)."""
+        X = np.atleast_2d(X)
+        digest = hashlib.sha256(np.ascontiguousarray(X).tobytes()).hexdigest()[:16]
+        if self.generation < len(self.known) and self.known[self.generation]["x"] == digest:
+            values = np.array(self.known[self.generation]["f"])
+        else:
+            del self.known[self.generation :]  # a journal of another run: what follows does not belong to this one
+            values = self.objective(X)
+            self.known.append({"x": digest, "f": values.tolist()})
+            if self.path is not None:
+                with self.path.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(self.known[-1]) + "\n")
+        self.generation += 1
+        self.evaluations += len(X)
+        best = int(np.argmin(values))
+        if values[best] < self.error:
+            self.x, self.error = X[best].copy(), float(values[best])
+        self.trace.append(self.error)
+        if self.progress is not None:
+            self.progress(self.error)
+        return values
+
+
+def pso(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> None:
+    """Particle swarm of pymoo, a whole swarm per call."""
+    from pymoo.algorithms.soo.nonconvex.pso import PSO
+    from pymoo.core.problem import Problem
+    from pymoo.optimize import minimize
+
+    class Vectorised(Problem):  # type: ignore[misc]  # pymoo is untyped
+        def _evaluate(self, X: Array, out: dict[str, Any], *_: Any, **__: Any) -> None:
+            out["F"] = journal(X)[:, None]
+
+    problem = Vectorised(n_var=len(bounds), n_obj=1, xl=bounds[:, 0], xu=bounds[:, 1])
+    minimize(problem, PSO(pop_size=population), ("n_gen", generations), seed=seed, verbose=False)
+
+
+def cma_es(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> None:
+    """CMA-ES of the package cma, in the unit cube, from its middle."""
+    import cma
+
+    width = bounds[:, 1] - bounds[:, 0]
+    options = {"bounds": [0, 1], "popsize": population, "seed": seed + 1, "verbose": -9, "maxiter": generations}
+    strategy = cma.CMAEvolutionStrategy(np.full(len(bounds), 0.5), 0.3, options)
+    while journal.generation < generations and not strategy.stop():
+        asked = strategy.ask()
+        strategy.tell(asked, journal(bounds[:, 0] + np.array(asked) * width).tolist())
+
+
+def de(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> None:
+    """Differential evolution of scipy, without polishing."""
+    from scipy.optimize import differential_evolution
+
+    start = np.random.default_rng(seed).uniform(bounds[:, 0], bounds[:, 1], (population, len(bounds)))
+    differential_evolution(
+        lambda X: journal(X.T), bounds, init=start, maxiter=generations - 1, rng=seed, polish=False, vectorized=True,
+        updating="deferred", tol=0, atol=0,
+    )  # fmt: skip
+
+
+METHODS = {"pso": pso, "cma": cma_es, "de": de}
+
+
+def minimise(
+    objective: Objective,
+    bounds: Array,
+    *,
+    method: str = "pso",
+    population: int,
+    generations: int,
+    seed: int = 1,
+    journal: Path | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Best:
+    """Minimise `objective`, which takes X (m, k) to (m,), within `bounds` (k, 2).
+
+    `journal` is a file that makes the run resumable; `progress` is called with the best error after each generation.
+    """
+    memory = Journal(objective, journal, progress)
+    METHODS[method](memory, np.asarray(bounds, dtype=float), population, generations, seed)
+    return Best(memory.x, memory.error, np.array(memory.trace), memory.evaluations)
