@@ -19,6 +19,8 @@ from typing import Any
 import numpy as np
 import platformdirs
 
+from twintube.variables import FV_POINTS
+
 PACKAGE = Path(__file__).parent
 SOURCES = (
     "kernel/prepare.py",
@@ -29,7 +31,7 @@ SOURCES = (
     "quarter_car.py",
     "drivers.py",
 )
-HEAD = "import math\nimport numba\nfrom twintube.variables import FV_POINTS\n"
+HEAD = f"import math\nimport numba\n\nFV_POINTS = {FV_POINTS}\n"
 
 
 def joined_source() -> str:
