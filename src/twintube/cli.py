@@ -127,6 +127,22 @@ def rig(
         typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
 
 
+@app.command(epilog="Example: twintube check my_dataset")
+def check(
+    dataset: Annotated[Path, typer.Argument(help="A folder with dataset.toml and its records, or that file.")],
+) -> None:
+    """Read measured data and report everything that is wrong or odd; nothing is repaired."""
+    from twintube.data import check_dataset
+
+    with answering():
+        found = check_dataset(dataset)
+        for finding in found.findings:
+            typer.echo(str(finding))
+        if found.errors:
+            raise InputError(f"{dataset}: {len(found.errors)} errors, the dataset cannot be used")
+        typer.echo(f"{dataset}: {len(found.records)} records, {len(found.findings)} warnings, no error")
+
+
 @app.command(epilog="Example: twintube claims --json claims.json")
 def claims(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write one entry per claim to this file.")] = None,

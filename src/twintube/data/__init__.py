@@ -1,0 +1,25 @@
+"""Measured data: dataset folders in, SI arrays and a report of every defect out; nothing is repaired.
+
+    load_dataset    a folder with dataset.toml; raises DataError with all findings at once
+    check_dataset   the same without raising: the findings and what can be read
+    report          findings as text
+
+Reading: manifest.py (dataset.toml), formats.py (CSV, text, Parquet, MATLAB, MDF), table.py (units). Judging: checks.py.
+"""
+
+from twintube.data.dataset import GIVEN, GRADIENT, MEASURED, Dataset, LoadedDataset, Record, check_dataset, load_dataset
+from twintube.data.findings import DataError, Finding, report
+
+__all__ = [
+    "GIVEN",
+    "GRADIENT",
+    "MEASURED",
+    "DataError",
+    "Dataset",
+    "Finding",
+    "LoadedDataset",
+    "Record",
+    "check_dataset",
+    "load_dataset",
+    "report",
+]

@@ -1,0 +1,293 @@
+"""Checks of a record: time, units, stroke, velocity, work, repeated samples. They judge and change nothing."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import median_filter
+
+from twintube.arrays import Array
+from twintube.checks import VELOCITY
+from twintube.data.findings import Notes, more
+from twintube.data.table import Table
+
+# Time. Rigs sample at 100 Hz to some kHz; beyond these limits s and ms are mixed up.
+SHORTEST_STEP, LONGEST_STEP = 1e-5, 0.5  # [s]
+NEIGHBOURS = 21  # steps whose median is usual: a rig may sample its blocks differently
+GAP = 1.5  # of the usual step: a sample is missing; jitter is allowed for on top
+BIG_GAP = 10.0  # of the usual step: what the damper did meanwhile cannot be told
+JITTER = 0.02  # standard deviation of the step over its median; a clocked rig has below 0.001
+# Units. A degraded damper still has friction of some 10 N, and no rig moves less than 1 mm; a factor of 1000 shows.
+LEAST_STROKE, MOST_STROKE = 0.5e-3, 1.0  # span [m]
+LEAST_FORCE, MOST_FORCE = 10.0, 100e3  # span [N]
+COLDEST, HOTTEST = -60.0, 250.0  # [degC], outside K and degC are mixed up
+# Velocity against stroke, compared as strokes: integration does not raise the noise as differentiation does.
+SCALE = 0.05  # deviation of the ratio from 1; calibrations are within 1 %
+STRANGE = 0.2  # share of the stroke not explained by the velocity; 2 % come from noise
+ODD = 0.05  # the same, to be told: a channel delay of 5 ms at 1.6 Hz
+DRIFT = 0.02  # mean of velocity beyond that of the stroke, over rms
+SAME = 0.05  # of the roughness of a difference quotient: whoever has its noise too is computed from it
+# Others
+BACKWARD_WORK = 0.05  # of the median work per cycle: what noise may make negative
+FROZEN = 3  # identical samples in motion that no replicated single sample explains
+SHORTEST_REST = 0.05  # [s]; a rig does not stop and go within less
+RESOLUTIONS = 3.0  # steps of the stroke's resolution that a repeated sample must have missed
+OFF_CENTRE = 0.1  # middle of the stroke's range over half of the range
+
+
+def check(table: Table, limit: float | None, notes: Notes) -> None:
+    """Run all checks; `limit` is the largest stroke [m] in the damper's tube, None if the damper is not known."""
+    columns = table.columns
+    check_time(table, notes)
+    check_units(table, notes)
+    check_stroke(table, limit, notes)
+    time = columns["time"]
+    sound: NDArray[np.bool_] = np.all(np.isfinite(np.vstack(list(columns.values()))), axis=0)
+    latest = np.maximum.accumulate(np.where(np.isfinite(time), time, -np.inf))
+    sound[1:] &= time[1:] > latest[:-1]  # the checks below look at the samples in order only; the others are reported above
+    if sound.sum() < FROZEN:
+        return
+    kept = Table({name: values[sound] for name, values in columns.items()}, table.headers, table.rows[sound])
+    check_velocity(kept, notes)
+    check_work(kept, notes)
+    check_repeats(kept, notes)
+
+
+@dataclass(frozen=True)
+class Places:
+    """Samples at which something is wrong."""
+
+    first: int  # row in the file
+    tail: str  # how many there are
+
+
+def places(found: NDArray[np.bool_], rows: NDArray[np.int64], notes: Notes) -> Places | None:
+    """The rows where `found` holds."""
+    at = rows[np.flatnonzero(found)]
+    return Places(int(at[0]), more(len(at), int(at[-1]), notes.counted)) if len(at) else None
+
+
+def check_time(table: Table, notes: Notes) -> None:
+    """Order, step, gaps and jitter."""
+    header, rows = table.headers["time"], table.rows
+    known = np.isfinite(table.columns["time"])
+    time, rows = table.columns["time"][known], rows[known]
+    step = np.diff(time)
+    for found, what in ((step < 0, "goes back"), (step == 0, "is repeated")):
+        if where := places(np.append(False, found), rows, notes):
+            i = int(np.flatnonzero(found)[0])
+            notes.error(f"time {what}: {time[i + 1]:g} s after {time[i]:g} s{where.tail}", header, where.first)
+    step, rows = step[step > 0], rows[1:][step > 0]
+    if not len(step):
+        return
+    median = float(np.median(step))
+    if not SHORTEST_STEP <= median <= LONGEST_STEP:
+        notes.error(
+            f"time step = {median:g} s: must be from {SHORTEST_STEP:g} to {LONGEST_STEP:g} s; s and ms mixed up?", header
+        )
+    local: Array = median_filter(step, NEIGHBOURS, mode="nearest")
+    ratio = step / local
+    usual = 1.4826 * float(np.median(np.abs(ratio - 1.0)))
+    gap = ratio > GAP + 3.0 * usual
+    for found, severe in ((gap & (ratio > BIG_GAP), True), (gap & (ratio <= BIG_GAP), False)):
+        if where := places(found, rows, notes):
+            worst = int(np.argmax(np.where(found, ratio, 0.0)))
+            what = f"step of up to {step[worst]:g} s where {local[worst]:g} s is usual"
+            if severe:
+                notes.error(f"gap: {what}, must be at most {BIG_GAP:g} times that{where.tail}", header, where.first)
+            else:
+                notes.warning(f"small gap: {what}, a sample is missing{where.tail}", header, where.first)
+    if local.max() > GAP * local.min():
+        notes.warning(f"the sampling changes: steps from {local.min():g} to {local.max():g} s", header)
+    jitter = float(np.std(ratio[~gap]))
+    if jitter > JITTER:
+        worst_row = int(rows[np.argmax(np.where(gap, 0.0, np.abs(ratio - 1.0)))])
+        message = f"jitter: the step varies by {jitter:.1%}, up to {JITTER:.0%} is usual; worst here"
+        notes.warning(message, header, worst_row)
+
+
+def check_units(table: Table, notes: Notes) -> None:
+    """Sizes that give a wrong unit away."""
+    spans = (("stroke", LEAST_STROKE, MOST_STROKE, "m and mm"), ("force", LEAST_FORCE, MOST_FORCE, "N and kN"))
+    for name, least, most, mixed in spans:
+        values = table.columns[name][np.isfinite(table.columns[name])]
+        span = float(np.ptp(values)) if len(values) else 0.0
+        unit = "m" if name == "stroke" else "N"
+        if len(values) and not least <= span <= most:
+            why = f"it does not move, or {mixed} mixed up?" if span < least else f"{mixed} mixed up?"
+            notes.error(
+                f"{name} spans {span:g} {unit}: must be from {least:g} to {most:g} {unit}; {why}", table.headers[name]
+            )
+    if "velocity" in table.columns:
+        velocity, top = table.columns["velocity"], VELOCITY["upper"]
+        if where := places(np.abs(velocity) > top, table.rows, notes):
+            worst = velocity[np.nanargmax(np.abs(velocity))]
+            message = f"velocity up to {worst:g} m/s: must be within {top:g} m/s{where.tail}"
+            notes.error(message, table.headers["velocity"], where.first)
+    if "temperature" in table.columns:
+        values = table.columns["temperature"]
+        if where := places((values < COLDEST) | (values > HOTTEST), table.rows, notes):
+            message = f"temperature from {np.nanmin(values):g} to {np.nanmax(values):g} degC: must be from {COLDEST:g} to "
+            message += f"{HOTTEST:g} degC; degC and K mixed up?{where.tail}"
+            notes.error(message, table.headers["temperature"], where.first)
+
+
+def check_stroke(table: Table, limit: float | None, notes: Notes) -> None:
+    """Inside the tube, around the middle."""
+    stroke, header = table.columns["stroke"], table.headers["stroke"]
+    if not np.isfinite(stroke).any():
+        return
+    low, high = float(np.nanmin(stroke)), float(np.nanmax(stroke))
+    middle, half = (low + high) / 2, (high - low) / 2
+    off = abs(middle) > OFF_CENTRE * half
+    if off:
+        message = (
+            f"offset: the stroke runs from {low:g} to {high:g} m, its middle {middle:g} m is not 0, the middle position"
+        )
+        notes.warning(message, header)
+    if limit is not None and (where := places(np.abs(stroke) > limit, table.rows, notes)):
+        worst = low if -low > high else high
+        hint = "" if half > limit or not off else "; it would fit with another zero, see the offset"
+        notes.error(
+            f"stroke up to {worst:g} m: the tube allows {-limit:g} to {limit:g} m{hint}{where.tail}", header, where.first
+        )
+
+
+def running(values: Array, time: Array) -> Array:
+    """Integral over time, without its straight trend."""
+    total = np.append(0.0, np.cumsum((values[1:] + values[:-1]) / 2 * np.diff(time)))
+    return straightened(total, time)
+
+
+def straightened(values: Array, time: Array) -> Array:
+    """The values less their straight trend."""
+    centred = time - time.mean()
+    flat: Array = values - values.mean()
+    flat -= centred * float(centred @ flat) / float(centred @ centred)
+    return flat
+
+
+def check_velocity(table: Table, notes: Notes) -> None:
+    """A measured velocity is the derivative of the stroke, and not just computed from it."""
+    if "velocity" not in table.columns:
+        return
+    time, stroke, velocity = (table.columns[name] for name in ("time", "stroke", "velocity"))
+    header = table.headers["velocity"]
+    moved, said = straightened(stroke, time), running(velocity, time)
+    size = float(np.sqrt(np.mean(moved**2)))
+    if size == 0.0:
+        return
+    scale = float(said @ moved) / float(moved @ moved)
+    slope = np.gradient(stroke, time)
+    odd = float(np.std(said - scale * moved)) / size
+    at = int(table.rows[np.argmax(np.abs(velocity - slope))])
+    if abs(scale) < 1e-6 or odd > STRANGE * max(1.0, abs(scale)):
+        notes.error(
+            f"velocity is not the derivative of the stroke: {odd / max(1.0, abs(scale)):.0%} of the stroke unexplained, "
+            f"limit {STRANGE:.0%}; worst here",
+            header,
+            at,
+        )
+        return
+    if abs(scale - 1) > SCALE:
+        why = "wrong sign" if scale < 0 else "wrong unit" if not 0.2 < scale < 5 else "wrong gain"
+        limits = f"{1 - SCALE:g} to {1 + SCALE:g}"
+        notes.error(
+            f"velocity is {scale:.3g} times the derivative of the stroke, must be {limits}: {why}?; worst here", header, at
+        )
+        return
+    if odd > ODD:
+        notes.warning(f"velocity explains the stroke but for {odd:.1%}, usual are {ODD:.0%}; delayed or noisy?", header, at)
+    drift = float(np.trapezoid(velocity, time) - stroke[-1] + stroke[0]) / float(time[-1] - time[0])
+    if abs(drift) > DRIFT * float(np.sqrt(np.mean(velocity**2))):
+        notes.warning(f"offset: mean velocity {drift:.3g} m/s beyond that of the stroke", header)
+    kind = computed(time, stroke, velocity)
+    if kind:
+        notes.warning(f"velocity is just the {kind} of the stroke, no measurement of its own", header)
+
+
+def computed(time: Array, stroke: Array, velocity: Array) -> str:
+    """The difference quotient that `velocity` is, or an empty string."""
+    quotient = np.diff(stroke) / np.diff(time)
+    roughness = float(np.sqrt(np.mean(np.diff(quotient, 2) ** 2))) if len(quotient) > 2 else 0.0
+    kinds = {
+        "backward difference (half a sample late)": velocity[1:] - quotient,
+        "forward difference (half a sample early)": velocity[:-1] - quotient,
+        "central difference": (velocity - np.gradient(stroke, time))[1:-1],
+    }
+    return next((kind for kind, rest in kinds.items() if float(np.sqrt(np.mean(rest**2))) <= SAME * roughness), "")
+
+
+def check_work(table: Table, notes: Notes) -> None:
+    """A damper takes work: force times stroke is positive over each cycle."""
+    stroke, force, header = table.columns["stroke"], table.columns["force"], table.headers["force"]
+    work = np.append(0.0, np.cumsum((force[1:] + force[:-1]) / 2 * np.diff(stroke)))
+    starts = cycle_starts(stroke)
+    if len(starts) < 2:
+        notes.warning("no full cycle of stroke: the sign of the work cannot be checked", header)
+        return
+    cycles = np.diff(work[starts])
+    total, usual = float(cycles.sum()), float(np.median(np.abs(cycles)))
+    wrong = cycles < -BACKWARD_WORK * usual
+    if total <= 0.0:
+        message = (
+            f"work of {len(cycles)} cycles = {total:.4g} J: must be above 0, force is positive when the damper is pulled"
+        )
+        first = int(table.rows[starts[np.argmin(cycles)]])
+        notes.error(
+            message + " (stroke rising); if the rig's sign differs, set force_sign = -1 or stroke_sign = -1", header, first
+        )
+    elif where := places(np.isin(np.arange(len(table.rows)), starts[:-1][wrong]), table.rows, notes):
+        message = f"work of a cycle = {cycles[wrong][0]:.3g} J: must be above 0, {usual:.3g} J is usual{where.tail}"
+        notes.warning(message, header, where.first)
+
+
+def cycle_starts(stroke: Array) -> NDArray[np.int64]:
+    """Samples at which the stroke rises through the middle of its range, each after a way down below a tenth of it."""
+    middle, half = (stroke.max() + stroke.min()) / 2, float(np.ptp(stroke)) / 2
+    side = np.where(stroke > middle, 1, np.where(stroke < middle - 0.1 * half, -1, 0))
+    known = np.flatnonzero(side)
+    up = (side[known][1:] > 0) & (side[known][:-1] < 0)
+    return known[1:][up]
+
+
+def check_repeats(table: Table, notes: Notes) -> None:
+    """Runs of identical stroke and force while the damper moves: the recorder stood still."""
+    stroke, force = table.columns["stroke"], table.columns["force"]
+    steps = np.abs(np.diff(stroke))
+    if not steps.any():
+        return
+    resolution = float(steps[steps > 1e-9 * np.ptp(stroke)].min())
+    same = np.concatenate([[False], (steps == 0) & (np.diff(force) == 0), [False]]).astype(int)
+    begin, end = np.flatnonzero(np.diff(same) == 1), np.flatnonzero(np.diff(same) == -1)
+    single, frozen = np.zeros(len(stroke), bool), np.zeros(len(stroke), bool)
+    for i, j in zip(begin, end, strict=True):  # samples i to j are identical
+        if stood_still(table, int(i), int(j), resolution):
+            (frozen if j - i + 1 >= FROZEN else single)[i + 1 : j + 1] = True
+    header = table.headers["stroke"]
+    if where := places(frozen, table.rows, notes):
+        notes.error(
+            f"stroke and force stay identical while the damper moves: repeated samples{where.tail}", header, where.first
+        )
+    if where := places(single, table.rows, notes):
+        notes.warning(f"stroke and force as in the sample before while the damper moves{where.tail}", header, where.first)
+
+
+def stood_still(table: Table, i: int, j: int, resolution: float) -> bool:
+    """Whether the recorder stood still from sample i to j, and not the damper: at rest, or turning within the resolution."""
+    time, stroke = table.columns["time"], table.columns["stroke"]
+    last = len(stroke) - 1
+
+    def moved(width: int) -> tuple[float, float]:
+        return float(stroke[i] - stroke[max(0, i - width)]), float(stroke[min(last, j + width)] - stroke[j])
+
+    before, after = moved(5)
+    missed, needed = min(abs(before), abs(after)) / 5 * (j - i), RESOLUTIONS * resolution
+    if before * after < 0:  # a turn in between: a parabola sampled with this resolution dwells for 8 of its steps
+        missed, needed = min(map(abs, moved(j - i))), 8 * RESOLUTIONS * resolution
+    if missed <= needed:
+        return False
+    jumps = abs(float(stroke[min(last, j + 1)] - stroke[j])) > missed / 2
+    velocity = np.abs(table.columns.get("velocity", np.zeros(1)))
+    runs_on = "velocity" in table.columns and float(velocity[i + 1 : j + 1].min()) > 0.1 * float(velocity.max())
+    return jumps or runs_on or float(time[j] - time[i]) < SHORTEST_REST
