@@ -143,6 +143,26 @@ def check(
         typer.echo(f"{dataset}: {len(found.records)} records, {len(found.findings)} warnings, no error")
 
 
+@app.command(epilog="Example: twintube study oil_levels --output oil_levels.parquet")
+def study(
+    definition: Annotated[
+        str, typer.Argument(help="variants (Figure 33), oil_levels (Figure 34), or a study file in TOML.")
+    ],
+    output: Annotated[Path, typer.Option(help="Parquet file for the result.")] = Path("study.parquet"),
+    processes: Annotated[int | None, typer.Option(help="Processes on this machine; all cores if left out.")] = None,
+    cluster: Annotated[
+        str | None, typer.Option(help="Dask scheduler that computes instead, e.g. tcp://10.0.0.1:8786 (extra cluster).")
+    ] = None,
+) -> None:
+    """Compute a grid over dampers, signals, parameters, oil levels and model variants into a Parquet file."""
+    from twintube import studies
+
+    with answering():
+        chosen = studies.load(definition)
+        rows = studies.run(chosen, output, processes=processes, cluster=cluster)
+        typer.echo(f"{output}: {rows} rows of {len(chosen)} cases, {chosen.title}")
+
+
 @app.command(epilog="Example: twintube claims --json claims.json")
 def claims(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write one entry per claim to this file.")] = None,

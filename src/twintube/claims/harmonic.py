@@ -10,12 +10,11 @@ from twintube.parameters import Damper
 from twintube.rig import BLOCKS, harmonic_block
 from twintube.simulate import simulate
 from twintube.variables import Parameters
+from twintube.variants import NO_CAVITATION, NO_FOAM
 
 FV_STANDIN = "F-v curves (assumed stand-ins)"
 DEAD = "dead lengths (assumed, calibrated)"
 ONE = BLOCKS[-2]  # the paper's "1 m/s"
-NO_FOAM = {"S_BV": 0.0, "S_PV": 0.0}
-NO_CAVITATION = {"Y_Co_cav": 0.0, "Y_Re_cav": 0.0}
 
 
 def c1(dampers: Dampers) -> Claim:

@@ -1,0 +1,206 @@
+"""A study computed on the cores of this machine or on a Dask cluster, and written to one Parquet file.
+
+The cases go out in chunks and come back in the order of the grid, so that the file does not depend on who computed
+what: equal versions on equal machines give equal bytes.
+"""
+
+from collections.abc import Generator
+from concurrent.futures import CancelledError, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing
+from importlib import import_module
+from itertools import islice
+from multiprocessing import get_context
+from os import cpu_count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from tqdm import tqdm
+
+from twintube import __version__
+from twintube.arrays import Array
+from twintube.studies.cases import RESULTS, chunk, fingerprint
+from twintube.studies.definition import FIELDS, Study, StudyError
+
+ROW_GROUP = 65536
+CHUNKS, LARGEST_CHUNK = 512, 200
+CONNECTING = 30  # [s]
+RETRIES = 3
+SMALL = 2e7  # samples: some 3 s in one process
+AHEAD = 16  # chunks for each process, because blocks take 2 to 50 ms
+UNITS = {"work_J": "J", "work_relative": "1", "peak_rebound_N": "N", "peak_compression_N": "N"}
+Span = tuple[int, int]
+
+
+def run(
+    study: Study, output: Path, *, processes: int | None = None, cluster: str | None = None, progress: bool = True
+) -> int:
+    """Compute a study and write it to the Parquet file `output`, whole or not at all; returns the number of rows.
+
+    Args:
+        study: what to compute.
+        output: the file; one row per case and oscillation, cases in the order of the grid.
+        processes: how many run on this machine; if None all cores, or one where starting the others would take longer.
+        cluster: address of a Dask scheduler, e.g. `"tcp://10.0.0.1:8786"`, that computes instead of this machine.
+        progress: show a bar on standard error.
+
+    Raises:
+        StudyError: a case failed, the workers are gone, or the cluster cannot be used.
+
+    """
+    if processes is not None and processes < 1:
+        raise StudyError(f"processes = {processes}: must be at least 1")
+    if output.is_dir():
+        raise StudyError(f"{output} is a folder, not a file")
+    size = min(LARGEST_CHUNK, max(1, len(study) // CHUNKS))
+    spans = [(start, min(start + size, len(study))) for start in range(0, len(study), size)]
+    if cluster is not None:
+        parts = on_cluster(study, spans, cluster)
+    else:
+        parts = locally(study, spans, processes or ((cpu_count() or 1) if study.samples > SMALL else 1))
+    output.parent.mkdir(parents=True, exist_ok=True)
+    part = output.with_name(output.name + ".part")
+    try:
+        rows = 0
+        with (
+            closing(parts),
+            pq.ParquetWriter(part, schema(study), compression="zstd") as writer,
+            tqdm(total=len(study), unit="case", leave=False, disable=None if progress else True) as bar,
+        ):
+            waiting: list[pa.Table] = []
+            for span, found in zip(spans, parts, strict=True):
+                waiting.append(table(study, span, found))
+                rows += waiting[-1].num_rows
+                bar.update(span[1] - span[0])
+                if sum(one.num_rows for one in waiting) >= ROW_GROUP:
+                    joined = pa.concat_tables(waiting)
+                    writer.write_table(joined.slice(0, ROW_GROUP).combine_chunks(), row_group_size=ROW_GROUP)
+                    waiting = [joined.slice(ROW_GROUP)]
+            if waiting:
+                writer.write_table(pa.concat_tables(waiting).combine_chunks(), row_group_size=ROW_GROUP)
+        part.replace(output)
+    finally:
+        part.unlink(missing_ok=True)
+    return rows
+
+
+def locally(study: Study, spans: list[Span], processes: int) -> Generator[Array, None, None]:
+    """The chunks' results in order, from processes of this machine."""
+    mark = fingerprint()
+    if min(processes, len(spans)) == 1:
+        yield from (chunk(study, start, stop, mark) for start, stop in spans)
+        return
+    chunk(study, 0, 1, mark)  # compiles once, before the processes do so all at the same time
+    count = min(processes, len(spans), 61)  # Windows has no more handles
+    with ProcessPoolExecutor(count, get_context("spawn"), initializer=keep, initargs=(study, mark)) as pool:
+        try:
+            # Not `pool.map`: it would keep all results of a large study in memory.
+            todo = iter(spans)
+            running = [pool.submit(kept_chunk, *span) for span in islice(todo, AHEAD * count)]
+            while running:
+                yield running.pop(0).result()
+                running += [pool.submit(kept_chunk, *span) for span in islice(todo, 1)]
+        except BrokenProcessPool as error:
+            raise StudyError("a process of this machine was killed (out of memory?): nothing is written") from error
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+KEPT: dict[str, tuple[Study, str]] = {}
+
+
+def keep(study: Study, mark: str) -> None:
+    """What a process of `locally` is given once."""
+    KEPT["study"] = (study, mark)
+
+
+def kept_chunk(start: int, stop: int) -> Array:
+    """`chunk` of the study this process was given."""
+    study, mark = KEPT["study"]
+    return chunk(study, start, stop, mark)
+
+
+def same(study: Study) -> Study:
+    """The study itself: a task, and no scattered datum, because a lost task's result is computed again."""
+    return study
+
+
+def on_cluster(study: Study, spans: list[Span], address: str) -> Generator[Array, None, None]:
+    """The chunks' results in order, from the workers of a Dask scheduler; what a killed worker had is done again."""
+    try:
+        dask: Any = import_module("distributed")
+    except ImportError as error:
+        raise StudyError(f"a cluster needs Dask ({error}): pip install 'twintube[cluster]'") from error
+    try:
+        client = dask.Client(address, timeout=CONNECTING, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise StudyError(f"no Dask scheduler at {address}: {' '.join(str(error).split())}") from error
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=CONNECTING)
+        except TimeoutError as error:
+            raise StudyError(f"the Dask scheduler at {address} has no workers after {CONNECTING} s") from error
+        shared = client.submit(same, study, pure=True)
+        starts, stops = zip(*spans, strict=True)
+        futures = client.map(chunk, [shared] * len(spans), starts, stops, expected=fingerprint(), pure=True, retries=RETRIES)
+        futures.reverse()
+        try:
+            while futures:
+                yield futures.pop().result()  # and the cluster forgets it
+        except dask.KilledWorker as error:
+            raise StudyError(f"a chunk of cases went down with every worker that tried it: {error}") from error
+        except (CancelledError, ImportError, OSError, RuntimeError) as error:
+            raise StudyError(f"the cluster at {address} failed: {' '.join(str(error).split())}") from error
+
+
+def schema(study: Study) -> pa.Schema:
+    """Columns with their units, and what the file was made from; no date, so that equal studies give equal files."""
+    columns = [
+        column("case", pa.int64(), "1"),
+        column("damper", pa.string(), "1"),
+        column("signal", pa.string(), "1"),
+        column("velocity", pa.float64(), "m/s"),
+        column("amplitude", pa.float64(), "m"),
+        *(
+            column(name, pa.int64() if FIELDS[name].metadata["integer"] else pa.float64(), FIELDS[name].metadata["unit"])
+            for name in study.parameters
+        ),
+        column("oil_level", pa.float64(), "1"),
+        column("gas_preload", pa.int64(), "1"),
+        column("variant", pa.int64(), "1"),
+        column("oscillation", pa.int64(), "1"),
+        *(column(name, pa.float64(), UNITS[name]) for name in RESULTS),
+    ]
+    about = {"twintube.version": __version__, "twintube.fingerprint": fingerprint(), "twintube.study": study.text}
+    return pa.schema(columns, metadata=about)
+
+
+def column(name: str, kind: pa.DataType, unit: str) -> pa.Field:
+    """A column that carries its unit."""
+    return pa.field(name, kind, metadata={"unit": unit})
+
+
+def table(study: Study, span: Span, found: Array) -> pa.Table:
+    """The rows of a chunk: what each case was, and what came out."""
+    cases = [(number, study.case(number)) for number in range(*span)]
+    each = [(number, case, oscillation) for number, case in cases for oscillation in study.rows(case)]
+    signals = [study.signals[case.signal] for _, case, _ in each]
+    columns = [
+        [number for number, _, _ in each],
+        [study.dampers[case.damper].name for _, case, _ in each],
+        [signal.name for signal in signals],
+        [None if np.isnan(signal.velocity) else signal.velocity for signal in signals],
+        [None if np.isnan(signal.amplitude) else signal.amplitude for signal in signals],
+        *([case.values[i] for _, case, _ in each] for i in range(len(study.parameters))),
+        [case.oil_level for _, case, _ in each],
+        [case.gas_preload for _, case, _ in each],
+        [case.variant for _, case, _ in each],
+        [oscillation for _, _, oscillation in each],
+        *found.T,
+    ]
+    described = schema(study)
+    arrays = [pa.array(values, kind) for values, kind in zip(columns, described.types, strict=True)]
+    return pa.Table.from_arrays(arrays, schema=described)
