@@ -1,9 +1,16 @@
+import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 import build_fmu
 from twintube.parameters import load
+
+# CI repeats the same examples; elsewhere new ones are tried every time.
+settings.register_profile("ci", derandomize=True)
+if os.environ.get("CI"):
+    settings.load_profile("ci")
 
 
 @pytest.fixture(scope="session")

@@ -13,7 +13,9 @@ from twintube.cli import app
 RUNNER = CliRunner()
 
 
-@pytest.mark.parametrize("command", ["dampers", "simulate", "claims", "calibrate", "variables", "readings", "rig", "check", "study"])
+@pytest.mark.parametrize(
+    "command", ["dampers", "simulate", "claims", "calibrate", "variables", "readings", "rig", "check", "study"]
+)
 def test_help_has_an_example(command: str) -> None:
     run = RUNNER.invoke(app, [command, "--help"])
     assert run.exit_code == 0

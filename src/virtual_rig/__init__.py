@@ -1,0 +1,20 @@
+"""A virtual damper rig with physics of its own: the truth that is not the model of `twintube`.
+
+Pressures from oil and gas masses, turbulent orifices, check and blow-off valves, bubbles, Henry's law, oil temperature.
+Only the dampers' dimensions come from `twintube.parameters`; no equation does.
+"""
+
+from virtual_rig.damper import VirtualDamper, virtual_damper
+from virtual_rig.records import DatasetRecord, Measured, measured, write_dataset
+from virtual_rig.rig import VirtualRecord, run
+
+__all__ = [
+    "DatasetRecord",
+    "Measured",
+    "VirtualDamper",
+    "VirtualRecord",
+    "measured",
+    "run",
+    "virtual_damper",
+    "write_dataset",
+]
