@@ -57,369 +57,105 @@ def fmi_name(item: Field[Any]) -> str:
 class Parameters:
     """Everything that is given about a damper and its condition."""
 
-    oil_level: float = var(
-        "", "", "1", "oil in the damper, share of the intact oil volume", lower=0, upper=1, source="Table 2", default=1.0
-    )
-    gas_preload: int = var(
-        "", "", "1", "gas preload: 1 present, 0 lost", lower=0, upper=1, integer=True, source="Section 2", default=1
-    )
+    oil_level: float = var("", "", "1", "oil in the damper, share of the intact oil volume", lower=0, upper=1,
+                           source="Table 2", default=1.0)
+    gas_preload: int = var("", "", "1", "gas preload: 1 present, 0 lost", lower=0, upper=1, integer=True,
+                           source="Section 2", default=1)
 
     D_a: float = var("geometry", "D_a", "m", "diameter of the outer tube", lower=0.02, upper=0.2, source="Table 5")
     D_PR: float = var("geometry", "D_PR", "m", "diameter of the piston rod", lower=0.004, upper=0.08, source="Table 5")
-    D_li: float = var("geometry", "D_li", "m", "inner diameter of the inner tube", lower=0.01, upper=0.15, source="Table 5")
-    D_la: float = var("geometry", "D_la", "m", "outer diameter of the inner tube", lower=0.01, upper=0.16, source="Table 5")
+    D_li: float = var("geometry", "D_li", "m", "inner diameter of the inner tube", lower=0.01, upper=0.15,
+                      source="Table 5")
+    D_la: float = var("geometry", "D_la", "m", "outer diameter of the inner tube", lower=0.01, upper=0.16,
+                      source="Table 5")
     h_l: float = var("geometry", "h_l", "m", "length of the inner tube", lower=0.05, upper=1.0, source="Table 5")
-    dead_length: float = var(
-        "geometry",
-        "h_dead",
-        "m",
-        "tube length taken by piston, stops and foot valve",
-        lower=0.0,
-        upper=0.3,
-        source="unpublished",
-    )
-    V_oil: float = var(
-        "geometry", "V_oil", "m3", "oil volume of the intact damper", lower=1e-5, upper=5e-3, source="Table 2"
-    )
-    stroke_max: float = var(
-        "geometry",
-        "z_max",
-        "m",
-        "maximum stroke to each side of the middle position",
-        lower=0.001,
-        upper=0.4,
-        source="unpublished",
-    )
+    dead_length: float = var("geometry", "h_dead", "m", "tube length taken by piston, stops and foot valve",
+                             lower=0.0, upper=0.3, source="unpublished")
+    V_oil: float = var("geometry", "V_oil", "m3", "oil volume of the intact damper", lower=1e-5, upper=5e-3,
+                       source="Table 2")
+    stroke_max: float = var("geometry", "z_max", "m", "maximum stroke to each side of the middle position", lower=0.001,
+                            upper=0.4, source="unpublished")
 
-    v_re: list[float] = var(
-        "fv", "v", "m/s", "F-v curve, rebound: velocities", lower=0, size=FV_POINTS, source="Figure 3, unpublished"
-    )
-    F_re: list[float] = var(
-        "fv", "d", "N", "F-v curve, rebound: forces", lower=0, size=FV_POINTS, source="Figure 3, unpublished"
-    )
-    v_co: list[float] = var(
-        "fv",
-        "v",
-        "m/s",
-        "F-v curve, compression: velocities (magnitude)",
-        lower=0,
-        size=FV_POINTS,
-        source="Figure 3, unpublished",
-    )
-    F_co: list[float] = var(
-        "fv", "d", "N", "F-v curve, compression: forces (magnitude)", lower=0, size=FV_POINTS, source="Figure 3, unpublished"
-    )
+    v_re: list[float] = var("fv", "v", "m/s", "F-v curve, rebound: velocities", lower=0, size=FV_POINTS,
+                            source="Figure 3, unpublished")
+    F_re: list[float] = var("fv", "d", "N", "F-v curve, rebound: forces", lower=0, size=FV_POINTS,
+                            source="Figure 3, unpublished")
+    v_co: list[float] = var("fv", "v", "m/s", "F-v curve, compression: velocities (magnitude)", lower=0,
+                            size=FV_POINTS, source="Figure 3, unpublished")
+    F_co: list[float] = var("fv", "d", "N", "F-v curve, compression: forces (magnitude)", lower=0, size=FV_POINTS,
+                            source="Figure 3, unpublished")
 
-    F_FrS: float = var(
-        "friction",
-        "F_FrS",
-        "N",
-        "saturated quasi-static friction force",
-        lower=0,
-        upper=2000,
-        source="equation 2, unpublished",
-        tunable=True,
-    )
-    sigma_0: float = var(
-        "friction",
-        "sigma_0",
-        "N/m",
-        "slope of the friction hysteresis at reversal",
-        lower=1.0,
-        upper=1e8,
-        source="equation 2, unpublished",
-        tunable=True,
-    )
-    delta_D: float = var(
-        "friction",
-        "delta_D",
-        "1",
-        "exponent of the friction gradient",
-        lower=0.1,
-        upper=5,
-        source="equation 2, unpublished",
-        tunable=True,
-    )
-    k_high: float = var(
-        "friction",
-        "k_FrS",
-        "1",
-        "Stribeck scaling of the friction at high velocity",
-        lower=0,
-        upper=5,
-        source="Figure 12, unpublished",
-        tunable=True,
-    )
-    v_S: float = var(
-        "friction",
-        "v_S",
-        "m/s",
-        "velocity over which the Stribeck scaling settles",
-        lower=1e-4,
-        upper=2,
-        source="Figure 12, unpublished",
-        tunable=True,
-    )
-    oil_loss_gain: float = var(
-        "friction",
-        "",
-        "1",
-        "relative rise of the friction at full oil loss",
-        lower=0,
-        upper=5,
-        source="Section 3.2, unpublished",
-        tunable=True,
-    )
+    F_FrS: float = var("friction", "F_FrS", "N", "saturated quasi-static friction force", lower=0, upper=2000,
+                       source="equation 2, unpublished", tunable=True)
+    sigma_0: float = var("friction", "sigma_0", "N/m", "slope of the friction hysteresis at reversal", lower=1.0,
+                         upper=1e8, source="equation 2, unpublished", tunable=True)
+    delta_D: float = var("friction", "delta_D", "1", "exponent of the friction gradient", lower=0.1, upper=5,
+                         source="equation 2, unpublished", tunable=True)
+    k_high: float = var("friction", "k_FrS", "1", "Stribeck scaling of the friction at high velocity", lower=0, upper=5,
+                        source="Figure 12, unpublished", tunable=True)
+    v_S: float = var("friction", "v_S", "m/s", "velocity over which the Stribeck scaling settles", lower=1e-4, upper=2,
+                     source="Figure 12, unpublished", tunable=True)
+    oil_loss_gain: float = var("friction", "", "1", "relative rise of the friction at full oil loss", lower=0, upper=5,
+                               source="Section 3.2, unpublished", tunable=True)
 
-    F_0: float = var(
-        "gas_spring",
-        "F_0",
-        "N",
-        "gas force at stroke 0 with preload (pushes the rod out)",
-        lower=0,
-        upper=5000,
-        source="Figure 7, unpublished",
-        tunable=True,
-    )
-    c_gas: float = var(
-        "gas_spring",
-        "c_gas",
-        "N/m",
-        "gas spring stiffness with preload",
-        lower=0,
-        upper=1e5,
-        source="Figure 7, unpublished",
-        tunable=True,
-    )
-    c_gas_lost: float = var(
-        "gas_spring",
-        "c_gas",
-        "N/m",
-        "gas spring stiffness after the loss of the preload",
-        lower=0,
-        upper=1e5,
-        source="Figure 7, unpublished",
-        tunable=True,
-    )
+    F_0: float = var("gas_spring", "F_0", "N", "gas force at stroke 0 with preload (pushes the rod out)", lower=0,
+                     upper=5000, source="Figure 7, unpublished", tunable=True)
+    c_gas: float = var("gas_spring", "c_gas", "N/m", "gas spring stiffness with preload", lower=0, upper=1e5,
+                       source="Figure 7, unpublished", tunable=True)
+    c_gas_lost: float = var("gas_spring", "c_gas", "N/m", "gas spring stiffness after the loss of the preload", lower=0,
+                            upper=1e5, source="Figure 7, unpublished", tunable=True)
 
-    X_Re: float = var(
-        "degradation",
-        "X_Re",
-        "1",
-        "oil share of the mixed flow through the piston valve in rebound",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 22",
-        tunable=True,
-    )
-    L_PV: float = var(
-        "degradation",
-        "L_PV",
-        "1",
-        "leakage: oil through the piston valve that makes no force",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 22",
-        tunable=True,
-    )
-    G_PV: float = var(
-        "degradation",
-        "G_PV",
-        "1",
-        "share of the compression force made by surplus piston valve flow",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 29",
-        tunable=True,
-    )
-    X_Co1: float = var(
-        "degradation",
-        "X_Co1",
-        "1",
-        "bottom valve flow in compression while V2 holds oil and gas",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 27",
-        tunable=True,
-    )
-    X_Co2: float = var(
-        "degradation",
-        "X_Co2",
-        "1",
-        "bottom valve flow in compression while V2 is full and V1 is not",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 28",
-        tunable=True,
-    )
+    X_Re: float = var("degradation", "X_Re", "1", "oil share of the mixed flow through the piston valve in rebound",
+                      lower=0, upper=1, source="Table 9, equation 22", tunable=True)
+    L_PV: float = var("degradation", "L_PV", "1", "leakage: oil through the piston valve that makes no force", lower=0,
+                      upper=1, source="Table 9, equation 22", tunable=True)
+    G_PV: float = var("degradation", "G_PV", "1", "share of the compression force made by surplus piston valve flow",
+                      lower=0, upper=1, source="Table 9, equation 29", tunable=True)
+    X_Co1: float = var("degradation", "X_Co1", "1", "bottom valve flow in compression while V2 holds oil and gas",
+                       lower=0, upper=1, source="Table 9, equation 27", tunable=True)
+    X_Co2: float = var("degradation", "X_Co2", "1", "bottom valve flow in compression while V2 is full and V1 is not",
+                       lower=0, upper=1, source="Table 9, equation 28", tunable=True)
 
-    S_BV: float = var(
-        "foam",
-        "S_BV",
-        "1",
-        "share of the bottom valve's gas flow that foams in rebound",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 30",
-        tunable=True,
-    )
-    S_BVoil: float = var(
-        "foam",
-        "S_BVoil",
-        "1",
-        "oil per gas in the foam made at the bottom valve",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 34",
-        tunable=True,
-    )
-    S_PV: float = var(
-        "foam",
-        "S_PV",
-        "1",
-        "share of the piston valve's gas flow that foams in compression",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 30",
-        tunable=True,
-    )
-    S_PVoil: float = var(
-        "foam",
-        "S_PVoil",
-        "1",
-        "oil per gas in the foam made at the piston valve",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 34",
-        tunable=True,
-    )
-    B: float = var(
-        "foam",
-        "B",
-        "1",
-        "foam acts like oil (1) or like gas (0)",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 36",
-        tunable=True,
-    )
-    E: float = var(
-        "foam",
-        "E",
-        "1",
-        "exponent of the foam's oil share in its force",
-        lower=0,
-        upper=100,
-        source="Table 9, equation 36",
-        tunable=True,
-    )
-    v_foam: float = var(
-        "foam",
-        "v_foam",
-        "m/s",
-        "velocity above which gas through oil foams",
-        lower=0,
-        upper=10,
-        source="Section 3.2",
-        tunable=True,
-        default=0.05,
-    )
+    S_BV: float = var("foam", "S_BV", "1", "share of the bottom valve's gas flow that foams in rebound", lower=0, upper=1,
+                      source="Table 9, equation 30", tunable=True)
+    S_BVoil: float = var("foam", "S_BVoil", "1", "oil per gas in the foam made at the bottom valve", lower=0, upper=1,
+                         source="Table 9, equation 34", tunable=True)
+    S_PV: float = var("foam", "S_PV", "1", "share of the piston valve's gas flow that foams in compression", lower=0,
+                      upper=1, source="Table 9, equation 30", tunable=True)
+    S_PVoil: float = var("foam", "S_PVoil", "1", "oil per gas in the foam made at the piston valve", lower=0, upper=1,
+                         source="Table 9, equation 34", tunable=True)
+    B: float = var("foam", "B", "1", "foam acts like oil (1) or like gas (0)", lower=0, upper=1,
+                   source="Table 9, equation 36", tunable=True)
+    E: float = var("foam", "E", "1", "exponent of the foam's oil share in its force", lower=0, upper=100,
+                   source="Table 9, equation 36", tunable=True)
+    v_foam: float = var("foam", "v_foam", "m/s", "velocity above which gas through oil foams", lower=0, upper=10,
+                        source="Section 3.2", tunable=True, default=0.05)
 
-    v_cav: float = var(
-        "cavitation",
-        "v_cav",
-        "m/s",
-        "velocity above which the piston valve cavitates",
-        lower=0,
-        upper=10,
-        source="Table 9, equation 40",
-        tunable=True,
-    )
-    Y_Co_cav: float = var(
-        "cavitation",
-        "Y_Co",
-        "1",
-        "share of the piston valve's oil that becomes gas in compression",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 40",
-        tunable=True,
-    )
-    Y_Re_cav: float = var(
-        "cavitation",
-        "Y_Re",
-        "1",
-        "share of the piston valve's oil that becomes gas in rebound",
-        lower=0,
-        upper=1,
-        source="Table 9, equation 40",
-        tunable=True,
-    )
+    v_cav: float = var("cavitation", "v_cav", "m/s", "velocity above which the piston valve cavitates", lower=0, upper=10,
+                       source="Table 9, equation 40", tunable=True)
+    Y_Co_cav: float = var("cavitation", "Y_Co", "1", "share of the piston valve's oil that becomes gas in compression",
+                          lower=0, upper=1, source="Table 9, equation 40", tunable=True)
+    Y_Re_cav: float = var("cavitation", "Y_Re", "1", "share of the piston valve's oil that becomes gas in rebound",
+                          lower=0, upper=1, source="Table 9, equation 40", tunable=True)
 
-    leak_carries_oil: int = var(
-        "reading",
-        "",
-        "1",
-        "1: the leak L_PV adds oil to the mixed flow (reading B)",
-        lower=0,
-        upper=1,
-        integer=True,
-        source="open choice 1",
-        default=0,
-    )
-    foam_leaves_with_gas: int = var(
-        "reading",
-        "",
-        "1",
-        "1: beside gas, foam leaves a chamber before oil; 0: oil first",
-        lower=0,
-        upper=1,
-        integer=True,
-        source="open choice 4",
-        default=1,
-    )
-    foam_decays: int = var(
-        "reading",
-        "",
-        "1",
-        "1: foam leaving V1 beside oil separates into oil and gas",
-        lower=0,
-        upper=1,
-        integer=True,
-        source="open choice 5",
-        default=1,
-    )
-    cavitation_foams: int = var(
-        "reading",
-        "",
-        "1",
-        "1: gas freed by cavitation foams as S_PV says",
-        lower=0,
-        upper=1,
-        integer=True,
-        source="equation 40 beside 30",
-        default=0,
-    )
-    cavitation_needs: int = var(
-        "reading",
-        "",
-        "1",
-        "cavitation needs 2: oil and preload lost, 1: preload lost, 0: nothing",
-        lower=0,
-        upper=2,
-        integer=True,
-        source="open choice 3",
-        default=2,
-    )
+    leak_carries_oil: int = var("reading", "", "1", "1: the leak L_PV adds oil to the mixed flow (reading B)", lower=0,
+                                upper=1, integer=True, source="open choice 1", default=0)
+    foam_leaves_with_gas: int = var("reading", "", "1", "1: beside gas, foam leaves a chamber before oil; 0: oil first",
+                                    lower=0, upper=1, integer=True, source="open choice 4", default=1)
+    foam_decays: int = var("reading", "", "1", "1: foam leaving V1 beside oil separates into oil and gas", lower=0,
+                           upper=1, integer=True, source="open choice 5", default=1)
+    cavitation_foams: int = var("reading", "", "1", "1: gas freed by cavitation foams as S_PV says", lower=0, upper=1,
+                                integer=True, source="equation 40 beside 30", default=0)
+    cavitation_needs: int = var("reading", "", "1", "cavitation needs 2: oil and preload lost, 1: preload lost, 0: nothing",
+                                lower=0, upper=2, integer=True, source="open choice 3", default=2)
 
 
 @dataclass(slots=True)
 class Inputs:
     """What the surroundings set before each step."""
 
-    stroke: float = var(
-        "", "z", "m", "stroke, positive in rebound (rod out), 0 in the middle", lower=-0.5, upper=0.5, default=0.0
-    )
+    stroke: float = var("", "z", "m", "stroke, positive in rebound (rod out), 0 in the middle", lower=-0.5, upper=0.5,
+                        default=0.0)
     velocity: float = var("", "z_dot", "m/s", "velocity, positive in rebound", lower=-20, upper=20, default=0.0)
 
 
@@ -428,15 +164,8 @@ class Outputs:
     """What the surroundings read. Force is positive where the damper is pulled in rebound."""
 
     force: float = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1")
-    k_degr: float = var(
-        "",
-        "k_degr",
-        "1",
-        "fluid force relative to the intact damper, mean over the step",
-        lower=0,
-        upper=1,
-        source="equations 23-39",
-    )
+    k_degr: float = var("", "k_degr", "1", "fluid force relative to the intact damper, mean over the step", lower=0,
+                        upper=1, source="equations 23-39")
     V1_oil: float = var("V1.oil", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5")
     V1_gas: float = var("V1.gas", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5")
     V1_foam: float = var("V1.foam", "V_1foam", "m3", "foam in the rebound chamber", lower=0, source="equation 5")
