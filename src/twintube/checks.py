@@ -95,6 +95,13 @@ def stroke_limit(d: Derived) -> float:
     return d.half_length - CLEARANCE
 
 
+def tube_limit(p: Parameters) -> float:
+    """The stroke limit [m] of a parameter set."""
+    d = blank(Derived)
+    prepare(p, d)
+    return stroke_limit(d)
+
+
 def bad_input(stroke: float, velocity: float, limit: float) -> str:
     """A message if the piston would leave the tube or an input is no number in its range, else an empty string."""
     return outside("stroke", stroke, -limit, limit, "m") or outside(

@@ -6,16 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from twintube import kernel
 from twintube.arrays import Array
-from twintube.checks import stroke_limit
+from twintube.checks import tube_limit
 from twintube.data.checks import check, computed
 from twintube.data.findings import DataError, Finding, Notes, UnreadableError
 from twintube.data.formats import read_raw
 from twintube.data.manifest import Entry, Manifest, read_manifest
 from twintube.data.table import Table, convert
 from twintube.parameters import Damper, ParameterError, load, names
-from twintube.variables import Derived, blank
 
 FILE = "dataset.toml"
 MEASURED = "measured"
@@ -135,9 +133,7 @@ def read_record(entry: Entry, folder: Path, damper: Damper | None, notes: Notes,
                 message = f"{entry.where}oil_volume_mL = {entry.oil_volume * 1e6:g}: must be from 0 to {most:g} mL"
                 notes.error(message + f", the intact volume of {damper.name}", "oil_volume_mL", entry.line)
                 entry = replace(entry, complete=False)
-        d = blank(Derived)
-        kernel.prepare(damper.parameters, d)
-        limit = stroke_limit(d)
+        limit = tube_limit(damper.parameters)
     if not entry.file:
         return None
     try:

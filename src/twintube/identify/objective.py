@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from twintube import compiled
 from twintube.arrays import Array
-from twintube.checks import stroke_limit
+from twintube.checks import tube_limit
 from twintube.parameters import Damper
-from twintube.simulate import InputError, at_rest, checked
+from twintube.simulate import InputError, checked
 from twintube.variables import Derived, Flow, Parameters, State, blank
 
 # Samples per oscillation that the records are thinned to; tests/identify shows that more do not change the result.
@@ -77,7 +77,7 @@ class Objective:
         table = {item.name: item.metadata for item in fields(Parameters)}
         self.bounds = np.array([[table[n]["lower"], table[n]["upper"]] for n in names], dtype=float)
         thin = [record.thinned(samples) for record in records]
-        limit = stroke_limit(at_rest(base, 0.0)[1])
+        limit = tube_limit(base.parameters)
         for record in thin:
             checked(record.stroke, record.velocity, limit)
         self.starts = np.concatenate([[0], np.cumsum([len(r.time) for r in thin])]).astype(np.int64)

@@ -31,14 +31,12 @@ from typing import Any
 import numpy as np
 
 from twintube import parameters
-from twintube.checks import outside, problems, stroke_limit
-from twintube.kernel import prepare
+from twintube.checks import outside, problems, tube_limit
 from twintube.parameters import Damper, ParameterError, line_of, quantity, suggestion
 from twintube.record import read_csv
 from twintube.rig import AMPLITUDE, BLOCKS, OSCILLATIONS, V_PRECONDITIONING
 from twintube.simulate import InputError, checked
 from twintube.studies.definition import FIELDS, Signal, Study, StudyError
-from twintube.variables import Derived, blank
 
 MAX_CASES = 1_000_000
 MAX_SAMPLES = 4_000_000  # of a block, 0.5 GB of results
@@ -281,9 +279,7 @@ def misfits(study: Study) -> list[str]:
         found = problems(p)
         if found:
             return [f"{where}: {found[0]}"]
-        d = blank(Derived)
-        prepare(p, d)
-        limit = stroke_limit(d)
+        limit = tube_limit(p)
         for amplitude in amplitudes:
             message = outside("amplitude", amplitude, 0.0, limit, "m")
             if message:
