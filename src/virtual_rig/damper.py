@@ -1,19 +1,28 @@
-"""The virtual damper: geometry of a damper of the paper, hydraulics of a typical one."""
+"""The virtual damper: geometry of a damper of the paper, hydraulics of a typical one sized for that damper's forces."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import pi
+from math import pi, sqrt
+
+import numpy as np
 
 from twintube.parameters import load
-from virtual_rig.physics import P_0, Constants
+from virtual_rig.constants import Constants
+from virtual_rig.physics import P_0
 
 BAR = 1e5  # [Pa]
+DESIGN = (0.132, 1.056)  # [m/s] velocities at which the valves are sized: below and well above their opening
+# Pressure drop of the foot valve relative to the piston's in compression, at the two velocities. As low as the preload
+# allows without cavitation in the rebound chamber, which is what a preload is for: without it, the chamber starves.
+FOOT_TO_PISTON = (1.25, 0.85)
 
 
 @dataclass(frozen=True)
 class VirtualDamper:
     """Geometry and physical constants, SI units; valve areas are relative to the area that feeds the valve.
 
-    The hydraulics are assumed, typical of a passenger car's damper, and none of them is a parameter of `twintube`.
+    The constants are assumed, typical of a passenger car's damper, the same for all dampers, and none is a parameter of
+    `twintube`; the valves are sized, see `sized`.
     """
 
     name: str  # the damper whose geometry this is
@@ -25,28 +34,37 @@ class VirtualDamper:
     dead_length: float  # [m] of it taken by piston, stops and foot valve
     V_oil: float  # [m3] oil of the intact damper
 
+    piston_bleed: float  # [1] of A_1
+    piston_crack: float  # [Pa] of the blow-off valve in rebound
+    piston_opening: float  # [1/Pa] of A_1
+    check_crack: float  # [Pa] of the piston's valve in compression
+    check_opening: float  # [1/Pa] of A_1
+    base_bleed: float  # [1] of A_rod
+    base_crack: float  # [Pa] of the foot's blow-off valve in compression
+    base_opening: float  # [1/Pa] of A_rod
+    piston_gap: float  # [m3/(Pa s)] laminar leak past the piston at 25 degC
+
+    overhang: float = 0.02  # [m] outer tube beyond the inner tube: foot below the foot valve, room under the rod guide
     preload: float = 5.0 * BAR  # [Pa] gauge pressure of the reserve's gas
     n_reserve: float = 1.1  # [1] polytropic exponent of the reserve's gas
     K_oil: float = 0.8e9  # [Pa] bulk modulus of oil and tube
     rho_oil: float = 860.0  # [kg/m3]
     C_d: float = 0.7  # [1] discharge coefficient
-    piston_bleed: float = 3.3e-3  # [1] of A_1
-    piston_crack: float = 8.0 * BAR  # [Pa]
-    piston_opening: float = 4.3e-4 / BAR  # [1/Pa] of A_1
-    piston_check: float = 0.07  # [1] of A_1
-    base_bleed: float = 1.8e-3  # [1] of A_rod
-    base_crack: float = 10.0 * BAR  # [Pa]
-    base_opening: float = 1.1e-3 / BAR  # [1/Pa] of A_rod
-    base_check: float = 0.45  # [1] of A_rod
-    check_pressure: float = 0.05 * BAR  # [Pa] at which a check valve is fully open
-    rod_guide: float = 5e-7  # [m2] gap from the rebound chamber to the reserve
-    piston_gap: float = 1e-11  # [m3/(Pa s)] laminar leak past the piston at 25 degC
+    suction: float = 0.45  # [1] of A_rod: suction valve of the foot, and its windows to the reserve
+    suction_pressure: float = 0.05 * BAR  # [Pa] at which the suction valve is fully open
+    rod_guide: float = 1e-7  # [m2] notch from rebound chamber to reserve: a hole of 0.36 mm, whose lip lets nothing back
+    rod_clearance: float = 3e-5  # [m] between rod and guide: gas gets through a hundred times more easily than oil
+    guide_length: float = 0.015  # [m]
+    viscosity: float = 1.2e-5  # [m2/s] of oil at 25 degC
     thinning: float = 0.03  # [1/K] share of viscosity lost per kelvin
     port: float = 2e-3  # [m] height of oil over which a port changes from oil to gas at rest
     draw: float = 1.2  # [1] the same under flow, relative to (Q^2/g)^(1/5), the height from which a port draws
     v_mix: float = 0.2  # [m/s] piston velocity whose flow breaks half of the gas into bubbles
-    jet: float = 0.5  # [1] pocket gas that an oil jet drags below, per oil
-    t_separate: float = 15.0  # [s] time constant of rising bubbles
+    jet: float = 1.0  # [1] pocket gas that an oil jet drags below, per oil: plunging jets of 50 m/s take about their volume
+    jet_width: float = 8e-3  # [m] width of a foot-valve jet: a window in the foot, or the gap of the reserve
+    released: float = 0.3  # [1] largest share of the dissolved gas that one pass of a cavitating valve releases
+    cavitating: float = 20.0  # [1] pressure drop over downstream pressure at which a valve releases half of that
+    t_separate: float = 20.0  # [s] time constant of rising bubbles: 0.3 mm at 5 mm/s through 0.1 m
     solubility: float = 0.103  # [1] dissolved gas per oil at 1 bar: 9.3 to 11.3 % (paper)
     t_release: float = 5.6  # [s] half-life of released gas: 3.6 to 7.6 s (paper)
     t_dissolve: float = 8.2  # [s] half-life of dissolving bubbles: 6.1 to 10.2 s (paper)
@@ -73,6 +91,11 @@ class VirtualDamper:
         """Annulus of the piston [m2]."""
         return self.A_2 - self.A_rod
 
+    @property
+    def A_3(self) -> float:
+        """Cross-section of the reserve [m2]."""
+        return pi / 4 * (self.D_a**2 - self.D_la**2)
+
     def constants(self, gas_preload: bool, ambient_degC: float) -> Constants:
         """What the right-hand side needs."""
         half = (self.h_l - self.dead_length) / 2
@@ -81,21 +104,65 @@ class VirtualDamper:
             "V_20": self.A_2 * half,
             "height_1": half,
             "height_2": half,
-            "height_3": self.h_l,
-            "V_3": pi / 4 * (self.D_a**2 - self.D_la**2) * self.h_l,
+            "height_3": self.h_l + self.overhang,
+            "V_3": self.A_3 * (self.h_l + self.overhang),
             "p_fill": P_0 + (self.preload if gas_preload else 0.0),
             "Q_mix": self.A_2 * self.v_mix,
+            "wetted": pi * (self.D_a + self.D_la),
+            "guide_gap": pi * self.D_PR * self.rod_clearance**3 / (12 * self.viscosity * self.rho_oil * self.guide_length),
             "T_ambient": ambient_degC,
         }
-        for name in ("piston_bleed", "piston_opening", "piston_check"):
+        for name in ("piston_bleed", "piston_opening", "check_opening"):
             derived[name] = getattr(self, name) * self.A_1
-        for name in ("base_bleed", "base_opening", "base_check"):
+        for name in ("base_bleed", "base_opening", "suction"):
             derived[name] = getattr(self, name) * self.A_rod
-        return Constants(**{name: derived.get(name, getattr(self, name, 0.0)) for name in Constants._fields})
+        # Floats throughout: numba would compile anew for an integer.
+        return Constants(*(float(derived[name] if name in derived else getattr(self, name)) for name in Constants._fields))
 
 
 def virtual_damper(name: str = "SA8", **changes: float) -> VirtualDamper:
-    """A virtual damper with the geometry of one of the paper's, e.g. `virtual_damper("SA1", preload=4e5)`."""
+    """A virtual damper with the geometry of one of the paper's, e.g. `virtual_damper("SA1", preload=4e5)`.
+
+    Its valves are sized for the forces of the F-v curve of that damper.
+    """
     p = load(name).parameters
     geometry = {item: getattr(p, item) for item in ("D_PR", "D_li", "D_la", "D_a", "h_l", "dead_length", "V_oil")}
-    return VirtualDamper(name=name, **(geometry | changes))
+    rebound, compression = ([float(np.interp(v, *curve)) for v in DESIGN] for curve in ((p.v_re, p.F_re), (p.v_co, p.F_co)))
+    valves = sized(geometry["D_PR"], geometry["D_li"], rebound, compression)
+    return VirtualDamper(name=name, **(geometry | valves | changes))
+
+
+def sized(
+    D_PR: float, D_li: float, rebound: Sequence[float], compression: Sequence[float], leak: float = 0.15
+) -> dict[str, float]:
+    """Valves with which the damper reaches the forces [N] at the DESIGN velocities, as a damper designer sizes them.
+
+    The bleeds and the leak past the piston, a share `leak` [1] of the flow, carry the lower velocity; the blow-off valves
+    open there and make up for the rest at the higher one. In compression both valves share the force.
+    """
+    A_rod = pi / 4 * D_PR**2
+    A_1 = pi / 4 * D_li**2 - A_rod
+    slow, fast = DESIGN
+
+    def area(v: float, dp: float) -> float:
+        """Of an orifice, relative to the area that feeds it at v [m/s]."""
+        return v / VirtualDamper.C_d / sqrt(2 * dp / VirtualDamper.rho_oil)
+
+    down = [F / A_1 for F in rebound]
+    piston = [F / (A_1 + ratio * A_rod) for F, ratio in zip(compression, FOOT_TO_PISTON, strict=True)]
+    foot = [ratio * dp for dp, ratio in zip(piston, FOOT_TO_PISTON, strict=True)]
+    gap = leak * slow / down[0]  # [m/(Pa s)]
+    bleed = area((1 - leak) * slow, down[0])
+    foot_bleed = area(slow, foot[0])
+    check_opening = (area(fast, piston[1]) - area(slow, piston[0])) / (piston[1] - piston[0])
+    return {
+        "piston_gap": gap * A_1,
+        "piston_bleed": bleed,
+        "piston_crack": down[0],
+        "piston_opening": (area(fast - gap * down[1], down[1]) - bleed) / (down[1] - down[0]),
+        "check_crack": piston[0] - (area(slow, piston[0]) - bleed) / check_opening,
+        "check_opening": check_opening,
+        "base_bleed": foot_bleed,
+        "base_crack": foot[0],
+        "base_opening": (area(fast, foot[1]) - foot_bleed) / (foot[1] - foot[0]),
+    }

@@ -1,16 +1,23 @@
 """Right-hand side of the rig's damper: masses in three chambers, pressures from them, compiled by numba.
 
-Volumes of oil and amounts of gas are standard volumes [m3] at P_0 and T_0, so that they are conserved. All compiled
-functions stay in this one file, because numba's cache does not notice a change in another one.
+The states are masses instead of chamber pressures: at a given stroke a chamber's oil and gas fix its pressure, so that
+both are the same state in other coordinates, but masses are conserved to rounding, and a pressure state would drift.
+They are written as standard volumes [m3] at P_0 and T_0. Fade comes from four places: without preload, gas below the
+piston leaves the foot valve too little back pressure to fill the rebound chamber; the reserve's gas is sucked in where
+oil is missing; foot-valve jets throw oil onto the reserve's walls, from where it runs down too late for the next stroke;
+a valve's jet releases dissolved gas. All compiled functions stay in this one file, because numba's cache does not notice
+a change in another one.
 """
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from virtual_rig.constants import Constants
 
 F = TypeVar("F", bound=Callable[..., Any])
 Array = NDArray[np.float64]
@@ -22,54 +29,9 @@ P_SMOOTH = 1.0e3  # [Pa] below it an orifice is nearly laminar
 TINY = 1.0e-12  # [m3]
 
 # States: oil, gas in a pocket above the oil, gas in bubbles, dissolved gas, each in the rebound chamber 0, the compression
-# chamber 1 and the reserve 2; oil temperature [degC], bristle deflection [m], energy dissipated [J].
-OIL, POCKET, BUBBLES, DISSOLVED, TEMPERATURE, BRISTLE, ENERGY, STATES = 0, 3, 6, 9, 12, 13, 14, 15
-
-
-class Constants(NamedTuple):
-    """What the right-hand side knows of a damper, SI units."""
-
-    A_1: float  # [m2] annulus of the piston
-    A_2: float  # [m2] piston
-    V_10: float  # [m3] rebound chamber at stroke 0
-    V_20: float  # [m3] compression chamber at stroke 0
-    V_3: float  # [m3] reserve
-    p_fill: float  # [Pa] absolute reserve pressure in the initial state
-    n_reserve: float  # [1] polytropic exponent of the reserve's gas
-    K_oil: float  # [Pa] bulk modulus of oil and tube
-    rho_oil: float  # [kg/m3]
-    C_d: float  # [1] discharge coefficient
-    piston_bleed: float  # [m2]
-    piston_crack: float  # [Pa] opening of the blow-off valve in rebound
-    piston_opening: float  # [m2/Pa] its area per pressure above the opening
-    piston_check: float  # [m2] check valve, open in compression
-    base_bleed: float  # [m2]
-    base_crack: float  # [Pa] opening of the blow-off valve in compression
-    base_opening: float  # [m2/Pa]
-    base_check: float  # [m2] suction valve, open in rebound
-    check_pressure: float  # [Pa] at which a check valve is fully open
-    rod_guide: float  # [m2] gap from the rebound chamber to the reserve
-    piston_gap: float  # [m3/(Pa s)] laminar leak past the piston at 25 degC
-    thinning: float  # [1/K] share of viscosity lost per kelvin
-    port: float  # [m] height of oil over which a port changes from oil to gas at rest
-    draw: float  # [1] the same under flow, relative to (Q^2/g)^(1/5), the height from which a port draws
-    height_1: float  # [m] rebound chamber at stroke 0
-    height_2: float  # [m] compression chamber at stroke 0
-    height_3: float  # [m] reserve
-    Q_mix: float  # [m3/s] flow at which half of the gas is broken into bubbles
-    jet: float  # [1] pocket gas that an oil jet drags below, per oil
-    t_separate: float  # [s] time constant of rising bubbles
-    solubility: float  # [1] dissolved gas per oil at P_0
-    t_release: float  # [s] half-life of dissolved gas above saturation
-    t_dissolve: float  # [s] half-life of bubbles below saturation
-    heat_capacity: float  # [J/K]
-    cooling: float  # [W/K]
-    T_ambient: float  # [degC]
-    F_static: float  # [N]
-    F_sliding: float  # [N]
-    v_stribeck: float  # [m/s]
-    bristle: float  # [N/m]
-    viscous: float  # [N s/m]
+# chamber 1 and the reserve 2; oil on the reserve's walls [m3], oil temperature [degC], bristle deflection [m], energy
+# dissipated [J]. The gas dissolved in the reserve is in both of its oils.
+OIL, POCKET, BUBBLES, DISSOLVED, FILM, TEMPERATURE, BRISTLE, ENERGY, STATES = 0, 3, 6, 9, 12, 13, 14, 15, 16
 
 
 def compiled(function: F) -> F:
@@ -108,7 +70,7 @@ def pressures(z: float, y: Array, c: Constants) -> tuple[float, float, float]:
     warm = warmth(y[TEMPERATURE])
     p_1 = chamber_pressure(c.V_10 - c.A_1 * z, y[OIL], (y[POCKET] + y[BUBBLES]) * warm, c.K_oil)
     p_2 = chamber_pressure(c.V_20 + c.A_2 * z, y[OIL + 1], (y[POCKET + 1] + y[BUBBLES + 1]) * warm, c.K_oil)
-    return p_1, p_2, reserve_pressure(y[OIL + 2], y[POCKET + 2] + y[BUBBLES + 2], warm, c)
+    return p_1, p_2, reserve_pressure(y[OIL + 2] + y[FILM], y[POCKET + 2] + y[BUBBLES + 2], warm, c)
 
 
 @compiled
@@ -121,16 +83,17 @@ def friction(v: float, bristle: float, c: Constants) -> tuple[float, float]:
 
 @compiled
 def opened(p: float, p_full: float) -> float:
-    """Opening of a check valve [1], smooth between 0 and `p_full`."""
+    """Opening of the suction valve [1], smooth between 0 and `p_full`."""
     x = min(max(p / p_full, 0.0), 1.0)
     return x * x * (3.0 - 2.0 * x)
 
 
 @compiled
 def blow_off(p: float, crack: float, slope: float) -> float:
-    """Area [m2] of a pressure-relief valve, rounded over a tenth of its opening pressure."""
-    x = p - crack
-    return slope * 0.5 * (x + math.sqrt(x * x + (0.1 * crack) ** 2) - 0.1 * crack) if x > -crack else 0.0
+    """Area [m2] of a pressure-relief valve, rounded over a tenth of its opening pressure, and closed below."""
+    w = 0.1 * crack
+    x = max(p - crack + w, 0.0)
+    return slope * x * x / (4.0 * w) if x < 2.0 * w else slope * (x - w)
 
 
 @compiled
@@ -160,6 +123,38 @@ def orifice(dp: float, area: float, gap: float, rho: float, oil: float, c: Const
 
 
 @compiled
+def all_oil(i: int, y: Array) -> float:
+    """Oil of chamber i with that on the walls [m3]."""
+    total: float = max(y[OIL + i], 0.0)
+    if i == 2:
+        total += max(y[FILM], 0.0)
+    return total
+
+
+@compiled
+def throw(Q: float, Q_oil: float, y: Array, dy: Array, c: Constants) -> None:
+    """Throw a share of what leaves the foot valve onto the reserve's walls: half of it at a jet's head of half the height.
+
+    A turbulent jet keeps its speed for six widths of oil above it and then slows with distance.
+    """
+    pool = max(y[OIL + 2], 0.0) / c.A_3
+    speed = Q / c.suction / (1.0 + pool / (6.0 * c.jet_width))
+    head = speed * speed / (2.0 * 9.81) / (0.5 * c.height_3)
+    thrown = head * head / (head * head + 1.0) * Q_oil
+    dy[OIL + 2] -= thrown
+    dy[FILM] += thrown
+
+
+@compiled
+def drain(thin: float, y: Array, dy: Array, c: Constants) -> None:
+    """Let the oil on the walls run down: a laminar film over the reserve's height."""
+    thick = max(y[FILM], 0.0) / (c.wetted * c.height_3)
+    drained = c.wetted * 9.81 * thick**3 / (3.0 * c.viscosity) * thin
+    dy[FILM] -= drained
+    dy[OIL + 2] += drained
+
+
+@compiled
 def transfer(
     i: int, j: int, area: float, gap: float, bottom: bool, p: float, p_to: float, y: Array, dy: Array, c: Constants
 ) -> float:
@@ -172,19 +167,24 @@ def transfer(
     Q_oil = Q * oil / max(1.0 - (p - P_0) / c.K_oil, 0.5)
     Q_pocket = Q * pocket * per_gas
     Q_bubbles = Q * bubbles * per_gas
-    Q_dissolved = Q_oil * max(y[DISSOLVED + i], 0.0) / max(y[OIL + i], TINY)
+    Q_dissolved = Q_oil * max(y[DISSOLVED + i], 0.0) / max(all_oil(i, y), TINY)
+    # The jet of a cavitating valve is nearly a vacuum inside, so that gas comes out of solution within a pass.
+    x = ((p - p_to) / (p_to * c.cavitating)) ** 2
+    Q_released = c.released * x / (1.0 + x) * Q_dissolved
     dy[OIL + i] -= Q_oil
     dy[OIL + j] += Q_oil
     dy[POCKET + i] -= Q_pocket
     dy[BUBBLES + i] -= Q_bubbles
     dy[DISSOLVED + i] -= Q_dissolved
-    dy[DISSOLVED + j] += Q_dissolved
+    dy[DISSOLVED + j] += Q_dissolved - Q_released
+    if i == 1 and j == 2:
+        throw(Q, Q_oil, y, dy, c)
     # Gas that comes out below oil is broken into bubbles if the flow is fast; an oil jet drags pocket gas below.
     fast = Q * Q / (Q * Q + c.Q_mix * c.Q_mix)
-    from_below = not (i == 0 and j == 1)
+    from_below = i != 0
     wet, dry, froth = shares(j, p_to, 0.0, y, from_below, c)
     broken = fast * (wet + froth)
-    dy[BUBBLES + j] += Q_bubbles + broken * Q_pocket
+    dy[BUBBLES + j] += Q_bubbles + Q_released + broken * Q_pocket
     dy[POCKET + j] += (1.0 - broken) * Q_pocket
     if not from_below:
         dragged = c.jet * fast * Q_oil * dry * p_to / P_0 / warm
@@ -196,7 +196,7 @@ def transfer(
 @compiled
 def exchange(i: int, p: float, y: Array, dy: Array, c: Constants) -> None:
     """Henry: release above saturation, dissolution of bubbles below it; bubbles rise into the pocket."""
-    saturated = c.solubility * max(y[OIL + i], 0.0) * p / P_0
+    saturated = c.solubility * all_oil(i, y) * p / P_0
     excess = y[DISSOLVED + i] - saturated
     if excess > 0.0:
         rate = math.log(2.0) / c.t_release * excess
@@ -213,21 +213,23 @@ def rates(z: float, v: float, y: Array, dy: Array, c: Constants) -> None:
     """Rates `dy` of the states `y` at the stroke z [m] and velocity v [m/s]."""
     dy[:] = 0.0
     p_1, p_2, p_3 = pressures(z, y, c)
-    gap = c.piston_gap * math.exp(c.thinning * min(max(y[TEMPERATURE] - 25.0, -100.0), 200.0))
+    thin = math.exp(c.thinning * min(max(y[TEMPERATURE] - 25.0, -100.0), 200.0))
+    gap = c.piston_gap * thin
     if p_1 > p_2:
         area = c.piston_bleed + blow_off(p_1 - p_2, c.piston_crack, c.piston_opening)
         power = transfer(0, 1, area, gap, True, p_1, p_2, y, dy, c)
     else:
-        area = c.piston_bleed + c.piston_check * opened(p_2 - p_1, c.check_pressure)
+        area = c.piston_bleed + blow_off(p_2 - p_1, c.check_crack, c.check_opening)
         power = transfer(1, 0, area, gap, False, p_2, p_1, y, dy, c)
     if p_2 > p_3:
         area = c.base_bleed + blow_off(p_2 - p_3, c.base_crack, c.base_opening)
         power += transfer(1, 2, area, 0.0, True, p_2, p_3, y, dy, c)
     else:
-        area = c.base_bleed + c.base_check * opened(p_3 - p_2, c.check_pressure)
+        area = c.base_bleed + c.suction * opened(p_3 - p_2, c.suction_pressure)
         power += transfer(2, 1, area, 0.0, True, p_3, p_2, y, dy, c)
     if p_1 > p_3:
-        power += transfer(0, 2, c.rod_guide, 0.0, False, p_1, p_3, y, dy, c)
+        power += transfer(0, 2, c.rod_guide, c.guide_gap * thin, False, p_1, p_3, y, dy, c)
+    drain(thin, y, dy, c)
     exchange(0, p_1, y, dy, c)
     exchange(1, p_2, y, dy, c)
     exchange(2, p_3, y, dy, c)

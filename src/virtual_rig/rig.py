@@ -6,11 +6,13 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
+from virtual_rig.constants import Constants
 from virtual_rig.damper import VirtualDamper
 from virtual_rig.physics import (
     BUBBLES,
     DISSOLVED,
     ENERGY,
+    FILM,
     OIL,
     P_0,
     POCKET,
@@ -18,13 +20,12 @@ from virtual_rig.physics import (
     T_0,
     TEMPERATURE,
     Array,
-    Constants,
     outputs,
     right_hand_side,
 )
 
 RTOL = 1e-7
-ATOL = np.array([1e-12] * 12 + [1e-5, 1e-9, 1e-3])  # [m3], [degC], [m], [J]
+ATOL = np.array([1e-12] * 13 + [1e-5, 1e-9, 1e-3])  # [m3], [degC], [m], [J]
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,7 @@ class VirtualRecord:
     dissipated: Array  # [J] turned into heat since the start
     pressure: Array  # [Pa] absolute, (3, n)
     oil: Array  # [m3] at ambient pressure, (3, n)
+    film: Array  # [m3] the part of the oil that is on the walls of the reserve, (n,)
     free_gas: Array  # [m3] at ambient pressure and 25 degC, pockets and bubbles, (3, n)
     bubbles: Array  # [m3] the part of free_gas that is in bubbles, (3, n)
     dissolved_gas: Array  # [m3] at ambient pressure and 25 degC, (3, n)
@@ -112,7 +114,8 @@ def run(
         temperature=solution.y[TEMPERATURE],
         dissipated=solution.y[ENERGY],
         pressure=out[1:],
-        oil=solution.y[OIL : OIL + 3],
+        oil=solution.y[OIL : OIL + 3] + np.outer([0, 0, 1], solution.y[FILM]),
+        film=solution.y[FILM],
         free_gas=solution.y[POCKET : POCKET + 3] + solution.y[BUBBLES : BUBBLES + 3],
         bubbles=solution.y[BUBBLES : BUBBLES + 3],
         dissolved_gas=solution.y[DISSOLVED : DISSOLVED + 3],
