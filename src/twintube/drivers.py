@@ -108,7 +108,8 @@ def run_errors(
     """Squared errors of a parameter set `p` against all records, laid end to end.
 
     `states` (r, 2) are the records' oil level and preload, `starts` (r + 1,) where they begin, `marks` (r, c + 1) where
-    their oscillations begin and end; samples before the first mark count nothing. `out` (r, 2) takes the sums of the
+    their oscillations begin and end; samples before the first mark count nothing. `force` is the measured force's mean
+    over the time since the sample before. `out` (r, 2) takes the sums of the
     squared errors of the force [N2] and of the works of the oscillations [J2], `work` (r, c) being the measured ones.
     Returns the number of records done.
     """
@@ -125,14 +126,18 @@ def run_errors(
         out[r, 0] = 0.0
         out[r, 1] = 0.0
         for i in range(first, starts[r + 1]):
+            from_z = s.z
+            from_work = s.work
             if not step(p, d, s, f, z[i], before, v[i]):
                 return r
             before = v[i]
             if i == marks[r, 0]:
                 done = s.work
-            if i >= marks[r, 0]:
-                # k_degr of this moment, not the mean over the step: samples are far apart here.
-                error = fluid_force(p, v[i]) * f.k_degr + s.F_friction + s.F_gas - force[i]
+            elif i > marks[r, 0]:
+                # Force times stroke of the step over the stroke: the mean force, wherever in the step it jumped.
+                way = z[i] - from_z
+                mean = (s.work - from_work) / way if abs(way) > 1e-9 else s.F_fluid + s.F_friction
+                error = mean + d.c_gas * 0.5 * (from_z + z[i]) - d.F_0 - force[i]
                 out[r, 0] += error * error
             if cycle < cycles and i == marks[r, cycle + 1]:
                 error = s.work - done - work[r, cycle]

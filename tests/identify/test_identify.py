@@ -14,6 +14,7 @@ from twintube.rig import BLOCKS, harmonic_block
 from twintube.simulate import InputError, simulate
 
 NEUTRAL = {"S_BV": 0.0, "S_PV": 0.0, "Y_Co_cav": 0.0, "Y_Re_cav": 0.0}
+FINER = 16  # steps of the truth per sample: its forces are means over a step, a sensor's are not
 
 
 def records_of(damper: Damper, velocities: Sequence[float], noise: float, seed: int = 0) -> list[Harmonic]:
@@ -22,10 +23,12 @@ def records_of(damper: Damper, velocities: Sequence[float], noise: float, seed: 
     found = []
     for level in damper.measured_levels:
         for v in velocities:
-            block = harmonic_block(v, dt=4e-4)
-            result = simulate(damper.with_(oil_level=level, gas_preload=0), block.stroke, block.velocity)
-            force = result.force + rng.normal(0, noise * np.abs(result.force).max(), len(result.force))
-            found.append(Harmonic(level, 0, block.time, block.stroke, block.velocity, force, block.marks))
+            block = harmonic_block(v, dt=4e-4 / FINER)
+            fine = simulate(damper.with_(oil_level=level, gas_preload=0), block.stroke, block.velocity).force
+            kept = np.unique(np.concatenate([np.arange(0, len(fine), FINER), block.marks]))
+            force = fine[kept] + rng.normal(0, noise * np.abs(fine).max(), len(kept))
+            marks = np.searchsorted(kept, block.marks)
+            found.append(Harmonic(level, 0, block.time[kept], block.stroke[kept], block.velocity[kept], force, marks))
     return found
 
 

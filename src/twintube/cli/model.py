@@ -1,9 +1,7 @@
-"""The command `twintube`."""
+"""Commands about the model: parameter sets, simulation, excitations, claims."""
 
 import json
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,38 +11,10 @@ import typer
 from tqdm import tqdm
 
 from twintube import parameters
+from twintube.cli.base import answering, app, write
 from twintube.parameters import ParameterError
 from twintube.simulate import InputError
 from twintube.variables import Inputs, Outputs, Parameters, fmi_name
-
-app = typer.Typer(
-    add_completion=False,
-    no_args_is_help=True,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-    help="Twin-tube shock absorber after oil and gas loss: parameter sets, simulation, claims of the paper.",
-)
-
-
-@contextmanager
-def answering() -> Iterator[None]:
-    """Bad input ends with one line on standard error and exit status 2."""
-    try:
-        yield
-    except (ParameterError, InputError, OSError) as error:
-        typer.echo(f"error: {error}", err=True)
-        raise typer.Exit(2) from None
-
-
-def write(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(path.name + ".part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 @app.command(epilog="Example: twintube dampers SA8")
@@ -127,42 +97,6 @@ def rig(
         typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
 
 
-@app.command(epilog="Example: twintube check my_dataset")
-def check(
-    dataset: Annotated[Path, typer.Argument(help="A folder with dataset.toml and its records, or that file.")],
-) -> None:
-    """Read measured data and report everything that is wrong or odd; nothing is repaired."""
-    from twintube.data import check_dataset
-
-    with answering():
-        found = check_dataset(dataset)
-        for finding in found.findings:
-            typer.echo(str(finding))
-        if found.errors:
-            raise InputError(f"{dataset}: {len(found.errors)} errors, the dataset cannot be used")
-        typer.echo(f"{dataset}: {len(found.records)} records, {len(found.findings)} warnings, no error")
-
-
-@app.command(epilog="Example: twintube study oil_levels --output oil_levels.parquet")
-def study(
-    definition: Annotated[
-        str, typer.Argument(help="variants (Figure 33), oil_levels (Figure 34), or a study file in TOML.")
-    ],
-    output: Annotated[Path, typer.Option(help="Parquet file for the result.")] = Path("study.parquet"),
-    processes: Annotated[int | None, typer.Option(help="Processes on this machine; all cores if left out.")] = None,
-    cluster: Annotated[
-        str | None, typer.Option(help="Dask scheduler that computes instead, e.g. tcp://10.0.0.1:8786 (extra cluster).")
-    ] = None,
-) -> None:
-    """Compute a grid over dampers, signals, parameters, oil levels and model variants into a Parquet file."""
-    from twintube import studies
-
-    with answering():
-        chosen = studies.load(definition)
-        rows = studies.run(chosen, output, processes=processes, cluster=cluster)
-        typer.echo(f"{output}: {rows} rows of {len(chosen)} cases, {chosen.title}")
-
-
 @app.command(epilog="Example: twintube claims --json claims.json")
 def claims(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write one entry per claim to this file.")] = None,
@@ -241,7 +175,3 @@ def variables() -> None:
                 meta["source"],
             )
             typer.echo("| " + " | ".join(cells) + " |")
-
-
-if __name__ == "__main__":
-    app()

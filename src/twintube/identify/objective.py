@@ -1,14 +1,16 @@
 """How far a parameter set is from the records: equations 42 and 43, for a whole swarm at once."""
 
+import hashlib
 import itertools
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
 
 from twintube import compiled
 from twintube.arrays import Array
@@ -19,6 +21,7 @@ from twintube.variables import Derived, Flow, Parameters, State, blank
 
 # Samples per oscillation that the records are thinned to; tests/identify shows that more do not change the result.
 SAMPLES = 64
+FASTER = 1.2
 TABLE_6 = ("X_Re", "L_PV", "G_PV", "X_Co1", "X_Co2")
 TABLES_7_8 = ("S_BV", "S_BVoil", "S_PV", "S_PVoil", "B", "E", "v_cav", "Y_Co_cav", "Y_Re_cav")
 
@@ -34,14 +37,21 @@ class Harmonic:
     velocity: Array
     force: Array
     marks: NDArray[np.int64]
+    name: str = ""
 
     @property
     def top_speed(self) -> float:
-        """Largest speed of the measured oscillations [m/s]."""
-        return float(np.abs(self.velocity[self.marks[0] :]).max())
+        """Largest speed of a sine with the measured amplitude and frequency [m/s]: free of the noise of a velocity."""
+        first, last = int(self.marks[0]), int(self.marks[-1])
+        turns = 2 * np.pi * (len(self.marks) - 1) / (self.time[last] - self.time[first])
+        return float(turns * np.ptp(self.stroke[first:last]) / 2)
 
     def thinned(self, samples: int) -> "Harmonic":
-        """The record with about `samples` per oscillation, before the first mark as densely as in an oscillation."""
+        """The record with about `samples` per oscillation, before the first mark as densely as in an oscillation.
+
+        Its force is the mean since the sample before: where the force jumps, a sample alone would say on which side of the
+        jump it happens to lie, and no objective made from such samples is smooth.
+        """
         pieces, marks = [], [0]
         edges = [0, *self.marks.tolist()] if self.marks[0] > 0 else self.marks.tolist()
         for a, b in itertools.pairwise(edges):
@@ -52,8 +62,10 @@ class Harmonic:
         pieces.append(np.array([edges[-1]]))
         kept = np.concatenate(pieces)
         new_marks = marks[1:] if self.marks[0] > 0 else marks
-        time, stroke, velocity, force = (x[kept] for x in (self.time, self.stroke, self.velocity, self.force))
-        return Harmonic(self.oil_level, self.gas_preload, time, stroke, velocity, force, np.array(new_marks))
+        time, stroke, velocity = (x[kept] for x in (self.time, self.stroke, self.velocity))
+        impulse = np.concatenate([[0.0], cumulative_trapezoid(self.force, self.time)])[kept]
+        force = np.concatenate([self.force[kept[:1]], np.diff(impulse) / np.diff(time)])
+        return replace(self, time=time, stroke=stroke, velocity=velocity, force=force, marks=np.array(new_marks))
 
     def works(self) -> Array:
         """Measured work [J] of each oscillation: the area of the loop."""
@@ -75,8 +87,13 @@ class Objective:
             raise InputError("no records to identify from")
         self.base, self.names, self.with_work = base, tuple(names), with_work
         table = {item.name: item.metadata for item in fields(Parameters)}
-        self.bounds = np.array([[table[n]["lower"], table[n]["upper"]] for n in names], dtype=float)
-        thin = [record.thinned(samples) for record in records]
+        thin = self.records = [record.thinned(samples) for record in records]
+        fastest = max(record.top_speed for record in records)
+        # A cavitation threshold above every measured velocity is the same as none.
+        upper = {"v_cav": FASTER * fastest}
+        self.bounds = np.array(
+            [[table[n]["lower"], min(table[n]["upper"], upper.get(n, np.inf))] for n in names], dtype=float
+        )
         limit = tube_limit(base.parameters)
         for record in thin:
             checked(record.stroke, record.velocity, limit)
@@ -86,37 +103,40 @@ class Objective:
         self.states = np.array([[r.oil_level, r.gas_preload] for r in thin], dtype=float)
         self.z, self.v, self.force = (np.concatenate([getattr(r, n) for r in thin]) for n in ("stroke", "velocity", "force"))
         self.work = np.array([r.works()[: cycles - 1] for r in records])
-        self.counted = sum(len(r.time) - r.marks[0] for r in thin)
+        self.counted = sum(len(r.time) - 1 - r.marks[0] for r in thin)
         self.threads = ThreadPoolExecutor(os.cpu_count())
 
     def __call__(self, X: Array) -> Array:
         """Errors (m,) of the parameter sets X (m, k)."""
+        total = self.sums(X).sum(axis=1)
+        error: Array = np.sqrt(total[:, 0] / self.counted)
+        if self.with_work:
+            error += np.sqrt(total[:, 1] / self.work.size)
+        return error
+
+    def sums(self, X: Array) -> Array:
+        """Sums of squared errors (m, r, 2) of the parameter sets X (m, k) per record: force [N2], works [J2]."""
         parts = np.array_split(np.asarray(X, dtype=float), self.threads._max_workers)
         return np.concatenate(list(self.threads.map(self._part, parts)))
 
-    def squares(self, x: Array) -> Array:
-        """Sums of squared errors per record (r, 2) of one parameter set: force [N2], works [J2]."""
-        return self._squares(self._rows(), x)
+    def damper(self, x: Array) -> Damper:
+        """The base damper with the parameters x (k,)."""
+        return self.base.with_(**{name: float(value) for name, value in zip(self.names, x, strict=True)})
 
-    def _rows(self) -> list[Any]:
-        arrays = [compiled.as_row(r) for r in (self.base.parameters, blank(Derived), blank(State), blank(Flow))]
-        return [array[0] for array in arrays]
-
-    def _squares(self, rows: list[Any], x: Array) -> Array:
-        for name, value in zip(self.names, x, strict=True):
-            rows[0][name] = value
-        out = np.empty((len(self.states), 2))
+    @property
+    def digest(self) -> str:
+        """What the values depend on, so that a journal of other records or bounds is not taken for this one's."""
+        text = repr((self.base.parameters, self.names, self.with_work, self.bounds.tolist()))
         data = (self.states, self.z, self.v, self.force, self.starts, self.marks, self.work)
-        if compiled.module().run_errors(*rows, *data, out) < len(self.states):
-            out[:] = np.inf
-        return out
+        return hashlib.sha256(text.encode() + b"".join(np.ascontiguousarray(x).tobytes() for x in data)).hexdigest()[:16]
 
     def _part(self, X: Array) -> Array:
-        rows = self._rows()
-        found = np.empty(len(X))
+        rows: list[Any] = [compiled.as_row(r)[0] for r in (self.base.parameters, blank(Derived), blank(State), blank(Flow))]
+        out = np.empty((len(X), len(self.states), 2))
+        data = (self.states, self.z, self.v, self.force, self.starts, self.marks, self.work)
         for j, x in enumerate(X):
-            total = self._squares(rows, x).sum(axis=0)
-            found[j] = np.sqrt(total[0] / self.counted)
-            if self.with_work:
-                found[j] += np.sqrt(total[1] / self.work.size)
-        return found
+            for name, value in zip(self.names, x, strict=True):
+                rows[0][name] = value
+            if compiled.module().run_errors(*rows, *data, out[j]) < len(self.states):
+                out[j] = np.inf
+        return out

@@ -1,0 +1,5 @@
+"""`python -m twintube.cli`."""
+
+from twintube.cli import app
+
+app()

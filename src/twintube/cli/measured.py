@@ -1,0 +1,107 @@
+"""Commands about measured data and larger computations: check, identify, study."""
+
+import json
+import shutil
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from tqdm import tqdm
+
+from twintube.cli.base import answering, app, write
+from twintube.simulate import InputError
+
+
+@app.command(epilog="Example: twintube check my_dataset")
+def check(
+    dataset: Annotated[Path, typer.Argument(help="A folder with dataset.toml and its records, or that file.")],
+) -> None:
+    """Read measured data and report everything that is wrong or odd; nothing is repaired."""
+    from twintube.data import check_dataset
+
+    with answering():
+        found = check_dataset(dataset)
+        for finding in found.findings:
+            typer.echo(str(finding))
+        if found.errors:
+            raise InputError(f"{dataset}: {len(found.errors)} errors, the dataset cannot be used")
+        typer.echo(f"{dataset}: {len(found.records)} records, {len(found.findings)} warnings, no error")
+
+
+@app.command(epilog="Example: twintube study oil_levels --output oil_levels.parquet")
+def study(
+    definition: Annotated[
+        str, typer.Argument(help="variants (Figure 33), oil_levels (Figure 34), or a study file in TOML.")
+    ],
+    output: Annotated[Path, typer.Option(help="Parquet file for the result.")] = Path("study.parquet"),
+    processes: Annotated[int | None, typer.Option(help="Processes on this machine; all cores if left out.")] = None,
+    cluster: Annotated[
+        str | None, typer.Option(help="Dask scheduler that computes instead, e.g. tcp://10.0.0.1:8786 (extra cluster).")
+    ] = None,
+) -> None:
+    """Compute a grid over dampers, signals, parameters, oil levels and model variants into a Parquet file."""
+    from twintube import studies
+
+    with answering():
+        chosen = studies.load(definition)
+        rows = studies.run(chosen, output, processes=processes, cluster=cluster)
+        typer.echo(f"{output}: {rows} rows of {len(chosen)} cases, {chosen.title}")
+
+
+@app.command(epilog="Example: twintube identify my_dataset --output identified")
+def identify(
+    dataset: Annotated[Path, typer.Argument(help="A folder with dataset.toml and its records, or that file.")],
+    output: Annotated[Path, typer.Option(help="Folder for the parameter set, the report and its pictures.")] = Path(
+        "identified"
+    ),
+    method: Annotated[
+        str, typer.Option(help="Optimiser of the third and fourth step: pso (the paper's), cma or de.")
+    ] = "pso",
+    quick: Annotated[bool, typer.Option("--quick", help="A tenth of the paper's budget, for a first look.")] = False,
+    seed: Annotated[int, typer.Option(help="Seed of all random numbers.")] = 1,
+) -> None:
+    """Identify a damper from measured data with the paper's four steps, and validate it on the held-out records.
+
+    A run that was killed goes on where it was when it is started again with the same output folder.
+    """
+    from twintube.data import load_dataset
+    from twintube.identify import METHODS, PAPER, QUICK, identify_dataset, summary
+    from twintube.parameters import to_toml
+
+    with answering():
+        if method not in METHODS:
+            raise InputError(f"--method {method}: must be one of {', '.join(METHODS)}")
+        read = load_dataset(dataset)
+        budget = QUICK if quick else PAPER
+        journal = output / "journal"
+        journal.mkdir(parents=True, exist_ok=True)
+        with tqdm(total=budget.generations, unit="generation", leave=False) as bar:
+
+            def progress(title: str, error: float) -> None:
+                bar.set_description(title)
+                bar.set_postfix_str(f"error {error:.4g}", refresh=False)
+                bar.update()
+
+            result = identify_dataset(read, method=method, budget=budget, seed=seed, journal=journal, progress=progress)
+        from twintube.report.identification import write_report
+
+        write(output / "identified.toml", to_toml(result.identification.damper))
+        found = summary(result)
+        write(output / "identification.json", json.dumps(found, indent=1) + "\n")
+        write_report(result, output)
+        shutil.rmtree(journal)
+        for remark in result.remarks:
+            typer.echo(f"note: {remark}")
+        for e in result.identification.estimates:
+            said = "" if e.determined else "  not determined"
+            typer.echo(
+                f"{e.name:10}{e.value:9.3g}   {e.low:.3g} to {e.high:.3g}{said}{'  at its bound' if e.at_bound else ''}"
+            )
+        for kind in ("fit", "heldout"):
+            if found[kind] is not None:
+                typer.echo(
+                    f"{kind:8}{found[kind]['records']} records: force {found[kind]['force_rmse_N']:.1f} N "
+                    f"({found[kind]['force_rmse_of_peak']:.1%} of the peak), work of the first oscillation "
+                    f"{found[kind]['work_error_first']:.1%} off, of the last {found[kind]['work_error_last']:.1%}"
+                )
+        typer.echo(f"{output}: identified.toml, identification.json, report.html")
