@@ -4,8 +4,9 @@ from dataclasses import fields
 from html import escape
 
 from twintube import __version__
+from twintube.effects import Parameters
 from twintube.parameters import Damper
-from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+from twintube.variables import Inputs, Outputs, fmi_name
 
 STYLE = (
     "body{font-family:sans-serif;max-width:84em;padding:0 2em;margin:2em auto;color:#222}table{border-collapse:collapse}"

@@ -13,9 +13,10 @@ import typer
 from tqdm import tqdm
 
 from twintube import parameters
+from twintube.effects import Parameters
 from twintube.parameters import ParameterError
 from twintube.simulate import InputError
-from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+from twintube.variables import Inputs, Outputs, fmi_name
 
 app = typer.Typer(
     add_completion=False,
@@ -86,7 +87,7 @@ def simulate(
         else:
             signal = harmonic_block(velocity, amplitude_mm * 1e-3)
             time, stroke, speed = signal.time, signal.stroke, signal.velocity
-        result = run(chosen, stroke, speed)
+        result = run(chosen, stroke, speed, time)
         head = ["time [s]", "stroke [m]", "velocity [m/s]"]
         columns: list[Any] = [time, result.stroke, result.velocity]
         units = {"force": "N", "k_degr": "1", "work": "J"}

@@ -5,7 +5,7 @@
 
 from typing import Any
 
-from twintube.kernel import fill, fluid_force, prepare, step
+from twintube.model import advance, fluid_now, set_up, start
 from twintube.quarter_car import kick
 
 # Columns that `run_record` writes, in this order; all but the shares and `z` are in SI units of the state's fields.
@@ -28,16 +28,18 @@ COLUMNS = (
 )
 
 
-def run_record(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, out: Any) -> int:
-    """Drive the damper over the strokes `z` [m] and velocities `v` [m/s], both (n,), and write `out` (n, 15).
+def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any) -> int:
+    """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,), and write `out` (n, 15).
 
     Row 0 is the state at the first sample. Returns the number of samples done, less than n if a step failed.
     """
     before = v[0]
+    time = t[0]
     for i in range(len(z)):
-        if not step(p, d, s, f, z[i], before, v[i]):
+        if not advance(p, d, s, f, z[i], before, v[i], t[i] - time):
             return i
         before = v[i]
+        time = t[i]
         row = out[i]
         row[0] = s.F_fluid + s.F_friction + s.F_gas
         row[1] = s.k_degr
@@ -57,14 +59,16 @@ def run_record(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, out: Any) -> int:
     return len(z)
 
 
-def run_work(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, marks: Any, out: Any) -> int:
+def run_work(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, marks: Any, out: Any) -> int:
     """As `run_record`, but only the dissipated work [J] at the samples `marks` (m,), written to `out` (m,)."""
     before = v[0]
+    time = t[0]
     mark = 0
     for i in range(len(z)):
-        if not step(p, d, s, f, z[i], before, v[i]):
+        if not advance(p, d, s, f, z[i], before, v[i], t[i] - time):
             return i
         before = v[i]
+        time = t[i]
         if mark < len(marks) and i == marks[mark]:
             out[mark] = s.work
             mark += 1
@@ -94,7 +98,7 @@ def run_drive(
         row[2] = force
         row[3] = load
         end = m.z_body - m.z_wheel
-        if not (-limit <= end <= limit) or not step(p, d, s, f, end, before, velocity):
+        if not (-limit <= end <= limit) or not advance(p, d, s, f, end, before, velocity, dt):
             return i
         before = velocity
         earlier = force
@@ -103,7 +107,19 @@ def run_drive(
 
 
 def run_errors(
-    p: Any, d: Any, s: Any, f: Any, states: Any, z: Any, v: Any, force: Any, starts: Any, marks: Any, work: Any, out: Any
+    p: Any,
+    d: Any,
+    s: Any,
+    f: Any,
+    states: Any,
+    t: Any,
+    z: Any,
+    v: Any,
+    force: Any,
+    starts: Any,
+    marks: Any,
+    work: Any,
+    out: Any,
 ) -> int:
     """Squared errors of a parameter set `p` against all records, laid end to end.
 
@@ -116,23 +132,25 @@ def run_errors(
     for r in range(len(states)):
         p.oil_level = states[r, 0]
         p.gas_preload = int(states[r, 1])
-        prepare(p, d)
+        set_up(p, d)
         first = starts[r]
-        fill(p, d, s, z[first])
+        start(p, d, s, z[first])
         before = v[first]
+        time = t[first]
         done = 0.0
         cycle = 0
         out[r, 0] = 0.0
         out[r, 1] = 0.0
         for i in range(first, starts[r + 1]):
-            if not step(p, d, s, f, z[i], before, v[i]):
+            if not advance(p, d, s, f, z[i], before, v[i], t[i] - time):
                 return r
             before = v[i]
+            time = t[i]
             if i == marks[r, 0]:
                 done = s.work
             if i >= marks[r, 0]:
                 # k_degr of this moment, not the mean over the step: samples are far apart here.
-                error = fluid_force(p, v[i]) * f.k_degr + s.F_friction + s.F_gas - force[i]
+                error = fluid_now(p, d, s, f, v[i]) + s.F_friction + s.F_gas - force[i]
                 out[r, 0] += error * error
             if cycle < cycles and i == marks[r, cycle + 1]:
                 error = s.work - done - work[r, cycle]

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube import compiled
+from twintube import compiled, effects
 from twintube.arrays import Array
 from twintube.checks import tube_limit
 from twintube.parameters import Damper
 from twintube.simulate import InputError, checked
-from twintube.variables import Derived, Flow, Parameters, State, blank
+from twintube.variables import Derived, Flow, blank
 
 # Samples per oscillation that the records are thinned to; tests/identify shows that more do not change the result.
 SAMPLES = 64
@@ -62,7 +62,7 @@ class Harmonic:
 
 
 class Objective:
-    """Equations 42 and 43 over records, for parameters called by their names in `Parameters`.
+    """Equations 42 and 43 over records, for parameters called by their names in `effects.Parameters`.
 
     A call with X (m, k) returns (m,): RMSE of the force [N], plus RMSE of the works per oscillation [J] `with_work`.
     Swarms are shared out to threads; numba releases the interpreter's lock.
@@ -74,7 +74,7 @@ class Objective:
         if not records:
             raise InputError("no records to identify from")
         self.base, self.names, self.with_work = base, tuple(names), with_work
-        table = {item.name: item.metadata for item in fields(Parameters)}
+        table = {item.name: item.metadata for item in fields(effects.Parameters)}
         self.bounds = np.array([[table[n]["lower"], table[n]["upper"]] for n in names], dtype=float)
         thin = [record.thinned(samples) for record in records]
         limit = tube_limit(base.parameters)
@@ -84,7 +84,8 @@ class Objective:
         cycles = min(len(r.marks) for r in thin)
         self.marks = np.array([r.marks[:cycles] + a for r, a in zip(thin, self.starts[:-1], strict=True)])
         self.states = np.array([[r.oil_level, r.gas_preload] for r in thin], dtype=float)
-        self.z, self.v, self.force = (np.concatenate([getattr(r, n) for r in thin]) for n in ("stroke", "velocity", "force"))
+        columns = ("time", "stroke", "velocity", "force")
+        self.t, self.z, self.v, self.force = (np.concatenate([getattr(r, n) for r in thin]) for n in columns)
         self.work = np.array([r.works()[: cycles - 1] for r in records])
         self.counted = sum(len(r.time) - r.marks[0] for r in thin)
         self.threads = ThreadPoolExecutor(os.cpu_count())
@@ -99,14 +100,15 @@ class Objective:
         return self._squares(self._rows(), x)
 
     def _rows(self) -> list[Any]:
-        arrays = [compiled.as_row(r) for r in (self.base.parameters, blank(Derived), blank(State), blank(Flow))]
+        records = (self.base.parameters, blank(Derived), blank(effects.State), blank(Flow))
+        arrays = [compiled.as_row(record) for record in records]
         return [array[0] for array in arrays]
 
     def _squares(self, rows: list[Any], x: Array) -> Array:
         for name, value in zip(self.names, x, strict=True):
             rows[0][name] = value
         out = np.empty((len(self.states), 2))
-        data = (self.states, self.z, self.v, self.force, self.starts, self.marks, self.work)
+        data = (self.states, self.t, self.z, self.v, self.force, self.starts, self.marks, self.work)
         if compiled.module().run_errors(*rows, *data, out) < len(self.states):
             out[:] = np.inf
         return out

@@ -234,8 +234,8 @@ def read_records(content: dict[str, Any], text: str, folder: Path, found: list[s
     read: list[Signal] = []
     try:
         for name in strings(content["records"]) if "records" in content else []:
-            _, stroke, speed = read_csv(folder / name)
-            read.append(Signal(name, stroke=stroke, speed=speed))
+            time, stroke, speed = read_csv(folder / name)
+            read.append(Signal(name, time=time, stroke=stroke, speed=speed))
     except (ValueError, OSError) as error:
         found.append(f"{line}records: {error}")
     return tuple(read)
