@@ -61,19 +61,17 @@ def fluid_now(p: Parameters, d: Derived, s: State, f: Flow, v: float) -> float:
 def extended_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
     """`advance` with at least one effect, in as many equal parts as the effects ask for."""
     n = effects_parts(p, dt)
-    h = dt / n
+    # Stroke and velocity go evenly, each by itself: samples of the two need not agree, at a rest above all.
     z0 = s.z_rod
-    slope = (v1 - v0) / n
-    # The stroke goes with the velocity; what the samples of the two disagree by is spread evenly.
-    drift = (z - z0 - 0.5 * (v0 + v1) * dt) / n
     before = v0
     for i in range(1, n):
-        after = v0 + i * slope
-        if not extended_part(p, d, s, f, z0 + i * (0.5 * (v0 + after) * h + drift), before, after, h):
+        share = i / n
+        after = v0 + share * (v1 - v0)
+        if not extended_part(p, d, s, f, z0 + share * (z - z0), before, after, dt / n):
             return False
         before = after
     s.z_rod = z
-    return extended_part(p, d, s, f, z, before, v1, h)
+    return extended_part(p, d, s, f, z, before, v1, dt / n)
 
 
 def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
@@ -105,7 +103,7 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     s.F_gas += effects_elastic(p, s.z)
     # As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end.
     s.W_step = 0.5 * (fluid_force(p, s.goal_v0) + F_1) * f.k_mean * effects_scale_fluid(p, s, dz) * dz
-    effects_force(p, d, s, z, v1, dt)
+    effects_force(p, s, v1, dz, dt)
     s.W_step += 0.5 * (friction + s.F_friction) * dz
     s.work = work + s.W_step
     s.elapsed += dt

@@ -17,7 +17,7 @@ names; the interpreter executes its text, `compiled.py` joins it to the kernel.
     scale_friction  (p) -> factor                     of the friction force
     elastic         (p, z) -> force [N]               beside the gas force, no work
     series          (p, s, F, dt) -> speed [m/s]      taken up in series with the valves at the fluid force F
-    force           (p, d, s, z, v, dt)               s.F_fluid, s.F_now, s.W_step where the force has a memory
+    force           (p, s, v, dz, dt)                 s.F_fluid, s.F_now, s.W_step where the force has a memory
     finish          (p, s, dt)                        what follows from forces and work
 """
 
@@ -43,7 +43,7 @@ HOOKS = {
     "scale_friction": ("p", "product"),
     "elastic": ("p, z", "sum"),
     "series": ("p, s, F, dt", "sum"),
-    "force": ("p, d, s, z, v, dt", "call"),
+    "force": ("p, s, v, dz, dt", "call"),
     "finish": ("p, s, dt", "call"),
 }
 FIRST = {"call": "", "chain": "", "sum": "    value = 0.0\n", "product": "    value = 1.0\n", "most": "    value = 1\n"}

@@ -63,7 +63,7 @@ def fluid_lag_speed(p: Parameters, s: State, v: float, k_re: float, k_co: float,
     return -fluid_lag_inverse(-w, p.C_fluid * k_co / dt, p.v_co, p.F_co)
 
 
-def fluid_lag_force(p: Parameters, d: variables.Derived, s: State, z: float, v: float, dt: float) -> None:
+def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:
     """The fluid force with the memory of the oil column; a step without time leaves it, but for the first."""
     if dt <= 0.0:
         if s.elapsed > 0.0:
@@ -72,7 +72,7 @@ def fluid_lag_force(p: Parameters, d: variables.Derived, s: State, z: float, v: 
         return
     u = fluid_lag_speed(p, s, s.goal_v1, s.k_re, s.k_co, dt)
     s.F_fluid = valve_force(p, u, s.k_re, s.k_co)
-    s.W_step = s.F_fluid * u * dt
+    s.W_step = s.F_fluid * (dz - (s.goal_v1 - u) * dt)
     s.F_now = s.F_fluid
     if s.k_now != s.k_degr:
         k_re = s.k_now if s.goal_v1 >= 0.0 else s.k_re

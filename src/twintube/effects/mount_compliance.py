@@ -91,6 +91,7 @@ def mount_compliance_motion(p: Parameters, d: Derived, s: State, z: float, v0: f
     """Stroke and velocity of the piston; in a step without time the deflection stays."""
     if s.elapsed > 0.0:
         s.goal_v0 = s.v_piston
+        s.goal_v1 = s.v_piston
     if dt > 0.0:
         s.u_valve = mount_compliance_speed(p, d, s, z, v1, dt)
         s.goal_v1 = s.u_valve + effects_series(p, s, valve_force(p, s.u_valve, s.k_re, s.k_co), dt)
@@ -100,7 +101,7 @@ def mount_compliance_motion(p: Parameters, d: Derived, s: State, z: float, v0: f
     s.goal_z = max(1e-6 - d.half_length, min(d.half_length - 1e-6, z - s.x_mount))
 
 
-def mount_compliance_force(p: Parameters, d: Derived, s: State, z: float, v: float, dt: float) -> None:
+def mount_compliance_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:
     """The fluid force that the rubber lets through, and the rubber's own loss."""
     if dt <= 0.0 and s.elapsed == 0.0:
         return
@@ -110,4 +111,4 @@ def mount_compliance_force(p: Parameters, d: Derived, s: State, z: float, v: flo
         return
     rate = v - s.goal_v1
     s.v_piston = s.goal_v1
-    s.W_step = s.F_mount * s.u_valve * dt + p.tau_mount / p.C_mount * rate * rate * dt
+    s.W_step = s.F_mount * (dz - (s.goal_v1 - s.u_valve) * dt) + p.tau_mount / p.C_mount * rate * rate * dt
