@@ -256,3 +256,12 @@ def test_bounds_are_checked(active: dict[str, Any]) -> None:
     with pytest.raises(ParameterError, match=name):
         load("SA8").with_(**{name: 11.0 * active[name]})
     assert problems(load("SA8").with_(**active).parameters) == []
+
+
+def test_the_documentation_names_every_effect_and_parameter() -> None:
+    text = (SRC.parents[1] / "docs" / "effects.md").read_text(encoding="utf-8")
+    for name, effect in EFFECTS.items():
+        row = next(line for line in text.splitlines() if line.startswith(f"| `{name}`"))
+        assert ("(t)" in row) == effect.needs_time
+        for item in effect.parameters:
+            assert (f"**`{item.name}`**" if item.name in effect.strength else f" `{item.name}`") in row, item.name
