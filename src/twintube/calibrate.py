@@ -33,7 +33,8 @@ def relative_work(damper: Damper, oil_level: float, velocity: float) -> tuple[fl
     block = harmonic_block(velocity)
     intact = damper.with_(oil_level=1.0, gas_preload=1)
     degraded = damper.with_(oil_level=oil_level, gas_preload=0)
-    ratio = [work_between(state, block.stroke, block.velocity, block.marks, block.time)[[0, -1]] for state in (degraded, intact)]
+    signal = (block.stroke, block.velocity, block.marks, block.time)
+    ratio = [work_between(state, *signal)[[0, -1]] for state in (degraded, intact)]
     first, last = ratio[0] / ratio[1]
     return float(first), float(last)
 

@@ -12,7 +12,7 @@ from twintube.variables import Parameters, State, var
 
 # Longest part of a step [s] for effects whose force has a memory of milliseconds, and the most parts of a step.
 PART = 2e-4
-MAX_PARTS = 16
+MAX_PARTS = 8
 
 
 @dataclass(slots=True)

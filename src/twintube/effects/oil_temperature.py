@@ -49,4 +49,6 @@ def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
 def oil_temperature_finish(p: Parameters, s: State, dt: float) -> None:
     """Take up the step's work, less what of it has already gone."""
     share = dt / p.cooling_time
-    s.heat += s.W_step * ((1.0 - math.exp(-share)) / share if share > 1e-9 else 1.0)
+    kept = (1.0 - math.exp(-share)) / share if share > 1e-9 else 1.0
+    # Where stroke and velocity of a record do not agree, a step can do negative work.
+    s.heat = max(0.0, s.heat + s.W_step * kept)

@@ -198,7 +198,7 @@ def from_content(content: dict[str, Any], text: str, file: str, folder: Path) ->
 
 def digest(record: Signal) -> str:
     """SHA-256 of a record's samples."""
-    return hashlib.sha256(record.stroke.tobytes() + record.speed.tobytes()).hexdigest()
+    return hashlib.sha256(record.time.tobytes() + record.stroke.tobytes() + record.speed.tobytes()).hexdigest()
 
 
 def refuse(file: str, found: list[str]) -> None:
