@@ -27,7 +27,7 @@ from twintube.parameters import Damper, ParameterError, load
 
 ROOT = Path(__file__).parent
 PACKAGE = ROOT / "src" / "twintube"
-CARRIED = ("__init__.py", "variables.py", "checks.py", "kernel")
+CARRIED = ("__init__.py", "variables.py", "checks.py", "frame.py", "model.py", "kernel", "effects")
 OPTIONS = {
     "needsExecutionTool": "false",  # nothing but a Python library; PyFMI refuses FMUs that say true
     "canGetAndSetFMUstate": "true",

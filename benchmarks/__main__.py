@@ -13,14 +13,14 @@ import numpy as np
 import typer
 
 import build_fmu
-from twintube import compiled, kernel
+from twintube import compiled, effects, model
 from twintube.identify import Harmonic, Objective, minimise
 from twintube.identify.objective import TABLE_6, TABLES_7_8
 from twintube.parameters import load
 from twintube.quarter_car import PASSAT_REAR, Car
 from twintube.rig import BLOCKS, harmonic_block
 from twintube.simulate import simulate, work_between
-from twintube.variables import Derived, Flow, State, blank
+from twintube.variables import Derived, Flow, blank
 from vehicle_demo.damper_fmu import DamperFmu
 from vehicle_demo.ride import Case, heights, ride
 
@@ -47,12 +47,12 @@ def bench_kernel() -> dict[str, float]:
     stroke, velocity = block.stroke.tolist(), block.velocity.tolist()
 
     def interpreted() -> None:
-        p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
-        kernel.prepare(p, d)
-        kernel.fill(p, d, s, 0.0)
+        p, d, s, f = damper.parameters, blank(Derived), blank(effects.State), blank(Flow)
+        model.set_up(p, d)
+        model.start(p, d, s, 0.0)
         before = velocity[0]
         for z, v in zip(stroke, velocity, strict=True):
-            kernel.step(p, d, s, f, z, before, v)
+            model.advance(p, d, s, f, z, before, v, 0.0)
             before = v
 
     slow = best(interpreted)
@@ -67,11 +67,11 @@ def bench_fmu_step() -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder:
         fmu = build_fmu.build(damper, Path(folder))
         with DamperFmu(fmu) as unit:
-            p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
-            kernel.prepare(p, d)
-            kernel.fill(p, d, s, 0.0)
+            p, d, s, f = damper.parameters, blank(Derived), blank(effects.State), blank(Flow)
+            model.set_up(p, d)
+            model.start(p, d, s, 0.0)
             found = best(lambda: [unit.step(z, v, 1e-3) for z, v in moves])
-            reference = best(lambda: [kernel.step(p, d, s, f, z + v * 1e-3, v, v) for z, v in moves])
+            reference = best(lambda: [model.advance(p, d, s, f, z + v * 1e-3, v, v, 1e-3) for z, v in moves])
     n = len(moves)
     return {"us_per_step": found / n * 1e6, "reference_us_per_step": reference / n * 1e6, "ratio": found / reference}
 

@@ -3,7 +3,8 @@
 from dataclasses import fields
 from xml.etree import ElementTree as ET
 
-from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+from twintube.effects import Parameters
+from twintube.variables import Inputs, Outputs, fmi_name
 
 # Exponents of the SI base units, for importers that refuse to connect units they do not know.
 UNITS = {
@@ -12,6 +13,11 @@ UNITS = {
     "m/s": {"m": "1", "s": "-1"},
     "N": {"kg": "1", "m": "1", "s": "-2"},
     "N/m": {"kg": "1", "s": "-2"},
+    "s": {"s": "1"},
+    "1/s": {"s": "-1"},
+    "m2": {"m": "2"},
+    "m/N": {"kg": "-1", "s": "2"},
+    "1/J": {"kg": "-1", "m": "-2", "s": "2"},
     "J": {"kg": "1", "m": "2", "s": "-2"},
 }
 

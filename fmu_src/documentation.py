@@ -4,8 +4,9 @@ from dataclasses import fields
 from html import escape
 
 from twintube import __version__
+from twintube.effects import Parameters
 from twintube.parameters import Damper
-from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+from twintube.variables import Inputs, Outputs, fmi_name
 
 STYLE = (
     "body{font-family:sans-serif;max-width:84em;padding:0 2em;margin:2em auto;color:#222}table{border-collapse:collapse}"
@@ -18,7 +19,8 @@ MEANING = """
 where you know it. Outputs are those at the end of the step and change in doStep only. The error shrinks in proportion
 to the communication step; 1 ms is usual.</p>
 <p>A degraded damper must be preconditioned before its force means anything: the paper moves it six times at
-0.05 m/s. The model holds still at rest, however long.</p>
+0.05 m/s. At rest the model holds still, however long,
+unless an effect that acts with time is switched on.</p>
 <p>A refused step (stroke beyond the tube, NaN, negative step, parameter out of its range) is answered by
 <em>fmi2Discard</em>, a log message of status Error that names the quantity, its value and the allowed range, and the
 state as before.</p>

@@ -19,8 +19,9 @@ from pythonfmu.default_experiment import DefaultExperiment
 from pythonfmu.enums import Fmi2Status
 
 from twintube.checks import bad_input, outside, problems, stroke_limit
-from twintube.kernel import fill, prepare, step
-from twintube.variables import Derived, Flow, Inputs, Outputs, Parameters, State, blank, fmi_name
+from twintube.effects import Parameters, State
+from twintube.model import advance, set_up, start
+from twintube.variables import Derived, Flow, Inputs, Outputs, blank, fmi_name
 
 # Beyond this difference [m] between the stroke that is set and the one that the velocity led to, the log has a warning.
 STROKE_JUMP = 0.02
@@ -131,14 +132,15 @@ class TwinTube(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is untyped
         """Check the parameters and put the damper at rest at the stroke that is set."""
         found = problems(self.p)
         if not found:
-            prepare(self.p, self.d)
+            set_up(self.p, self.d)
             self.limit = stroke_limit(self.d)
             message = bad_input(self.inputs.stroke, self.inputs.velocity, self.limit)
             found = [message] if message else []
         self.problem = "; ".join(found)
         if not found:
-            fill(self.p, self.d, self.s, self.inputs.stroke)
-            step(self.p, self.d, self.s, self.f, self.inputs.stroke, self.inputs.velocity, self.inputs.velocity)
+            z, v = self.inputs.stroke, self.inputs.velocity
+            start(self.p, self.d, self.s, z)
+            advance(self.p, self.d, self.s, self.f, z, v, v, 0.0)
 
     def exit_initialization_mode(self) -> None:
         self._start()
@@ -171,7 +173,7 @@ class TwinTube(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is untyped
                 Fmi2Status.warning,
             )
         try:
-            done = step(self.p, self.d, s, self.f, end, v, v)
+            done = advance(self.p, self.d, s, self.f, end, v, v, step_size)
         except ArithmeticError:
             done = False
         if not done:
@@ -208,7 +210,7 @@ class TwinTube(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is untyped
         if found:
             self.p = Parameters(**before)
             return "; ".join(found)
-        prepare(self.p, self.d)
+        set_up(self.p, self.d)
         return ""
 
     def _get_fmu_state(self) -> dict[str, Any]:
@@ -229,5 +231,5 @@ class TwinTube(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is untyped
         self.running, self.problem, self.warned = state["running"], state["problem"], state["warned"]
         self.changed = {(name, index): value for name, index, value in state["changed"]}
         if not problems(self.p):
-            prepare(self.p, self.d)
+            set_up(self.p, self.d)
             self.limit = stroke_limit(self.d)

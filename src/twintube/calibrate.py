@@ -33,7 +33,8 @@ def relative_work(damper: Damper, oil_level: float, velocity: float) -> tuple[fl
     block = harmonic_block(velocity)
     intact = damper.with_(oil_level=1.0, gas_preload=1)
     degraded = damper.with_(oil_level=oil_level, gas_preload=0)
-    ratio = [work_between(state, block.stroke, block.velocity, block.marks)[[0, -1]] for state in (degraded, intact)]
+    signal = (block.stroke, block.velocity, block.marks, block.time)
+    ratio = [work_between(state, *signal)[[0, -1]] for state in (degraded, intact)]
     first, last = ratio[0] / ratio[1]
     return float(first), float(last)
 
@@ -42,7 +43,7 @@ def raised_share(damper: Damper) -> float:
     """Share [1] of the stroke at the lowest measured oil level and 0.05 m/s where k_degr is above the mixed flow's."""
     block = harmonic_block(BLOCKS[0])
     state = damper.with_(oil_level=damper.measured_levels[-1], gas_preload=0)
-    result = simulate(state, block.stroke, block.velocity)
+    result = simulate(state, block.stroke, block.velocity, block.time)
     last = slice(block.marks[-2], block.marks[-1])
     way = np.abs(np.diff(result.stroke[last]))
     p = damper.parameters

@@ -6,8 +6,9 @@ Standard library only: the FMU makes the same checks. Every message names the qu
 import math
 from dataclasses import fields
 
+from twintube.effects import Parameters
 from twintube.kernel import prepare
-from twintube.variables import FV_POINTS, Derived, Inputs, Parameters, blank, fmi_name
+from twintube.variables import FV_POINTS, Derived, Inputs, blank, fmi_name
 
 # The piston may come this close [m] to the ends of its chambers.
 CLEARANCE = 1e-6

@@ -1,7 +1,7 @@
 """The kernel compiled by numba: one generated module per state of the sources.
 
-numba's cache notices a change only in the file of the cached function itself. The kernel's files and the drivers are
-therefore joined into one module whose name is the digest of their text: another text is another module.
+numba's cache notices a change only in the file of the cached function itself. The kernel's files, the effects and the
+drivers are therefore joined into one module whose name is the digest of their text: another text is another module.
 """
 
 import ast
@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 import platformdirs
 
+from twintube import effects
 from twintube.variables import FV_POINTS
 
 PACKAGE = Path(__file__).parent
@@ -28,9 +29,9 @@ SOURCES = (
     "kernel/rebound.py",
     "kernel/compression.py",
     "kernel/step.py",
-    "quarter_car.py",
-    "drivers.py",
+    "frame.py",
 )
+DRIVERS = ("model.py", "quarter_car.py", "drivers.py")
 HEAD = f"import math\nimport numba\n\nFV_POINTS = {FV_POINTS}\n"
 
 
@@ -38,15 +39,28 @@ def joined_source() -> str:
     """The text of the generated module: constants and functions of all sources, compiled without fast-math."""
     parts = [HEAD]
     for name in SOURCES:
-        for node in ast.parse((PACKAGE / name).read_text(encoding="utf-8")).body:
-            if isinstance(node, ast.FunctionDef):
-                node.returns = None
-                for argument in node.args.args:
-                    argument.annotation = None
-                parts.append('@numba.njit(cache=True, error_model="numpy", nogil=True)\n' + ast.unparse(node))
-            elif isinstance(node, ast.Assign):
-                parts.append(ast.unparse(node))
+        parts += compilable((PACKAGE / name).read_text(encoding="utf-8"))
+    for text in (*effects.sources().values(), effects.dispatch_source(), effects.reset_source()):
+        parts += compilable(text, described=True)
+    for name in DRIVERS:
+        parts += compilable((PACKAGE / name).read_text(encoding="utf-8"))
     return "\n\n".join(parts) + "\n"
+
+
+def compilable(text: str, *, described: bool = False) -> list[str]:
+    """Constants and functions of a source; of one that is `described` by constants of other types, numbers only."""
+    parts = []
+    for node in ast.parse(text).body:
+        if isinstance(node, ast.FunctionDef):
+            node.returns = None
+            for argument in node.args.args:
+                argument.annotation = None
+            parts.append('@numba.njit(cache=True, error_model="numpy", nogil=True)\n' + ast.unparse(node))
+        elif isinstance(node, ast.Assign):
+            number = isinstance(node.value, ast.Constant) and type(node.value.value) in (int, float)
+            if number or not described:
+                parts.append(ast.unparse(node))
+    return parts
 
 
 @cache

@@ -5,7 +5,7 @@
 
 from typing import Any
 
-from twintube.kernel import fill, fluid_force, prepare, step
+from twintube.model import advance, set_up, start
 from twintube.quarter_car import kick
 
 # Columns that `run_record` writes, in this order; all but the shares and `z` are in SI units of the state's fields.
@@ -28,16 +28,18 @@ COLUMNS = (
 )
 
 
-def run_record(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, out: Any) -> int:
-    """Drive the damper over the strokes `z` [m] and velocities `v` [m/s], both (n,), and write `out` (n, 15).
+def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any) -> int:
+    """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,), and write `out` (n, 15).
 
     Row 0 is the state at the first sample. Returns the number of samples done, less than n if a step failed.
     """
     before = v[0]
+    time = t[0]
     for i in range(len(z)):
-        if not step(p, d, s, f, z[i], before, v[i]):
+        if not advance(p, d, s, f, z[i], before, v[i], t[i] - time):
             return i
         before = v[i]
+        time = t[i]
         row = out[i]
         row[0] = s.F_fluid + s.F_friction + s.F_gas
         row[1] = s.k_degr
@@ -57,14 +59,16 @@ def run_record(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, out: Any) -> int:
     return len(z)
 
 
-def run_work(p: Any, d: Any, s: Any, f: Any, z: Any, v: Any, marks: Any, out: Any) -> int:
+def run_work(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, marks: Any, out: Any) -> int:
     """As `run_record`, but only the dissipated work [J] at the samples `marks` (m,), written to `out` (m,)."""
     before = v[0]
+    time = t[0]
     mark = 0
     for i in range(len(z)):
-        if not step(p, d, s, f, z[i], before, v[i]):
+        if not advance(p, d, s, f, z[i], before, v[i], t[i] - time):
             return i
         before = v[i]
+        time = t[i]
         if mark < len(marks) and i == marks[mark]:
             out[mark] = s.work
             mark += 1
@@ -94,7 +98,7 @@ def run_drive(
         row[2] = force
         row[3] = load
         end = m.z_body - m.z_wheel
-        if not (-limit <= end <= limit) or not step(p, d, s, f, end, before, velocity):
+        if not (-limit <= end <= limit) or not advance(p, d, s, f, end, before, velocity, dt):
             return i
         before = velocity
         earlier = force
@@ -102,46 +106,38 @@ def run_drive(
     return len(road)
 
 
-def run_errors(
-    p: Any, d: Any, s: Any, f: Any, states: Any, z: Any, v: Any, force: Any, starts: Any, marks: Any, work: Any, out: Any
+def run_means(
+    p: Any, d: Any, s: Any, f: Any, states: Any, t: Any, z: Any, v: Any, starts: Any, force: Any, work: Any
 ) -> int:
-    """Squared errors of a parameter set `p` against all records, laid end to end.
+    """Records laid end to end: the mean force [N] over the time since the sample before and the work [J] since the start.
 
-    `states` (r, 2) are the records' oil level and preload, `starts` (r + 1,) where they begin, `marks` (r, c + 1) where
-    their oscillations begin and end; samples before the first mark count nothing. `force` is the measured force's mean
-    over the time since the sample before. `out` (r, 2) takes the sums of the
-    squared errors of the force [N2] and of the works of the oscillations [J2], `work` (r, c) being the measured ones.
-    Returns the number of records done.
+    `states` (r, 2) are the records' oil level and preload, `starts` (r + 1,) where they begin; `force` and `work` (n,) are
+    written. Returns the number of records done.
     """
-    cycles = marks.shape[1] - 1
     for r in range(len(states)):
         p.oil_level = states[r, 0]
         p.gas_preload = int(states[r, 1])
-        prepare(p, d)
+        set_up(p, d)
         first = starts[r]
-        fill(p, d, s, z[first])
+        start(p, d, s, z[first])
         before = v[first]
-        done = 0.0
-        cycle = 0
-        out[r, 0] = 0.0
-        out[r, 1] = 0.0
+        time = t[first]
         for i in range(first, starts[r + 1]):
             from_z = s.z
             from_work = s.work
-            if not step(p, d, s, f, z[i], before, v[i]):
+            from_impulse = s.impulse
+            dt = t[i] - time
+            if not advance(p, d, s, f, z[i], before, v[i], dt):
                 return r
             before = v[i]
-            if i == marks[r, 0]:
-                done = s.work
-            elif i > marks[r, 0]:
-                # Force times stroke of the step over the stroke: the mean force, wherever in the step it jumped.
-                way = z[i] - from_z
-                mean = (s.work - from_work) / way if abs(way) > 1e-9 else s.F_fluid + s.F_friction
-                error = mean + d.c_gas * 0.5 * (from_z + z[i]) - d.F_0 - force[i]
-                out[r, 0] += error * error
-            if cycle < cycles and i == marks[r, cycle + 1]:
-                error = s.work - done - work[r, cycle]
-                out[r, 1] += error * error
-                done = s.work
-                cycle += 1
+            time = t[i]
+            work[i] = s.work
+            way = z[i] - from_z
+            if d.extended > 0:
+                force[i] = (s.impulse - from_impulse) / dt if dt > 0.0 else s.F_fluid + s.F_friction + s.F_gas
+            elif abs(way) > 1e-9:
+                # The work over the stroke is the mean force, wherever in the step it jumped.
+                force[i] = (s.work - from_work) / way + d.c_gas * 0.5 * (from_z + z[i]) - d.F_0
+            else:
+                force[i] = s.F_fluid + s.F_friction + s.F_gas
     return len(states)

@@ -12,12 +12,14 @@ from typing import Any
 import pint
 import tomlkit
 
+from twintube import effects
 from twintube.checks import problems
-from twintube.variables import FV_POINTS, Parameters, fmi_name
+from twintube.effects import Parameters
+from twintube.variables import FV_POINTS, fmi_name
 
 FOLDER = Path(__file__).parent / "dampers"
 BRANCHES = {"rebound": ("v_re", "F_re"), "compression": ("v_co", "F_co")}
-PINT_UNITS = {"m3": "m**3", "1": "dimensionless"}
+PINT_UNITS = {"m2": "m**2", "m3": "m**3", "1": "dimensionless"}
 
 
 class ParameterError(ValueError):
@@ -212,16 +214,17 @@ def refuse(where: str, found: list[str]) -> None:
 
 
 def to_toml(damper: Damper) -> str:
-    """The TOML text of a damper, in SI units, with all points of the F-v curve."""
+    """The TOML text of a damper, in SI units, with all points of the F-v curve and the effects that act."""
     document = tomlkit.document()
     document["name"] = damper.name
     document["title"] = damper.title
     if damper.measured_levels:
         document["measured_oil"] = [level * damper.parameters.V_oil for level in damper.measured_levels]
     p = damper.parameters
+    idle = {item.name for effect in effects.EFFECTS.values() if not effect.acts(p) for item in effect.parameters}
     for item in fields(Parameters):
         group = item.metadata["group"]
-        if item.metadata["size"] > 1:
+        if item.metadata["size"] > 1 or item.name in idle:
             continue
         if group and group not in document:
             document[group] = tomlkit.table()

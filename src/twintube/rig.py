@@ -37,17 +37,17 @@ def oscillations(velocity: float, amplitude: float, count: int, dt: float) -> tu
 
 
 @lru_cache(maxsize=64)
-def harmonic_block(velocity: float, amplitude: float = AMPLITUDE, dt: float = 5e-4) -> Signal:
+def harmonic_block(velocity: float, amplitude: float = AMPLITUDE, dt: float = 5e-4, rest: float = 0.0) -> Signal:
     """Six preconditioning oscillations and 19 of the maximum `velocity` [m/s] with steps of at most about `dt` [s].
 
-    Of the rest between the two only one step is kept: nothing in the model happens at rest. The block starts at
-    full velocity, as a sine does.
+    Between the two the damper rests for one step of `rest` [s], by default `dt`: in the paper's model nothing happens
+    at rest, effects such as the decay of foam ask for its length. The block starts at full velocity, as a sine does.
     """
     t0, z0, v0 = oscillations(V_PRECONDITIONING, amplitude, PRECONDITIONING, max(dt, 2e-3))
     t, z, v = oscillations(velocity, amplitude, OSCILLATIONS, dt)
     per = (len(t) - 1) // OSCILLATIONS
     return Signal(
-        time=np.concatenate([t0, t0[-1] + dt + t]),
+        time=np.concatenate([t0, t0[-1] + (rest if rest > 0.0 else dt) + t]),
         stroke=np.concatenate([z0, z]),
         velocity=np.concatenate([v0, v]),
         marks=len(t0) + per * np.arange(OSCILLATIONS + 1),

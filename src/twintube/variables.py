@@ -164,8 +164,8 @@ class Outputs:
     """What the surroundings read. Force is positive where the damper is pulled in rebound."""
 
     force: float = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1")
-    k_degr: float = var("", "k_degr", "1", "fluid force relative to the intact damper, mean over the step", lower=0,
-                        upper=1, source="equations 23-39")
+    k_degr: float = var("", "k_degr", "1", "fluid force relative to the intact damper, mean over the step; above 1 only "
+                        "with a stiffer valve", lower=0, upper=2, source="equations 23-39")
     V1_oil: float = var("V1.oil", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5")
     V1_gas: float = var("V1.gas", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5")
     V1_foam: float = var("V1.foam", "V_1foam", "m3", "foam in the rebound chamber", lower=0, source="equation 5")
@@ -199,6 +199,7 @@ class Derived:
     k_Co2: float = var("derived", "k_degr", "1", "k_degr in compression, V2 full, V1 not", source="equation 29", default=0.0)
     Y_Co: float = var("derived", "Y_Co", "1", "cavitation share in compression in this condition", default=0.0)
     Y_Re: float = var("derived", "Y_Re", "1", "cavitation share in rebound in this condition", default=0.0)
+    extended: int = var("derived", "", "1", "1: an effect beyond the paper's model acts", integer=True, default=0)
 
 
 @dataclass(slots=True)
@@ -243,6 +244,7 @@ class Flow:
     V3_foam_oil: float = var("flow", "", "m2", "oil in the foam of V3", default=0.0)
     cavitated: float = var("flow", "", "m2", "oil that becomes gas", default=0.0)
     k_degr: float = var("flow", "k_degr", "1", "degradation factor", default=1.0)
+    k_mean: float = var("flow", "", "1", "mean degradation factor over the stroke of the last step", default=1.0)
 
 
 def blank(record: type) -> Any:

@@ -11,8 +11,9 @@ from fmpy.validation import validate_fmu
 
 import build_fmu
 from fmu_src.description import UNITS
+from twintube.effects import Parameters
 from twintube.parameters import load, names
-from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+from twintube.variables import Inputs, Outputs, fmi_name
 
 CONTRACT = (
     "stroke velocity force k_degr V1.oil V1.gas V1.foam V2.oil V2.gas V2.foam V3.oil V3.gas V3.foam force_fluid "

@@ -12,9 +12,10 @@ from tqdm import tqdm
 
 from twintube import parameters
 from twintube.cli.base import answering, app, write
+from twintube.effects import Parameters
 from twintube.parameters import ParameterError
 from twintube.simulate import InputError
-from twintube.variables import Inputs, Outputs, Parameters, fmi_name
+from twintube.variables import Inputs, Outputs, fmi_name
 
 
 @app.command(epilog="Example: twintube dampers SA8")
@@ -56,7 +57,7 @@ def simulate(
         else:
             signal = harmonic_block(velocity, amplitude_mm * 1e-3)
             time, stroke, speed = signal.time, signal.stroke, signal.velocity
-        result = run(chosen, stroke, speed)
+        result = run(chosen, stroke, speed, time)
         head = ["time [s]", "stroke [m]", "velocity [m/s]"]
         columns: list[Any] = [time, result.stroke, result.velocity]
         units = {"force": "N", "k_degr": "1", "work": "J"}

@@ -5,23 +5,25 @@ A residual that repeats in every oscillation is an error of the model or of the 
 second time, so it counts once per record, noise once per sample.
 """
 
-from collections.abc import Callable, Sequence
+import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.optimize import least_squares
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.identify.objective import Harmonic, Objective
+from twintube.identify.objective import Objective
 from twintube.identify.optimise import Journal
-from twintube.parameters import Damper
-from twintube.simulate import simulate
 
 LEVEL = 0.95  # for all parameters together (Bonferroni)
 BURN_IN = 0.4  # share of the chain that is dropped
 UNDETERMINED = 0.5  # an interval wider than this share of the allowed range says nothing
 AT_BOUND = 1e-3  # share of the allowed range
+SLOPE = 1e-3  # step of a derivative as a share of the allowed range: smaller ones meet the kinks of the model
+POLISHING = 40  # most evaluations of the last least squares
 PHASES = 32  # phases of an oscillation at which its residuals are compared
 
 
@@ -47,36 +49,61 @@ class Estimate:
         return min(self.value - self.bounds[0], self.bounds[1] - self.value) <= AT_BOUND * width
 
 
-def variance(damper: Damper, record: Harmonic) -> float:
-    """Variance [N2] with which a sample of the record counts in the likelihood."""
-    state = damper.with_(oil_level=record.oil_level, gas_preload=record.gas_preload)
-    residual = simulate(state, record.stroke, record.velocity).force - record.force
-    folded = np.array([
-        [part.mean() for part in np.array_split(residual[a:b], PHASES)]
-        for a, b in zip(record.marks[:-1], record.marks[1:], strict=True)
-        if b - a >= PHASES
-    ])  # fmt: skip
-    span = residual[record.marks[0] :]
+def variance(residual: Array, marks: Array) -> float:
+    """Variance [N2] with which a sample counts in the likelihood; `residual` (n,) of the oscillations between `marks`."""
+    cycles = [residual[a:b] for a, b in itertools.pairwise(marks)]
+    folded = np.array([[part.mean() for part in np.array_split(c, PHASES)] for c in cycles if len(c) >= PHASES])
     if len(folded) < 2:
-        return float(np.mean(span**2)) * len(span) / PHASES
+        return float(np.mean(residual**2)) * len(residual) / PHASES
     repeated = folded.mean(axis=0)
     spread = float(np.mean((folded - repeated) ** 2)) * len(folded) / (len(folded) - 1)
     bias = max(0.0, float(np.mean(repeated**2)) - spread / len(folded))
-    noise = max(float(np.mean(span**2)) - bias, 1e-12)
+    noise = max(float(np.mean(residual**2)) - bias, 1e-12)
     # Neighbouring phases share a model error, so its correlation length counts as well.
     centred = repeated - repeated.mean()
     power = float(centred @ centred)
     lags = [float(centred[:-k] @ centred[k:]) / power for k in range(1, PHASES // 2)] if power > 0 else []
     first = next((i for i, c in enumerate(lags) if c <= 0), len(lags))
     correlation = 1.0 + 2.0 * sum(lags[:first])
-    per_phase = len(span) / (len(folded) * PHASES)
+    per_phase = len(residual) / (len(folded) * PHASES)
     return noise + bias * len(folded) * per_phase * correlation
+
+
+def weights(objective: Objective, x: Array) -> Array:
+    """One over twice the variance (r,) of each record's samples at the parameters x (k,)."""
+    found = objective.residuals(x[None])[0]
+    edges = np.cumsum([0, *(len(r.time) - 1 - r.marks[0] for r in objective.records)])
+    return np.array([
+        0.5 / variance(found[a:b], r.marks - r.marks[0])
+        for r, a, b in zip(objective.records, edges[:-1], edges[1:], strict=True)
+    ])  # fmt: skip
+
+
+def slopes(objective: Objective, x: Array) -> Array:
+    """Derivatives (n, k) of all residuals by the parameters in units of their ranges, one-sided, away from the bounds."""
+    low, high = objective.bounds.T
+    step = SLOPE * (high - low) * np.where(x + SLOPE * (high - low) <= high, 1.0, -1.0)
+    found = objective.residuals(np.vstack([x, x + np.diag(step)]))
+    rates: Array = ((found[1:] - found[0]) / (step / (high - low))[:, None]).T
+    return rates
+
+
+def polished(objective: Objective, x: Array) -> Array:
+    """The least-squares optimum of the force errors next to x (k,): the end of a search that a swarm leaves undone."""
+    low, high = objective.bounds.T
+    width = high - low
+    inside = np.clip((x - low) / width, 1e-6, 1 - 1e-6)
+    fit = least_squares(
+        lambda u: objective.residuals((low + u * width)[None])[0],
+        inside, jac=lambda u: slopes(objective, low + u * width), bounds=(0, 1), max_nfev=POLISHING,
+    )  # fmt: skip
+    return np.asarray(low + fit.x * width)
 
 
 def estimates(
     objective: Objective,
     x: Array,
-    records: Sequence[Harmonic],
+    moved: Array,
     *,
     walkers: int,
     steps: int,
@@ -84,15 +111,17 @@ def estimates(
     journal: Path | None,
     progress: Callable[[float], None] | None,
 ) -> tuple[list[Estimate], Array]:
-    """Intervals of all parameters of the objective around its optimum x (k,), and the correlation matrix (k, k)."""
+    """Intervals of all parameters of the objective around its optimum x (k,), and the correlation matrix (k, k).
+
+    The intervals are wider by `moved` (k,) on each side.
+    """
     import emcee
 
-    best = objective.damper(x)
-    weights = 0.5 / np.array([variance(best, record) for record in records])
     low, high = objective.bounds.T
+    weight = weights(objective, x)
 
     def misfit(X: Array) -> Array:
-        return np.nan_to_num(objective.sums(X)[:, :, 0] @ weights, nan=np.inf)
+        return np.nan_to_num(objective.sums(X)[:, :, 0] @ weight, nan=np.inf)
 
     memory = Journal(misfit, journal, progress)
 
@@ -104,8 +133,11 @@ def estimates(
         return values
 
     rng = np.random.default_rng(seed)
-    scale = slice_widths(misfit, x, objective.bounds)
-    start = reflected(x + scale * rng.standard_normal((walkers, len(x))), low, high)
+    rows = np.repeat(np.sqrt(2 * weight), [len(r.time) - 1 - r.marks[0] for r in objective.records])
+    J = slopes(objective, x) * rows[:, None]
+    # What no residual tells has the spread of its range.
+    spread = np.linalg.cholesky(np.linalg.inv(J.T @ J + 12 * np.eye(len(x))))
+    start = reflected(x + rng.standard_normal((walkers, len(x))) @ spread.T * (high - low), low, high)
     sampler = emcee.EnsembleSampler(walkers, len(x), log_probability, vectorize=True)
     state = emcee.State(start, random_state=np.random.RandomState(seed).get_state())
     sampler.run_mcmc(state, steps)
@@ -114,26 +146,12 @@ def estimates(
     q16, q50, q84 = np.quantile(chain, norm.cdf([-1, 0, 1]), axis=0)
     found = []
     for i, name in enumerate(objective.names):
-        a = max(low[i], min(x[i], q50[i] - z * (q50[i] - q16[i])))
-        b = min(high[i], max(x[i], q50[i] + z * (q84[i] - q50[i])))
+        a = max(low[i], min(x[i], q50[i] - z * (q50[i] - q16[i])) - moved[i])
+        b = min(high[i], max(x[i], q50[i] + z * (q84[i] - q50[i])) + moved[i])
         found.append(Estimate(name, float(x[i]), float(a), float(b), (float(low[i]), float(high[i]))))
     with np.errstate(invalid="ignore"):
         related: Array = np.nan_to_num(np.corrcoef(chain.T))
     return found, related
-
-
-def slice_widths(misfit: Callable[[Array], Array], x: Array, bounds: Array) -> Array:
-    """How far (k,) each parameter alone can move until the misfit rises by about one half."""
-    shares = np.geomspace(1e-5, 0.5, 18)
-    base = float(misfit(x[None])[0])
-    found = np.empty(len(x))
-    for i, (low, high) in enumerate(bounds):
-        X = np.repeat(x[None], len(shares), axis=0)
-        to = x[i] + shares * (high - low)
-        X[:, i] = np.where(to <= high, to, x[i] - shares * (high - low))
-        within = np.flatnonzero(misfit(np.clip(X, bounds[:, 0], bounds[:, 1])) <= base + 0.5)
-        found[i] = (shares[within[-1]] if len(within) else shares[0]) * (high - low)
-    return found
 
 
 def reflected(X: Array, low: Array, high: Array) -> Array:

@@ -38,7 +38,10 @@ def state(damper: Damper, level: float, preload: bool | int) -> Damper:
 
 def validate_harmonic(damper: Damper, record: Harmonic, split: str, offset: float = 0.0) -> Validated:
     """Force and works of a harmonic record; `offset` is the zero of the load cell [N]."""
-    found = simulate(state(damper, record.oil_level, record.gas_preload), record.stroke, record.velocity).force + offset
+    found = (
+        simulate(state(damper, record.oil_level, record.gas_preload), record.stroke, record.velocity, record.time).force
+        + offset
+    )
     span = slice(int(record.marks[0]), int(record.marks[-1]) + 1)
     measured = record.works()
     cycles = [slice(a, b + 1) for a, b in zip(record.marks[:-1], record.marks[1:], strict=True)]
@@ -52,7 +55,9 @@ def validate_harmonic(damper: Damper, record: Harmonic, split: str, offset: floa
 
 def validate_drives(damper: Damper, records: Sequence[Record]) -> list[Validated]:
     """Force and work of the drives; relative to the record of the intact damper over the same stroke, where there is one."""
-    forces = [simulate(state(damper, r.oil_level, r.gas_preload), r.stroke, central_velocity(r)).force for r in records]
+    forces = [
+        simulate(state(damper, r.oil_level, r.gas_preload), r.stroke, central_velocity(r), r.time).force for r in records
+    ]
     works = [[float(np.trapezoid(F, r.stroke)) for F in (r.force, found)] for r, found in zip(records, forces, strict=True)]
     rows = []
     for r, found, (measured, simulated) in zip(records, forces, works, strict=True):

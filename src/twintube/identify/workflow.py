@@ -8,10 +8,10 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.identify.intact import identify_intact, quasi_static
-from twintube.identify.objective import TABLE_6, TABLES_7_8, Harmonic, Objective
+from twintube.identify.objective import FINE, TABLE_6, TABLES_7_8, Harmonic, Objective
 from twintube.identify.optimise import Best, minimise
 from twintube.identify.sines import identify_sines
-from twintube.identify.uncertainty import Estimate, estimates
+from twintube.identify.uncertainty import Estimate, estimates, polished
 from twintube.parameters import Damper
 from twintube.simulate import InputError
 from twintube.variants import NO_CAVITATION, NO_FOAM
@@ -129,9 +129,14 @@ def identify_damper(
         search("all together", every, budget.together, "cma", reached),
         search("all together, afresh", every, budget.together, "cma"),
     ]
-    x = candidates[int(np.argmin(every(np.array(candidates))))]
+    fine = Objective(damper, names, degraded, with_work=True, samples=FINE)
+    candidates += [polished(fine, candidate) for candidate in candidates[1:]]
+    x = candidates[int(np.argmin(fine(np.array(candidates))))]
+    # How far the sampling alone moves the optimum: an error that no noise tells.
+    moved = np.abs(polished(every, x) - x)
+    every = every.corrected(fine, x)
     found, related = estimates(
-        every, x, every.records, walkers=budget.intervals[0], steps=budget.intervals[1], seed=seed,
+        every, x, moved, walkers=budget.intervals[0], steps=budget.intervals[1], seed=seed,
         journal=path(journal, len(steps), every),
         progress=None if progress is None else lambda error: progress("intervals", error),
     )  # fmt: skip

@@ -11,8 +11,8 @@ The interpreter runs it inside the Python FMU, numba compiles it for records and
 
 from twintube.kernel.compression import compression
 from twintube.kernel.forces import fluid_force, stribeck
-from twintube.kernel.prepare import fill, prepare
+from twintube.kernel.prepare import fill, pour, prepare
 from twintube.kernel.rebound import rebound
 from twintube.kernel.step import step
 
-__all__ = ["compression", "fill", "fluid_force", "prepare", "rebound", "step", "stribeck"]
+__all__ = ["compression", "fill", "fluid_force", "pour", "prepare", "rebound", "step", "stribeck"]

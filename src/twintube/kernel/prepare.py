@@ -38,9 +38,13 @@ def fill(p: Parameters, d: Derived, s: State, z: float) -> None:
 
     The order no longer matters after the paper's six preconditioning oscillations.
     """
+    pour(d, s, z, p.oil_level * p.V_oil)
+
+
+def pour(d: Derived, s: State, z: float, oil: float) -> None:
+    """As `fill`, with the volume `oil` [m3]."""
     V1 = d.A_1 * (d.half_length - z)
     V2 = d.A_2 * (d.half_length + z)
-    oil = p.oil_level * p.V_oil
     s.z = z
     s.V2_oil = min(oil, V2)
     s.V1_oil = min(oil - s.V2_oil, V1)

@@ -72,6 +72,7 @@ def step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: 
     F_1 = fluid_force(p, v1)
     if dz == 0.0:
         settle(p, d, s, f, v1)
+        f.k_mean = s.k_degr
         set_forces(p, d, s, F_1, v1)
         return True
     F_0 = F_1 if v0 == v1 else fluid_force(p, v0)
@@ -97,6 +98,7 @@ def step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: 
     s.F_D = dahl(p, d, s.F_D, dz)
     # The mean over the step: force times stroke is then the work, wherever in the step a phase ran out.
     s.k_degr = acting / (dz if rising else -dz)
+    f.k_mean = s.k_degr
     if (v1 < 0.0) == rising:
         settle(p, d, s, f, v1)
     friction = s.F_friction

@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from twintube import __version__, compiled, kernel
 from twintube.arrays import Array
+from twintube.effects import Parameters
 from twintube.parameters import Damper
 from twintube.rig import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, harmonic_block, oscillations
 from twintube.simulate import InputError, simulate
 from twintube.studies.definition import FIELDS, Case, Signal, Study, StudyError
-from twintube.variables import Derived, Parameters, blank
+from twintube.variables import Derived, blank
 from twintube.variants import NO_CAVITATION, NO_FOAM
 
 RESULTS = ("work_J", "work_relative", "peak_rebound_N", "peak_compression_N")
@@ -98,21 +99,22 @@ def scaled(damper: Damper, factor: float, gas_preload: int) -> Damper:
     )
 
 
-def excitation(study: Study, signal: Signal) -> tuple[Array, Array, NDArray[np.int64]]:
-    """Stroke [m], velocity [m/s] and the samples where oscillations begin and end; a record is one oscillation."""
+def excitation(study: Study, signal: Signal) -> tuple[Array, Array, Array, NDArray[np.int64]]:
+    """Time [s], stroke [m], velocity [m/s] and the samples where oscillations begin and end; a record is one oscillation."""
     if not signal.stroke.size:
         block = harmonic_block(signal.velocity, signal.amplitude, study.time_step)
-        return block.stroke, block.velocity, block.marks
-    _, z, v = oscillations(V_PRECONDITIONING, AMPLITUDE, PRECONDITIONING, 2e-3)
+        return block.time, block.stroke, block.velocity, block.marks
+    t, z, v = oscillations(V_PRECONDITIONING, AMPLITUDE, PRECONDITIONING, 2e-3)
     stroke, velocity = np.concatenate([z, signal.stroke]), np.concatenate([v, signal.speed])
-    return stroke, velocity, np.array([len(z), len(stroke) - 1])
+    time = np.concatenate([t, t[-1] + 2e-3 + signal.time - signal.time[0]])
+    return time, stroke, velocity, np.array([len(z), len(stroke) - 1])
 
 
 def driven(study: Study, damper: Damper, signal: Signal, counted: tuple[int, ...]) -> Array:
     """Work [J], peak force in rebound and in compression [N] (negative) of the oscillations `counted` from 1."""
-    stroke, velocity, marks = excitation(study, signal)
+    time, stroke, velocity, marks = excitation(study, signal)
     end = int(marks[counted[-1]]) + 1
-    run = simulate(damper, stroke[:end], velocity[:end])
+    run = simulate(damper, stroke[:end], velocity[:end], time[:end])
     rows = []
     for number in counted:
         first, last = int(marks[number - 1]), int(marks[number])

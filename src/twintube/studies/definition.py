@@ -7,9 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.effects import Parameters
 from twintube.parameters import Damper, ParameterError
 from twintube.rig import OSCILLATIONS
-from twintube.variables import Parameters, fmi_name
+from twintube.variables import fmi_name
 
 FIELDS = {fmi_name(item): item for item in fields(Parameters)}
 
@@ -25,6 +26,7 @@ class Signal:
     name: str
     velocity: float = math.nan  # maximum [m/s]
     amplitude: float = math.nan  # [m]
+    time: Array = field(default_factory=lambda: np.empty(0))  # (n,) [s]
     stroke: Array = field(default_factory=lambda: np.empty(0))  # (n,) [m]
     speed: Array = field(default_factory=lambda: np.empty(0))  # (n,) [m/s]
 

@@ -198,7 +198,7 @@ def from_content(content: dict[str, Any], text: str, file: str, folder: Path) ->
 
 def digest(record: Signal) -> str:
     """SHA-256 of a record's samples."""
-    return hashlib.sha256(record.stroke.tobytes() + record.speed.tobytes()).hexdigest()
+    return hashlib.sha256(record.time.tobytes() + record.stroke.tobytes() + record.speed.tobytes()).hexdigest()
 
 
 def refuse(file: str, found: list[str]) -> None:
@@ -234,8 +234,8 @@ def read_records(content: dict[str, Any], text: str, folder: Path, found: list[s
     read: list[Signal] = []
     try:
         for name in strings(content["records"]) if "records" in content else []:
-            _, stroke, speed = read_csv(folder / name)
-            read.append(Signal(name, stroke=stroke, speed=speed))
+            time, stroke, speed = read_csv(folder / name)
+            read.append(Signal(name, time=time, stroke=stroke, speed=speed))
     except (ValueError, OSError) as error:
         found.append(f"{line}records: {error}")
     return tuple(read)

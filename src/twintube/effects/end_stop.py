@@ -1,0 +1,44 @@
+"""Rubber stops near the ends of the stroke: a progressive spring on each side, part of the gas force, no work.
+
+F = F_stop ((|z| - onset) / 10 mm)^1.5 beyond the onset (Hertz): F_stop is the force 10 mm beyond it.
+"""
+
+import math
+from dataclasses import dataclass
+
+from twintube import variables
+from twintube.variables import var
+
+TITLE = "Bump or rebound stop engaged"
+CAUSE = "The stroke reaches a rubber stop inside the damper, which adds an elastic force near the end of the stroke."
+ABSENCE = "The residual is zero over most of the stroke and rises steeply at one end, alike in both directions."
+STRENGTH = ("F_stop_re", "F_stop_co")
+NEEDS_TIME = False
+REFERENCE = 0.01  # [m]
+
+
+@dataclass(slots=True)
+class Parameters(variables.Parameters):
+    """Force and onset of each side."""
+
+    F_stop_re: float = var("end_stop", "", "N", "force of the rebound stop 10 mm beyond its onset", lower=0, upper=2e4,
+                           source="Hertz, power 1.5", default=0.0)  # fmt: skip
+    onset_re: float = var("end_stop", "", "m", "stroke at which the rebound stop touches", lower=0, upper=0.4,
+                          source="", default=0.04)  # fmt: skip
+    F_stop_co: float = var("end_stop", "", "N", "force of the compression stop 10 mm beyond its onset", lower=0,
+                           upper=2e4, source="Hertz, power 1.5", default=0.0)  # fmt: skip
+    onset_co: float = var("end_stop", "", "m", "stroke (magnitude) at which the compression stop touches", lower=0,
+                          upper=0.4, source="", default=0.04)  # fmt: skip
+
+
+def end_stop_press(force: float, over: float) -> float:
+    """Force [N] of a stop pressed by `over` [m]."""
+    if over <= 0.0:
+        return 0.0
+    depth = over / REFERENCE
+    return force * depth * math.sqrt(depth)
+
+
+def end_stop_elastic(p: Parameters, z: float) -> float:
+    """Force [N] at the stroke `z` [m]."""
+    return end_stop_press(p.F_stop_re, z - p.onset_re) - end_stop_press(p.F_stop_co, -z - p.onset_co)

@@ -1,0 +1,51 @@
+"""Oil is lost past the rod seal: a film of constant thickness on the rod, a volume per stroke travelled.
+
+It comes from the reserve, where the seal is (oil, then the oil of its foam), then from V1, whose oil gives way to gas.
+"""
+
+from dataclasses import dataclass
+
+from twintube import variables
+from twintube.frame import Frame
+from twintube.variables import var
+
+TITLE = "Oil leaks past the rod seal"
+CAUSE = "A worn seal lets a film of oil out with every stroke, so that the oil level falls during the measurement."
+ABSENCE = "The measured damper loses force over the whole measurement, also at low velocity, and does not recover at rest."
+STRENGTH = ("leak_film",)
+NEEDS_TIME = False
+
+
+@dataclass(slots=True)
+class Parameters(variables.Parameters):
+    """The film's cross-section."""
+
+    leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled", lower=0, upper=5e-5,
+                           source="film on the rod; Mueller and Nau, Fluid Sealing Technology", default=0.0)  # fmt: skip
+
+
+@dataclass(slots=True)
+class State(Frame):
+    """What is outside."""
+
+    V_lost: float = var("seal_leak", "", "m3", "oil lost since the start", default=0.0)
+
+
+def seal_leak_phases(p: Parameters, s: State, way: float, dt: float) -> None:
+    """Take the oil for the stroke `way` >= 0 [m]."""
+    left = p.leak_film * way
+    oil = min(left, s.V3_oil)
+    s.V3_oil -= oil
+    s.V_lost += oil
+    left -= oil
+    if left > 0.0:
+        oil = min(left, s.V3_foam_oil)
+        s.V3_foam_oil -= oil
+        s.V3_foam = s.V3_foam - oil if s.V3_foam_oil > 0.0 else 0.0
+        s.V_lost += oil
+        left -= oil
+    if left > 0.0:
+        oil = min(left, s.V1_oil)
+        s.V1_oil -= oil
+        s.V1_gas += oil
+        s.V_lost += oil

@@ -1,0 +1,51 @@
+"""Side load, valve wear and a wrong fill: the paper's model with another number."""
+
+import numpy as np
+import pytest
+
+from twintube.parameters import Damper, load
+from twintube.rig import harmonic_block
+from twintube.simulate import simulate
+
+
+def test_side_load_multiplies_the_friction_and_its_work(sa8: Damper) -> None:
+    block = harmonic_block(0.524)
+    plain, loaded = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(side_load=2.0)))
+    fluid = simulate(sa8.with_(F_FrS=0.0), block.stroke, block.velocity)
+    assert loaded.F_friction == pytest.approx(3.0 * plain.F_friction)
+    assert np.array_equal(loaded.F_fluid, plain.F_fluid)
+    assert loaded.work - fluid.work == pytest.approx(3.0 * (plain.work - fluid.work), rel=1e-6, abs=1e-6)
+
+
+def test_wear_scales_each_branch_and_its_work() -> None:
+    block = harmonic_block(1.048)
+    base = load("SA8").with_(F_FrS=0.0)
+    p = base.parameters
+    worn = simulate(base.with_(wear_re=-0.3, wear_co=0.2), block.stroke, block.velocity)
+    scaled = base.with_(F_re=[0.7 * F for F in p.F_re], F_co=[1.2 * F for F in p.F_co])
+    same = simulate(scaled, block.stroke, block.velocity)
+    assert worn.force == pytest.approx(same.force)
+    # A step that holds a reversal counts with the direction of its stroke.
+    assert worn.work[-1] == pytest.approx(same.work[-1], rel=1e-4)
+    assert worn.k_degr.max() == pytest.approx(1.2)
+
+
+@pytest.mark.parametrize(
+    ("recorded", "error", "true"), [(0.6, -0.1, 0.5), (1.0, -0.1, 0.9), (0.9, 0.3, 1.0), (0.2, -0.3, 0.0)]
+)
+def test_a_wrong_fill_is_another_fill(recorded: float, error: float, true: float) -> None:
+    block = harmonic_block(1.572)
+    base = load("SA8").with_(gas_preload=0, oil_loss_gain=0.0)
+    wrong = simulate(base.with_(oil_level=recorded, level_error=error), block.stroke, block.velocity)
+    right = simulate(base.with_(oil_level=true), block.stroke, block.velocity)
+    assert wrong.force == pytest.approx(right.force, abs=1e-6)
+    assert wrong.V_cav == pytest.approx(right.V_cav, abs=1e-15)
+
+
+def test_the_intact_state_and_the_friction_keep_the_recorded_level(sa8: Damper) -> None:
+    block = harmonic_block(1.048)
+    intact = load("SA8")
+    a, b = (simulate(x, block.stroke, block.velocity) for x in (intact, intact.with_(level_error=-0.2)))
+    assert np.array_equal(a.force, b.force)
+    a, b = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(level_error=-0.2)))
+    assert np.array_equal(a.F_friction, b.F_friction)

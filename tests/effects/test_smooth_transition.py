@@ -1,0 +1,50 @@
+"""Exponential build-up over the stroke."""
+
+import math
+
+import numpy as np
+import pytest
+
+from twintube import model
+from twintube.effects import State
+from twintube.parameters import Damper, load
+from twintube.rig import harmonic_block
+from twintube.simulate import simulate
+from twintube.variables import Derived, Flow, blank
+
+
+@pytest.mark.parametrize("steps", [1, 7])
+def test_step_becomes_an_exponential(steps: int) -> None:
+    """As tests/kernel/test_limits.py: with X_Re = 0 k_degr steps from 0 to 1 when V1 has no gas left."""
+    p = load("SA7").with_(oil_level=0.35, gas_preload=0, build_up=0.01).parameters
+    d, s, f = blank(Derived), blank(State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    edge = s.V1_gas / d.A_1
+    model.advance(p, d, s, f, edge, 0.04, 0.04, 0.0)
+    assert s.k_degr == 0.0
+    work = s.work
+    for i in range(1, steps + 1):
+        model.advance(p, d, s, f, edge + 0.005 * i / steps, 0.04, 0.04, 0.0)
+    assert f.k_degr == pytest.approx(1 - math.exp(-0.5))
+    # The mean over the stroke is in the work, whatever the step.
+    force = s.F_fluid / s.k_degr
+    mean = 1 - (1 - math.exp(-0.5)) / 0.5
+    assert s.work - work - s.F_friction * 0.005 == pytest.approx(force * mean * 0.005, rel=1e-3)
+    # Back in compression the branch starts at its own value.
+    model.advance(p, d, s, f, s.z, -0.04, -0.04, 0.0)
+    assert s.k_degr == s.k_flow
+
+
+def test_a_short_length_changes_nothing(sa8: Damper) -> None:
+    block = harmonic_block(1.048)
+    plain, smooth = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(build_up=1e-7)))
+    assert np.abs(smooth.force - plain.force).max() < 2.0
+    assert smooth.work[-1] == pytest.approx(plain.work[-1], rel=1e-4)
+
+
+def test_k_stays_between_its_values(sa8: Damper) -> None:
+    block = harmonic_block(1.572)
+    result = simulate(sa8.with_(build_up=0.03), block.stroke, block.velocity)
+    assert result.k_degr.min() >= 0.0
+    assert result.k_degr.max() <= 1.0

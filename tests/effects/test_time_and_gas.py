@@ -1,0 +1,52 @@
+"""Foam and freed gas over time: exponential, complete after a long rest."""
+
+import math
+
+import pytest
+
+from twintube import model
+from twintube.effects import State
+from twintube.parameters import Damper
+from twintube.rig import oscillations
+from twintube.variables import Derived, Flow, blank
+
+
+def foamed(damper: Damper) -> tuple[object, ...]:
+    """The records after three fast oscillations without time."""
+    p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    _, z, v = oscillations(1.5, 0.045, 3, 1e-3)
+    for i in range(1, len(z)):
+        model.advance(p, d, s, f, float(z[i]), float(v[i - 1]), float(v[i]), 0.0)
+    return p, d, s, f
+
+
+def oil_of(s: State) -> float:
+    return s.V1_oil + s.V2_oil + s.V3_oil + s.V1_foam_oil + s.V2_foam_oil + s.V3_foam_oil
+
+
+def test_foam_decays_at_rest_by_its_rate(sa8: Damper) -> None:
+    p, d, s, f = foamed(sa8.with_(foam_decay_rate=0.1, oil_level=0.4))
+    foam = s.V1_foam + s.V2_foam + s.V3_foam
+    oil = oil_of(s)
+    assert foam > 1e-6
+    for _ in range(4):
+        model.advance(p, d, s, f, s.z, 0.0, 0.0, 5.0)
+    assert s.V1_foam + s.V2_foam + s.V3_foam == pytest.approx(foam * math.exp(-2.0), rel=1e-9)
+    assert oil_of(s) == pytest.approx(oil, rel=1e-12)
+    model.advance(p, d, s, f, s.z, 0.0, 0.0, 1e4)
+    model.advance(p, d, s, f, s.z, 0.0, 0.0, 1.0)
+    assert s.V1_foam == s.V2_foam == s.V3_foam == 0.0
+    assert oil_of(s) == pytest.approx(oil, rel=1e-12)
+
+
+def test_freed_gas_dissolves_at_rest_by_its_rate(sa8: Damper) -> None:
+    p, d, s, f = foamed(sa8.with_(redissolution_rate=0.1))
+    freed, oil = s.V_cav, oil_of(s)
+    assert freed > 1e-6
+    model.advance(p, d, s, f, s.z, 0.0, 0.0, 20.0)
+    assert s.V_cav == pytest.approx(freed * math.exp(-2.0), rel=1e-9)
+    assert oil_of(s) + s.V_cav == pytest.approx(oil + freed, rel=1e-12)
+    model.advance(p, d, s, f, s.z, 0.0, 0.0, 1e4)
+    assert oil_of(s) == pytest.approx(0.6 * p.V_oil, rel=1e-12)
