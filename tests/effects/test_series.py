@@ -64,4 +64,4 @@ def test_stable_in_steps_of_1_ms_and_in_64_samples(sa8: Damper, element: dict[st
         for dt in (1e-3, t[-1] / 128):
             times, z, v = oscillations(velocity, 0.045, 2, dt)
             error = simulate(damper, z, v, times).force - np.interp(times, t, fine)
-            assert np.sqrt(np.mean(error**2)) < 0.05 * np.sqrt(np.mean(fine**2)), (velocity, dt)
+            assert np.sqrt(np.mean(error**2)) < 0.1 * np.sqrt(np.mean(fine**2)), (velocity, dt)
