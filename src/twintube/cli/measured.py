@@ -1,4 +1,4 @@
-"""Commands about measured data and larger computations: check, identify, study."""
+"""Commands about measured data and larger computations: check, identify, study, reproduce."""
 
 import json
 import shutil
@@ -105,3 +105,25 @@ def identify(
                     f"{found[kind]['work_error_first']:.1%} off, of the last {found[kind]['work_error_last']:.1%}"
                 )
         typer.echo(f"{output}: identified.toml, identification.json, report.html")
+
+
+@app.command(epilog="Example: twintube reproduce --output reproduction")
+def reproduce(
+    output: Annotated[Path, typer.Option(help="Folder for the page, its pictures and reproduce.json.")] = Path(
+        "reproduction"
+    ),
+    figure: Annotated[list[str] | None, typer.Option(help="Only these figures, e.g. 3 or 19-26; repeatable.")] = None,
+    paper_budget: Annotated[
+        bool, typer.Option("--paper-budget", help="Identify for Figures 19 to 26 with the paper's swarms: an hour.")
+    ] = False,
+    processes: Annotated[int | None, typer.Option(help="Processes on this machine; all cores if left out.")] = None,
+) -> None:
+    """Draw the paper's figures from the model, each with the paper's statement and whether it holds.
+
+    The paper's measured curves are unpublished; the virtual rig stands for them, and every picture says so.
+    """
+    from twintube.report import reproduce as run
+
+    with answering():
+        made = run(output, figures=figure, quick=not paper_budget, processes=processes, report=typer.echo)
+        typer.echo(f"{made.page}: {len(made.pictures)} figures")

@@ -1,0 +1,53 @@
+"""The damper identified from records, in the paper's four steps; kept as a parameter file beside the report."""
+
+import hashlib
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from twintube import parameters
+from twintube.arrays import Array
+from twintube.identify import Harmonic
+from twintube.identify.workflow import PAPER, Budget, identify_damper
+from twintube.parameters import Damper
+
+HOW = "identified from the virtual rig's records in the paper's four steps"
+# Small swarms for eight dampers in minutes; the walkers make intervals, which a report of curves does not show.
+QUICK = Budget(table_6=(32, 60), tables_7_8=(64, 120), together=(24, 100), intervals=(32, 2))
+
+
+def fingerprint() -> str:
+    """What an identification depends on beside its records: the sources of the identification and of the kernel."""
+    here = Path(parameters.__file__).parent
+    sources = sorted([*(here / "identify").glob("*.py"), *(here / "kernel").glob("*.py"), Path(__file__)])
+    return hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:12]
+
+
+def fit(
+    damper: Damper,
+    slow: tuple[Array, Array] | None,
+    intact: Sequence[Harmonic],
+    degraded: Sequence[Harmonic],
+    *,
+    kept: Path,
+    quick: bool,
+    progress: Callable[[str, float], None] | None = None,
+) -> Damper:
+    """The identified damper, or that of the file `kept` where an earlier run left it.
+
+    `slow` is stroke [m] and force [N] of the quasi-static record. A run that was killed goes on where it was.
+    """
+    if not kept.exists():
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        journal = kept.with_suffix("")
+        journal.mkdir(exist_ok=True)
+        budget = QUICK if quick else PAPER
+        found = identify_damper(damper, slow, intact, degraded, budget=budget, journal=journal, progress=progress).damper
+        part = kept.with_suffix(".part")
+        part.write_text(parameters.to_toml(found.with_(oil_level=1.0, gas_preload=1)), encoding="utf-8")
+        part.replace(kept)
+    return parameters.load(kept)
+
+
+def generations(quick: bool) -> int:
+    """How often `progress` is called at most."""
+    return (QUICK if quick else PAPER).generations

@@ -1,0 +1,231 @@
+"""The page of `twintube identify`: what was found, how sure it is, and how it does on the records."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from twintube.identify import Harmonic, Result
+from twintube.identify.dataset import is_intact, totals
+from twintube.identify.intact import fv_points
+from twintube.identify.validation import Validated, state
+from twintube.kernel import fluid_force
+from twintube.report import style
+from twintube.report.page import Picture, Section, Table, html
+from twintube.simulate import simulate
+
+LOOPS = 8  # records of which the loops are drawn
+
+
+def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> Figure:
+    """Force over stroke, first and last oscillation, measured and simulated."""
+    rows = (len(chosen) + 3) // 4
+    figure, axes = style.canvas(rows, min(4, len(chosen)), (11.0, 2.9 * rows + 0.4))
+    damper, offset = result.identification.damper, result.identification.offset
+    for ax, (record, split) in zip(axes.flat, chosen, strict=False):
+        found = (
+            simulate(state(damper, record.oil_level, record.gas_preload), record.stroke, record.velocity, record.time).force
+            + offset
+        )
+        for colour, name, force in ((style.GREY, "measured", record.force), (style.RED, "simulated", found)):
+            for dash, which, (a, b) in (
+                ("-", "first", (record.marks[0], record.marks[1])),
+                (":", "last", (record.marks[-2], record.marks[-1])),
+            ):
+                part = slice(int(a), int(b) + 1)
+                ax.plot(
+                    record.stroke[part] * 1e3, force[part], dash, color=colour, lw=1.4, label=f"{name}, {which} oscillation"
+                )
+        held = ", held out" if split == "heldout" else ""
+        style.title(ax, f"{record.oil_level:.0%} oil, {record.top_speed:.3g} m/s{held}")
+        ax.title.set_fontsize(9)
+    for ax in axes.flat[len(chosen) :]:
+        ax.set_visible(False)
+    style.label(axes, "stroke [mm]", "force [N]")
+    style.legend_above(figure, axes[0, 0])
+    return figure
+
+
+def works(rows: Sequence[Validated]) -> Figure:
+    """Work of the first and the last oscillation over the velocity, per oil level."""
+    figure, axes = style.canvas(1, 2, (10.0, 4.2))
+    levels = sorted({(row.oil_level, row.gas_preload) for row in rows}, reverse=True)
+    palette = [style.INK, style.ORANGE, style.RED, style.BLUE, style.GREEN, style.VIOLET]
+    for i, (ax, text) in enumerate(zip(axes[0], ("first oscillation", "last oscillation"), strict=True)):
+        for colour, level in zip(palette * 9, levels, strict=False):
+            here = sorted((r for r in rows if (r.oil_level, r.gas_preload) == level), key=lambda r: r.top_speed)
+            v = [r.top_speed for r in here]
+            name = f"{level[0]:.0%} oil, {'with' if level[1] else 'without'} preload"
+            ax.plot(v, [r.work_simulated[i] for r in here], "-", color=colour, lw=1.3, label=f"simulated, {name}")
+            for fitted in (True, False):
+                some = [r for r in here if (r.split != "heldout") is fitted]
+                told = f"measured, {'fitted' if fitted else 'held out'}, {name}" if some else None
+                measured = [r.work_measured[i] for r in some]
+                fill = colour if fitted else "white"
+                ax.plot([r.top_speed for r in some], measured, "o", ms=5, color=colour, mfc=fill, label=told)
+        style.title(ax, text)
+        ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+    style.label(axes, "velocity [m/s]", "work [J]")
+    style.legend_above(figure, axes[0, 0], columns=3)
+    return figure
+
+
+def curve(result: Result) -> Figure:
+    """The identified F-v curve with the friction-reduced points of the intact records."""
+    figure, axes = style.canvas(1, 1, (7.0, 4.0))
+    ax = axes[0, 0]
+    damper = result.identification.damper
+    intact = [h for h, _ in result.harmonics if is_intact(h)]
+    v = np.linspace(-1, 1, 401) * max(h.top_speed for h, _ in result.harmonics)
+    ax.plot(v, [fluid_force(damper.parameters, float(x)) for x in v], color=style.INK, label="identified")
+    before = result.dataset.damper.parameters
+    ax.plot(v, [fluid_force(before, float(x)) for x in v], color=style.GREY, lw=1, ls="--", label="given parameter set")
+    if intact:
+        rebound, compression = fv_points(damper, intact)
+        points = np.array(rebound + [(-a, -b) for a, b in compression])
+        points[:, 1] += result.identification.offset * -1.0
+        ax.plot(points[:, 0], points[:, 1], "o", color=style.RED, ms=4, label="records at stroke 0, less friction and gas")
+    style.label(axes, "velocity [m/s], rebound positive", "fluid force [N]")
+    ax.legend(loc="upper left")
+    return figure
+
+
+def intervals(result: Result) -> Figure:
+    """Every parameter with its interval within its allowed range."""
+    found = result.identification.estimates
+    figure, axes = style.canvas(1, 1, (8.0, 0.3 * len(found) + 1.0))
+    ax = axes[0, 0]
+    for i, e in enumerate(found):
+        low, width = e.bounds[0], e.bounds[1] - e.bounds[0]
+        colour = style.BLUE if e.determined else style.FAINT
+        ax.plot([(e.low - low) / width, (e.high - low) / width], [i, i], "-", lw=6, color=colour, solid_capstyle="butt")
+        ax.plot((e.value - low) / width, i, "|", ms=12, mew=2, color=style.INK)
+    ax.set_yticks(range(len(found)), [e.name for e in found])
+    ax.set_xlim(-0.02, 1.02)
+    ax.invert_yaxis()
+    ax.set_xlabel("share of the allowed range; grey: not determined by these records")
+    return figure
+
+
+def convergence(result: Result) -> Figure:
+    """Best error after every generation of each search."""
+    steps = result.identification.steps
+    figure, axes = style.canvas(1, len(steps), (3.6 * len(steps), 2.8))
+    for ax, step in zip(axes[0], steps, strict=True):
+        ax.plot(np.arange(1, len(step.best.trace) + 1), step.best.trace, color=style.BLUE)
+        style.title(ax, step.title)
+        ax.set_xlabel("generation")
+        ax.set_ylabel(f"error [{step.unit}]")
+    return figure
+
+
+def drives(rows: Sequence[Validated]) -> Figure:
+    """Work of the drives relative to the intact damper."""
+    figure, axes = style.canvas(1, 1, (9.0, 0.32 * len(rows) + 1.2))
+    ax = axes[0, 0]
+    at = np.arange(len(rows))
+    ax.barh(at - 0.2, [r.relative_measured or 0.0 for r in rows], 0.38, color=style.GREY, label="measured")
+    ax.barh(at + 0.2, [r.relative_simulated or 0.0 for r in rows], 0.38, color=style.RED, label="simulated")
+    ax.set_yticks(at, [r.name for r in rows], fontsize=8)
+    ax.invert_yaxis()
+    ax.set_xlabel("work relative to the intact damper")
+    style.legend_above(figure, ax)
+    return figure
+
+
+def percent(part: dict[str, float] | None, what: str) -> list[str]:
+    """A row of the table of errors."""
+    if part is None:
+        return [what, "none", "", "", ""]
+    return [
+        what, f"{part['records']:.0f}", f"{part['force_rmse_N']:.1f} N, {part['force_rmse_of_peak']:.1%} of the peak",
+        f"{part['work_error_first']:.1%} (worst {part['work_error_first_worst']:.1%})",
+        f"{part['work_error_last']:.1%} (worst {part['work_error_last_worst']:.1%})",
+    ]  # fmt: skip
+
+
+def parameter_table(result: Result) -> Table:
+    """All identified parameters with what is to be said about them."""
+    rows = []
+    for e in result.identification.estimates:
+        said = ([] if e.determined else ["not determined"]) + (["at its bound"] if e.at_bound else [])
+        rows.append(
+            [
+                e.name,
+                f"{e.value:.3g}",
+                f"{e.low:.3g} to {e.high:.3g}",
+                f"{e.bounds[0]:g} to {e.bounds[1]:.3g}",
+                ", ".join(said),
+            ]
+        )
+    return Table(
+        ["parameter", "value", "interval", "allowed", ""], rows, "Intervals hold with 95 % for all parameters together"
+    )
+
+
+def write_report(result: Result, folder: Path) -> list[Path]:
+    """Write report.html and its pictures; returns the files."""
+    found = result.identification
+    harmonics = [row for row in result.validation if row.measurement == "harmonic"]
+    ordered = sorted(result.harmonics, key=lambda pair: (pair[1] != "heldout", pair[0].top_speed))
+    judged = [pair for pair in ordered if not is_intact(pair[0])] or ordered
+    chosen = [judged[i] for i in sorted({round(x) for x in np.linspace(0, len(judged) - 1, min(LOOPS, len(judged)))})]
+    errors = Table(
+        ["records", "number", "force, root mean square", "work, first oscillation", "work, last oscillation"],
+        [
+            percent(totals([r for r in harmonics if r.split == kind]), text)
+            for kind, text in (("heldout", "held out"), ("fit", "fitted"))
+        ],
+        "Error of the identified model; works as median",
+    )  # fmt: skip
+    pictures = {"works": works(harmonics), "loops": loops(result, chosen), "fv_curve": curve(result)}
+    sections = [
+        section("works", "Work per oscillation", pictures, "Filled: fitted, open: held out."),
+        section(
+            "loops", "Force over stroke", pictures, "First and last oscillation of some records, the held-out ones first."
+        ),
+        section("fv_curve", "F-v curve", pictures, "The first step of the identification."),
+    ]
+    if found.estimates:
+        pictures |= {"intervals": intervals(result), "convergence": convergence(result)}
+        told = [f"{a} and {b} act alike on these records (correlation {c:.2f})" for a, b, c in found.pairs]
+        sections.insert(0, Section(
+            "parameters", "Parameters", text=told, pictures=[picture(pictures["intervals"], "intervals")],
+            tables=[parameter_table(result)],
+        ))  # fmt: skip
+        steps = Table(
+            ["step", "parameters", "error", "evaluations"],
+            [[s.title, ", ".join(s.names), f"{s.best.error:.3g} {s.unit}", f"{s.best.evaluations}"] for s in found.steps],
+        )
+        sections.append(Section(
+            "search", "Search", pictures=[picture(pictures["convergence"], "convergence")], tables=[steps],
+        ))  # fmt: skip
+    relative = [row for row in result.validation if row.relative_measured is not None]
+    if relative:
+        pictures["drives"] = drives(relative)
+        sections.append(section("drives", "Drives", pictures, "Not used for fitting."))
+    table = Table(
+        ["record", "split", "oil", "m/s", "force error", "peak", "work measured", "work simulated"],
+        [[r.name, r.split, f"{r.oil_level:.0%}", f"{r.top_speed:.3g}", f"{r.force_rmse:.1f} N", f"{r.force_peak:.0f} N",
+          " / ".join(f"{w:.2f}" for w in r.work_measured) + " J", " / ".join(f"{w:.2f}" for w in r.work_simulated) + " J"]
+         for r in result.validation],
+        "Works of the first and the last oscillation, of drives in total",
+    )  # fmt: skip
+    sections.append(Section("records", "All records", tables=[table]))
+    text = html(f"Identification: {result.dataset.title}", result.remarks, sections, [errors])
+    files = [folder / f"{name}.png" for name in pictures]
+    for file, figure in zip(files, pictures.values(), strict=True):
+        file.write_bytes(style.png(figure))
+    (folder / "report.html").write_text(text, encoding="utf-8")
+    return [*files, folder / "report.html"]
+
+
+def picture(figure: Figure, alt: str) -> Picture:
+    """A figure as picture of the page."""
+    return Picture(style.png(figure), alt)
+
+
+def section(name: str, title: str, pictures: dict[str, Figure], text: str) -> Section:
+    """A section of one picture."""
+    return Section(name, title, text=[text], pictures=[picture(pictures[name], title)])

@@ -1,0 +1,171 @@
+"""The reproduction report: the figures of the paper that a model can produce, and what became of its statements."""
+
+import json
+import os
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from twintube import __version__
+from twintube.parameters import ParameterError
+from twintube.report import style
+from twintube.report.context import Context
+from twintube.report.figures import FIGURES
+from twintube.report.page import Finding, Picture, Section, Table, html
+from twintube.report.statement import Plot, Statement, as_json, plain
+
+TITLE = "Degraded twin-tube shock absorbers: the paper's figures, reproduced"
+PAPER = (
+    "Schramm, Zwosta, Prokop: Investigation and Phenomenological Modeling of Degraded Twin-Tube Shock Absorbers for Oil "
+    "and Gas Loss. Vehicles 2025, 7(1), 26, doi 10.3390/vehicles7010026."
+)
+LEAD = (
+    PAPER,
+    "Each figure that a model can produce is drawn as in the paper and stands beside what the paper says about it. Whether "
+    "that holds is computed, with the figures given; where the paper names no number, the criterion is stated.",
+    "The paper's measurements are unpublished. A virtual rig with other physics stands for them: where it appears, the "
+    "picture says so, and a statement that rests on it says how the method copes with such data, not how the paper's "
+    "dampers behave. F-v curves, friction, gas springs, maximum strokes, dead lengths and drives are assumed; "
+    "docs/open_choices.md gives the reasoning, and every picture names those that enter.",
+)
+BASES = {
+    "evidence": "published parameters of Table 9; the F-v curve is assumed or that of the stand-in",
+    "calibrated": "no evidence: it took part in the calibration of the dead lengths",
+    "by assumption": "no evidence: an assumed value decides",
+    "stand-in": "against the virtual rig, not the paper's measurement",
+    "consistency": "the model does what its equations say",
+    "not checkable": "unpublished data would be needed",
+}
+
+
+@dataclass(frozen=True)
+class Report:
+    """Where the report is and what it says."""
+
+    page: Path
+    json: Path
+    pictures: tuple[Path, ...]
+    verdicts: dict[int, str]
+
+
+def chosen(figures: Sequence[str | int] | None) -> list[int]:
+    """The numbers of the figures, e.g. `["3", "19-26"]`; raises ParameterError."""
+    if not figures:
+        return sorted(FIGURES)
+    found: set[int] = set()
+    for text in figures:
+        first, _, last = str(text).partition("-")
+        if not first.isdigit() or (last and not last.isdigit()):
+            raise ParameterError(f"figure {text!r}: must be a number or a range like 19-26")
+        span = range(int(first), int(last or first) + 1)
+        hits = {n for n in span if n in FIGURES}
+        if not hits:
+            raise ParameterError(f"figure {text}: a model can produce {', '.join(str(n) for n in sorted(FIGURES))}")
+        found |= hits
+    return sorted(found)
+
+
+def reproduce(
+    output: Path,
+    *,
+    figures: Sequence[str | int] | None = None,
+    quick: bool = True,
+    processes: int | None = None,
+    progress: bool = True,
+    report: Callable[[str], None] | None = None,
+) -> Report:
+    """Draw the paper's figures and write `index.html`, a PNG per figure and `reproduce.json` into the folder `output`.
+
+    Args:
+        output: the folder; records of the virtual rig and identified dampers stay in it and are used again.
+        figures: numbers or ranges like `"19-26"`; all if None.
+        quick: identify with the small budget instead of the paper's swarms.
+        processes: for the virtual rig; all cores if None.
+        progress: show bars on standard error.
+        report: called with a line of text per figure.
+
+    Raises:
+        ParameterError: there is no such figure.
+        InputError: a record cannot be simulated.
+
+    """
+    numbers = chosen(figures)
+    output.mkdir(parents=True, exist_ok=True)
+    context = Context(output, quick=quick, processes=processes, progress=progress)
+    context.records.prepare(job for number in numbers for job in FIGURES[number].jobs())
+    entries, sections, pictures, verdicts = [], [], [], {}
+    for number in tqdm(numbers, unit="figure", leave=False, disable=not progress):
+        plot = FIGURES[number].draw(context)
+        png = style.png(plot.figure)
+        path = output / f"figure_{number:02}.png"
+        write(path, png)
+        pictures.append(path)
+        entries.append(as_json(plot))
+        sections.append(section(plot, png))
+        verdicts[number] = plot.verdict
+        if report is not None:
+            report(f"Figure {number:2}  {plot.verdict:14} {plot.tally}")
+    about: dict[str, Any] = {"paper": PAPER, "twintube": __version__, "bases": BASES, "figures": entries}
+    write(output / "reproduce.json", (json.dumps(about, indent=1) + "\n").encode())
+    page = html(TITLE, LEAD, sections, [summary(entries)], f"twintube {__version__}")
+    write(output / "index.html", page.encode())
+    return Report(output / "index.html", output / "reproduce.json", tuple(pictures), verdicts)
+
+
+def write(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all."""
+    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    try:
+        part.write_bytes(content)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def section(plot: Plot, png: bytes) -> Section:
+    """A figure as a section of the page."""
+    notes = [("Stand-in", text.removeprefix("stand-in: ")) for text in plot.stand_ins]
+    if plot.assumed:
+        notes.append(("Assumed (unpublished)", ", ".join(plot.assumed)))
+    notes += [("Remark", text) for text in plot.remarks]
+    return Section(
+        anchor=f"figure-{plot.number}",
+        title=f"Figure {plot.number}. {plot.title}",
+        verdict=plot.verdict,
+        tally=plot.tally,
+        pictures=[Picture(png, f"Figure {plot.number}. {plot.title}")],
+        findings=[finding(statement) for statement in plot.statements],
+        notes=notes,
+    )
+
+
+def finding(statement: Statement) -> Finding:
+    """A statement as the page shows it."""
+    facts = [("Source", statement.source)]
+    if statement.claim:
+        facts.append(("Claim", f"{statement.claim} of twintube claims"))
+    facts.append(("Basis", f"{statement.basis}: {BASES[statement.basis]}"))
+    if statement.criterion:
+        facts.append(("Criterion", statement.criterion))
+    if statement.reason:
+        facts.append(("Reason", statement.reason))
+    return Finding(statement.text, statement.verdict, facts, plain(statement.numbers))
+
+
+def summary(entries: Sequence[dict[str, Any]]) -> Table:
+    """How many distinct statements hold, by basis; one that several figures show counts once."""
+    seen: dict[str, dict[str, Any]] = {}
+    for entry in entries:
+        for s in entry["statements"]:
+            seen[s["claim"] or json.dumps([s["statement"], s["numbers"]])] = s
+    count = Counter((s["basis"], s["holds"]) for s in seen.values())
+    rows = [
+        [basis, meaning, str(count[basis, True]), str(count[basis, False]), str(count[basis, None])]
+        for basis, meaning in BASES.items()
+        if any(count[basis, holds] for holds in (True, False, None))
+    ]
+    return Table(("basis", "meaning", "holds", "does not hold", "not checkable"), rows, "Statements by what they rest on")

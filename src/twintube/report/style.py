@@ -1,0 +1,103 @@
+"""How pictures look: colours, panels, the small lines under a plot. Only this package imports a plotting library."""
+
+import textwrap
+from collections.abc import Iterable
+from io import BytesIO
+from typing import Any
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+INK, GREY, FAINT = "#1b1b1b", "#8a949b", "#c3cbd0"
+BLUE, ORANGE, RED, GREEN, VIOLET = "#2a7f9e", "#d98c21", "#b3282d", "#3f8f4f", "#6d4c94"
+LEVELS = (INK, ORANGE, RED)  # the intact state, the paper's 60 % and 40 %
+PHASES = {"oil": "#c98b1f", "foam": "#f0d9a8", "gas": "#cfe0ee"}
+STAND_IN = "stand-in: virtual rig, not the paper's measurement"
+DPI = 130
+NOTE_SIZE = 7.5  # points
+RC: Any = {  # matplotlib's keys are a type of their own
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.labelsize": 9.5,
+    "xtick.labelsize": 9,
+    "ytick.labelsize": 9,
+    "font.size": 10,
+    "legend.frameon": False,
+    "legend.fontsize": 9,
+}
+
+
+def canvas(rows: int = 1, columns: int = 1, size: tuple[float, float] = (10.0, 4.4), **options: Any) -> tuple[Figure, Any]:
+    """A figure with `rows` x `columns` axes (always an array of them) of the given size [inch]."""
+    with matplotlib.rc_context(RC):
+        figure = Figure(figsize=size, dpi=DPI, layout="constrained")
+        axes = figure.subplots(rows, columns, squeeze=False, **options)
+    return figure, axes
+
+
+def panels(names: Iterable[str], size: tuple[float, float] = (11.0, 6.2), **options: Any) -> tuple[Figure, dict[str, Axes]]:
+    """Panels (a) to (h), one per damper, as in the paper."""
+    listed = list(names)
+    figure, axes = canvas(2, (len(listed) + 1) // 2, size, **options)
+    table = dict(zip(listed, axes.flat, strict=False))
+    for letter, (name, ax) in zip("abcdefgh", table.items(), strict=False):
+        title(ax, f"({letter}) {name}")
+    return figure, table
+
+
+def pair(size: tuple[float, float] = (10.0, 4.4), **options: Any) -> tuple[Figure, Any]:
+    """Panels (a) first and (b) 19th oscillation."""
+    figure, axes = canvas(1, 2, size, **options)
+    for ax, text in zip(axes[0], ("(a) 1st oscillation", "(b) 19th oscillation"), strict=True):
+        title(ax, text)
+    return figure, axes[0]
+
+
+def title(ax: Axes, text: str) -> None:
+    """A panel's title."""
+    ax.set_title(text, loc="left", fontsize=10.5)
+
+
+def label(axes: Any, x: str, y: str) -> None:
+    """Labels at the outer axes only."""
+    for row in axes:
+        row[0].set_ylabel(y)
+    for ax in axes[-1]:
+        ax.set_xlabel(x)
+
+
+def legend_above(figure: Figure, *axes: Axes, columns: int = 6) -> None:
+    """One legend for the whole figure, above the axes so that it covers no curve."""
+    unique: dict[str, Any] = {}
+    for ax in axes:
+        handles, labels = ax.get_legend_handles_labels()
+        unique |= {text: handle for text, handle in zip(labels, handles, strict=True) if text not in unique}
+    figure.legend(list(unique.values()), list(unique), loc="outside upper left", ncols=min(columns, len(unique)), fontsize=9,
+                  frameon=False)  # fmt: skip
+
+
+def notes(figure: Figure, lines: Iterable[str]) -> None:
+    """Small lines under the plot: stand-ins and assumed values."""
+    width, height = figure.get_size_inches()
+    wrapped = [part for line in lines for part in textwrap.wrap(line, int(width * 17))]
+    if not wrapped:
+        return
+    inch = NOTE_SIZE / 72 * 1.35
+    figure.set_size_inches(width, height + inch * len(wrapped))
+    height += inch * len(wrapped)
+    share = (inch * len(wrapped) + 0.06) / height
+    engine = figure.get_layout_engine()
+    assert isinstance(engine, ConstrainedLayoutEngine)
+    engine.set(rect=(0, share, 1, 1 - share))
+    figure.text(0.008, 0.04 / height, "\n".join(wrapped), fontsize=NOTE_SIZE, color="#555", va="bottom", linespacing=1.2)
+
+
+def png(figure: Figure) -> bytes:
+    """The picture as PNG; equal figures give equal bytes."""
+    with BytesIO() as buffer, matplotlib.rc_context(RC):
+        figure.savefig(buffer, format="png", dpi=DPI, metadata={"Software": None})
+        return buffer.getvalue()

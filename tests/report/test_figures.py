@@ -1,0 +1,90 @@
+"""Every figure: statements computed, stand-ins and assumptions said in the picture itself."""
+
+import json
+
+import pytest
+
+from twintube.identify import Harmonic
+from twintube.report import style
+from twintube.report.context import Context, state
+from twintube.report.figures import FIGURES
+from twintube.report.records import Job, excitation
+from twintube.report.reproduce import BASES, summary
+from twintube.report.statement import as_json
+from twintube.simulate import simulate
+
+DRAWN = (3, 7, 8, 11, 12, 14, 16, 17, 18, 19, 27, 28, 29, 31, 33)
+WITH_STAND_IN = {3, 7, 8, 11, *range(19, 34)}
+
+
+class Own:
+    """Records whose measurements are the named damper's own: the rig's place without its cost."""
+
+    def __init__(self, dampers):
+        self.dampers = dampers
+
+    def get(self, job: Job) -> Harmonic:
+        signal = excitation(job.damper, job.kind, job.value)
+        run = simulate(state(self.dampers[job.damper], job.level), signal.stroke, signal.velocity)
+        return Harmonic(job.level, int(job.level >= 1), signal.time, run.stroke, run.velocity, run.force, signal.marks)
+
+
+@pytest.fixture(scope="module")
+def context(tmp_path_factory) -> Context:
+    found = Context(tmp_path_factory.mktemp("report"), progress=False)
+    found.records = Own(found.dampers)
+    found._fits = dict(found.dampers)  # as if the identification had found the truth
+    return found
+
+
+@pytest.fixture(scope="module")
+def plots(context):
+    return {number: FIGURES[number].draw(context) for number in DRAWN}
+
+
+def words(plot) -> str:
+    """All text of a picture, in one line."""
+    figure = plot.figure
+    titles = [ax.get_title(loc="left") for ax in figure.axes]
+    return " ".join([*(text.get_text() for text in figure.texts), *titles]).replace("\n", " ")
+
+
+@pytest.mark.parametrize("number", DRAWN)
+def test_figure(plots, number):
+    plot = plots[number]
+    assert plot.number == number and plot.statements
+    assert bool(plot.stand_ins) == (number in WITH_STAND_IN)
+    if plot.stand_ins:
+        assert style.STAND_IN.lower() in words(plot).lower()
+    for value in plot.assumed:
+        assert value in words(plot)
+    for statement in plot.statements:
+        assert statement.basis in BASES
+        assert (statement.holds is None) == (statement.basis == "not checkable")
+        assert statement.numbers or statement.holds is None
+        if statement.holds is not True:
+            assert statement.reason, statement.text
+    json.dumps(as_json(plot))
+
+
+def test_a_model_reproduces_its_own_records(plots):
+    """What compares the model with measurements must hold where the measurements are the model's."""
+    assert plots[19].statements[-1].holds and plots[27].statements[0].holds
+    assert plots[29].statements[0].holds and plots[31].statements[0].holds
+
+
+def test_a_statement_can_fail(context, monkeypatch):
+    """With the force of the stand-in doubled, no picture may say that the model reproduces it."""
+    get = context.records.get
+    monkeypatch.setattr(context.records, "get", lambda job: doubled(get(job)), raising=False)
+    assert FIGURES[29].draw(context).statements[0].holds is False
+    assert FIGURES[27].draw(context).statements[0].holds is False
+
+
+def doubled(r: Harmonic) -> Harmonic:
+    return Harmonic(r.oil_level, r.gas_preload, r.time, r.stroke, r.velocity, 2 * r.force, r.marks)
+
+
+def test_a_claim_counts_once(plots):
+    rows = summary([as_json(plots[8]), as_json(plots[8])]).rows
+    assert sum(int(cell) for row in rows for cell in row[2:]) == len(plots[8].statements)

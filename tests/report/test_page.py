@@ -1,0 +1,79 @@
+"""The page is one file that needs nothing else, and says what it is given."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from twintube.report.page import Finding, Picture, Section, Table, html, readable
+
+PNG = b"\x89PNG\r\n\x1a\n0000"
+
+
+class Page(HTMLParser):
+    """Collects what a browser would load, and whether all elements are closed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.loads: list[str] = []
+        self.open: list[str] = []
+        self.anchors: set[str] = set()
+        self.links: list[str] = []
+
+    def handle_starttag(self, tag, attrs):
+        table = dict(attrs)
+        self.loads += [table[a] for a in ("src", "srcset", "data", "poster") if a in table]
+        if tag == "link":
+            self.loads.append(table.get("href", ""))
+        if tag == "a":
+            self.links.append(table["href"])
+        if "id" in table:
+            self.anchors.add(table["id"])
+        if tag not in ("meta", "img", "br", "link"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def parsed(text: str) -> Page:
+    page = Page()
+    page.feed(text)
+    assert not page.open
+    return page
+
+
+@pytest.fixture(scope="module")
+def text() -> str:
+    finding = Finding("work < force & more", "does not hold", [("Source", "Section 1")], {"a_b": {"SA1": [1.0, 2.0]}})
+    section = Section("one", "Figure 1", "does not hold", "0 of 1", ["A paragraph"], [Picture(PNG, "a picture")], [finding],
+                      [Table(("x", "y"), [("1", "2")], "A table")], [("Remark", "none")])  # fmt: skip
+    return html("A title", ["A lead"], [section, Section("two", "Without verdict")], [Table(("h",), [("c",)])], "the foot")
+
+
+def test_it_is_self_contained(text):
+    page = parsed(text)
+    assert page.loads and all(uri.startswith("data:image/png;base64,") for uri in page.loads)
+    assert not re.search(r"https?://|@import|url\(", text)
+    assert "<script" not in text
+
+
+def test_contents_lead_to_the_sections(text):
+    page = parsed(text)
+    assert page.links == ["#one", "#two"] and {"one", "two"} <= page.anchors
+
+
+def test_it_says_what_it_is_given(text):
+    for said in ("A title", "A lead", "A paragraph", "0 of 1", "A table", "the foot", 'alt="a picture"', "SA1: 1.0, 2.0"):
+        assert said in text
+    assert "work &lt; force &amp; more" in text
+
+
+def test_verdicts_have_marks(text):
+    assert text.count('class="badge no"') == 3  # contents, section, finding
+    assert Section("a", "b", "holds").mark == "yes" and Section("a", "b", "not checkable").mark == "open"
+
+
+def test_numbers_as_text():
+    assert readable({"at_60": [1.0, 0.5], "x": {"y": True}}) == "at 60: 1.0, 0.5; x (y: true)"
+    assert readable([]) == "none"

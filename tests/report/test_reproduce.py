@@ -1,0 +1,55 @@
+"""The report as a whole, with the virtual rig."""
+
+import json
+
+import pytest
+
+from twintube.parameters import ParameterError
+from twintube.report import reproduce
+from twintube.report.figures import FIGURES
+from twintube.report.records import Job, Records
+from twintube.report.reproduce import chosen
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    return reproduce(tmp_path_factory.mktemp("out"), figures=["7", "12", "18"], processes=1, progress=False)
+
+
+def test_files(report):
+    assert [path.name for path in report.pictures] == ["figure_07.png", "figure_12.png", "figure_18.png"]
+    for path in report.pictures:
+        assert path.read_bytes().startswith(b"\x89PNG")
+    page = report.page.read_text(encoding="utf-8")
+    assert page.count("data:image/png;base64,") == 3
+    assert "http" not in page.replace("data:image", "")
+    assert not list(report.page.parent.rglob("*.part"))
+
+
+def test_json(report):
+    content = json.loads(report.json.read_text(encoding="utf-8"))
+    assert [entry["figure"] for entry in content["figures"]] == [7, 12, 18]
+    seven = content["figures"][0]
+    assert seven["stand_ins"] and seven["statements"][0]["claim"] == "C11"
+    assert {entry["figure"]: entry["verdict"] for entry in content["figures"]} == report.verdicts
+    slopes = seven["statements"][0]["numbers"]["at_100_60_40"]
+    assert set(slopes) == {"model", "virtual rig"} and len(slopes["virtual rig"]) == 3
+
+
+def test_records_are_kept(report):
+    records = Records(report.page.parent / "records", 1, progress=False)
+    job = Job("SA7", "slow", 0.0, 1.0)
+    file = records.folder / job.file
+    before = file.stat().st_mtime_ns
+    records.prepare([job])
+    assert file.stat().st_mtime_ns == before
+    one = records.get(job)
+    assert len(one.time) == len(one.force) and one.marks[-1] < len(one.time)
+
+
+def test_figures_are_chosen():
+    assert chosen(None) == sorted(FIGURES)
+    assert chosen(["19-21", 3]) == [3, 19, 20, 21]
+    for bad in (["x"], ["13"], ["3-y"]):
+        with pytest.raises(ParameterError):
+            chosen(bad)
