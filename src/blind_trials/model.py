@@ -27,8 +27,8 @@ O2, O3 = O1 + 1, O1 + 2
 F1, F2, F3 = FOAM, FOAM + 1, FOAM + 2
 CAV, RETURNED, LEAKED, DAHL, TEMPERATURE, PISTON, PISTON_V, P_RE, P_CO, MODE, MODE_V, D1, D2, STATES = range(12, 26)
 # Columns of a run: measured force [N], k_degr [1], oil free and in foam [m3], freed gas not returned [m3], leaked [m3],
-# temperature [K], foam [m3], stroke of the piston [m].
-FORCE, K_DEGR, OIL, FREED, LOST, WARM, FOAMED, PLACE, COLUMNS = range(9)
+# temperature [K], foam [m3], stroke of the piston [m], mean force since the row before [N].
+FORCE, K_DEGR, OIL, FREED, LOST, WARM, FOAMED, PLACE, CELL, COLUMNS = range(10)
 
 
 def compiled(function: F) -> F:
@@ -371,7 +371,7 @@ def run(c: Tube, h: Hidden, pieces: Array, times: Array, y: Array, dz: float, dt
         v_end = drive(pieces, piece, times[row])[1]
         steps = max(int(max(abs(v), abs(v_end)) * span / dz), int(span / dt)) + 1
         tau = span / steps
-        at, acting, way = piece, 0.0, 0.0
+        at, acting, way, impulse = piece, 0.0, 0.0, 0.0
         while at > 0 and pieces[at, 0] > t:
             at -= 1
         for i in range(steps if span > 0.0 else 0):
@@ -401,6 +401,8 @@ def run(c: Tube, h: Hidden, pieces: Array, times: Array, y: Array, dz: float, dt
             if h.mode > 0.0:
                 y[MODE_V] += tau * (h.mode * h.mode * (total - y[MODE]) - 2.0 * h.mode_loss * h.mode * y[MODE_V])
                 y[MODE] += tau * y[MODE_V]
+            felt = load if h.mount > 0.0 else total
+            impulse += tau * (felt + h.mode_share * (y[MODE] - felt))
         t = times[row]
         force = load if h.mount > 0.0 else total
         if way > 0.0 and h.mount + h.give + h.play <= 0.0:
@@ -415,3 +417,4 @@ def run(c: Tube, h: Hidden, pieces: Array, times: Array, y: Array, dz: float, dt
         out[row, WARM] = y[TEMPERATURE]
         out[row, FOAMED] = y[F1] + y[F2] + y[F3]
         out[row, PLACE] = y[PISTON]
+        out[row, CELL] = impulse / span if span > 0.0 else out[row, FORCE]

@@ -19,7 +19,7 @@ import tomlkit
 from blind_trials.damper import march, tube
 from blind_trials.excitation import LONG_PAUSE, V_REST, VELOCITIES, Drive, harmonic, quasi_static
 from blind_trials.hidden import EFFECTS, FAULTS, KINDS, OUTSIDE, Secret, secret
-from blind_trials.model import FORCE
+from blind_trials.model import CELL
 from blind_trials.quantities import Array, Hidden
 from twintube.data import LoadedDataset, load_dataset
 from twintube.parameters import Damper, load
@@ -110,8 +110,9 @@ def take(
     numbers |= {name: value * level * damper.parameters.V_oil for name, value in s.per_oil.items()}
     hidden = Hidden(**(numbers | {"start": start}))
     c = tube(damper, level, plan.preload, s.parameters)
-    late = np.maximum(time - s.measurement.get("force_late", 0.0), 0.0)
-    force = march(c, hidden, plan.drive, late)[:, FORCE].copy()
+    # The load cell's amplifier takes the mean of the force over the interval around each sample.
+    late = np.maximum(time + 0.5 / rate - s.measurement.get("force_late", 0.0), 0.0)
+    force = march(c, hidden, plan.drive, late)[:, CELL].copy()
     stroke, velocity = plan.drive.sampled(np.maximum(time - s.measurement.get("stroke_late", 0.0), 0.0))
     return Taken(plan, time, stroke, velocity, force, start)
 

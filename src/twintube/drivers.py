@@ -5,8 +5,13 @@
 
 from typing import Any
 
-from twintube.model import advance, set_up, start
+from twintube.effects import effects_parts
+from twintube.model import advance, advance_whole, set_up, start
 from twintube.quarter_car import kick
+
+# A longer step [s] that goes less than this share of the way its velocities say is a rest, where a cubic would swing.
+REST = 0.3
+UNMOVED = 0.05
 
 # Columns that `run_record` writes, in this order; all but the shares and `z` are in SI units of the state's fields.
 COLUMNS = (
@@ -107,12 +112,13 @@ def run_drive(
 
 
 def run_means(
-    p: Any, d: Any, s: Any, f: Any, states: Any, t: Any, z: Any, v: Any, starts: Any, force: Any, work: Any
+    p: Any, d: Any, s: Any, f: Any, states: Any, t: Any, z: Any, v: Any, starts: Any, parts: int, force: Any, work: Any
 ) -> int:
     """Records laid end to end: the mean force [N] over the time since the sample before and the work [J] since the start.
 
     `states` (r, 2) are the records' oil level and preload, `starts` (r + 1,) where they begin; `force` and `work` (n,) are
-    written. Returns the number of records done.
+    written. Between two samples the stroke follows the cubic of their strokes and velocities in `parts` steps, but across
+    a rest. Returns the number of records done.
     """
     for r in range(len(states)):
         p.oil_level = states[r, 0]
@@ -122,22 +128,50 @@ def run_means(
         start(p, d, s, z[first])
         before = v[first]
         time = t[first]
+        at = z[first]
         for i in range(first, starts[r + 1]):
-            from_z = s.z
-            from_work = s.work
-            from_impulse = s.impulse
             dt = t[i] - time
-            if not advance(p, d, s, f, z[i], before, v[i], dt):
-                return r
+            n = max(parts, effects_parts(p, dt)) if d.extended > 0 else parts
+            if dt <= 0.0 or (dt > REST and abs(z[i] - at) < UNMOVED * dt * max(abs(before), abs(v[i]))):
+                n = 1
+            v0 = before
+            z0 = at
+            total = 0.0
+            for j in range(1, n + 1):
+                x = j / n
+                goal = z[i]
+                speed = v[i]
+                if j < n:
+                    goal = cubic(x, z0, before, z[i], v[i], dt)
+                    speed = cubic_slope(x, z0, before, z[i], v[i], dt)
+                from_work = s.work
+                from_impulse = s.impulse
+                if not advance_whole(p, d, s, f, goal, v0, speed, dt / n):
+                    return r
+                way = goal - at
+                if d.extended > 0 and dt > 0.0:
+                    total += (s.impulse - from_impulse) / dt
+                elif d.extended == 0 and abs(way) > 1e-9:
+                    # The work over the stroke is the mean force, wherever in the step it jumped.
+                    total += ((s.work - from_work) / way + d.c_gas * 0.5 * (at + goal) - d.F_0) / n
+                else:
+                    total += (s.F_fluid + s.F_friction + s.F_gas) / n
+                at = goal
+                v0 = speed
+            force[i] = total
+            work[i] = s.work
             before = v[i]
             time = t[i]
-            work[i] = s.work
-            way = z[i] - from_z
-            if d.extended > 0:
-                force[i] = (s.impulse - from_impulse) / dt if dt > 0.0 else s.F_fluid + s.F_friction + s.F_gas
-            elif abs(way) > 1e-9:
-                # The work over the stroke is the mean force, wherever in the step it jumped.
-                force[i] = (s.work - from_work) / way + d.c_gas * 0.5 * (from_z + z[i]) - d.F_0
-            else:
-                force[i] = s.F_fluid + s.F_friction + s.F_gas
     return len(states)
+
+
+def cubic(x: float, z0: float, v0: float, z1: float, v1: float, dt: float) -> float:
+    """Stroke [m] at the share x of a step whose strokes [m] and velocities [m/s] at both ends are given."""
+    y = 1.0 - x
+    return y * y * ((1.0 + 2.0 * x) * z0 + x * v0 * dt) + x * x * ((1.0 + 2.0 * y) * z1 - y * v1 * dt)
+
+
+def cubic_slope(x: float, z0: float, v0: float, z1: float, v1: float, dt: float) -> float:
+    """Velocity [m/s] of the same."""
+    y = 1.0 - x
+    return 6.0 * x * y * (z1 - z0) / dt + y * (1.0 - 3.0 * x) * v0 + x * (3.0 * x - 2.0) * v1

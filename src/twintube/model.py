@@ -69,6 +69,14 @@ def extended_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     return extended_part(p, d, s, f, z, before, v1, dt / n)
 
 
+def advance_whole(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
+    """`advance` in one part, for a caller that has divided the step itself."""
+    if d.extended == 0:
+        return step(p, d, s, f, z, v0, v1)
+    s.z_rod = z
+    return extended_part(p, d, s, f, z, v0, v1, dt)
+
+
 def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
     """The kernel's step with the effects around it."""
     work = s.work

@@ -14,7 +14,20 @@ RUNNER = CliRunner()
 
 
 @pytest.mark.parametrize(
-    "command", ["dampers", "simulate", "claims", "calibrate", "variables", "readings", "rig", "check", "study"]
+    "command",
+    [
+        "dampers",
+        "simulate",
+        "claims",
+        "calibrate",
+        "variables",
+        "readings",
+        "rig",
+        "check",
+        "study",
+        "identify",
+        "reproduce",
+    ],
 )
 def test_help_has_an_example(command: str) -> None:
     run = RUNNER.invoke(app, [command, "--help"])
@@ -85,6 +98,10 @@ def test_bad_records(tmp_path: Path, text: str, message: str) -> None:
             ["claims", "--reading", "leaks=1"],
             "error: --reading leaks=1: must be NAME=INTEGER with a name of leak_carries_oil",
         ),
+        (["reproduce", "--figure", "99"], "error: figure 99: a model can produce 3, 5"),
+        (["reproduce", "--processes", "0"], "error: processes = 0: must be at least 1"),
+        (["reproduce", "--figure", "18", "--output", "/dev/null/x"], "error: "),
+        (["identify", "nowhere"], "error: "),
         (["claims", "--reading", "foam_decays=7"], "reading.foam_decays = 7 1: must be a number from 0 to 1"),
     ],
 )

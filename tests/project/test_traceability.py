@@ -52,6 +52,13 @@ def test_table_of_variables_is_current() -> None:
     assert table in (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
 
 
+def test_every_command_in_the_docs_exists() -> None:
+    known = set(re.findall(r"^  (\w+) ", CliRunner().invoke(app, ["--help"]).output, re.MULTILINE))
+    for path in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]:
+        used = set(re.findall(r"`twintube (\w+)", path.read_text(encoding="utf-8")))
+        assert used <= known, (path.name, used - known)
+
+
 def test_no_path_of_a_machine_is_committed() -> None:
     pattern = re.compile(r"/(home|root|tmp|Users)/[a-z]")
     for path in [*ROOT.glob("src/**/*.py"), *ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("*.py")]:

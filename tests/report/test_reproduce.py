@@ -4,11 +4,13 @@ import json
 
 import pytest
 
-from twintube.parameters import ParameterError
+from twintube.parameters import ParameterError, load
 from twintube.report import reproduce
 from twintube.report.figures import FIGURES
+from twintube.report.figures.validation import filling
 from twintube.report.records import Job, Records
 from twintube.report.reproduce import chosen
+from twintube.simulate import InputError
 
 
 @pytest.fixture(scope="module")
@@ -45,6 +47,17 @@ def test_records_are_kept(report):
     assert file.stat().st_mtime_ns == before
     one = records.get(job)
     assert len(one.time) == len(one.force) and one.marks[-1] < len(one.time)
+
+
+def test_no_process_is_refused(tmp_path):
+    with pytest.raises(InputError, match="processes = 0"):
+        reproduce(tmp_path / "out", figures=["18"], processes=0, progress=False)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("level", "verb"), [(1.0, "fills"), (0.2, "does not fill")])
+def test_reason_says_whether_the_oil_left_fills_the_chambers(level, verb):
+    assert f" mL and {verb} the two working chambers" in filling(load("SA4"), level)
 
 
 def test_figures_are_chosen():

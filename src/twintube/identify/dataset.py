@@ -16,7 +16,7 @@ from twintube.parameters import Damper
 from twintube.simulate import InputError
 
 ENOUGH = 5  # distinct velocities from which on some are held out, if dataset.toml splits nothing itself
-HELD_OUT = (4, 2)  # every fourth velocity from the third on, never the highest
+HELD_OUT = (3, 1)  # every third velocity from the second on; not the two highest, between which cavitation begins
 SAME_SPEED = 1.03  # velocities within 3 % are one
 
 
@@ -85,7 +85,7 @@ def splits(records: Sequence[Harmonic], stated: dict[str, str | None]) -> tuple[
         if not speeds or v > SAME_SPEED * speeds[-1]:
             speeds.append(v)
     every, first = HELD_OUT
-    held = [v for i, v in enumerate(speeds[:-1]) if len(speeds) >= ENOUGH and i % every == first]
+    held = [v for i, v in enumerate(speeds[:-2]) if len(speeds) >= ENOUGH and i % every == first]
     kinds = [
         "heldout" if counts and any(v <= r.top_speed <= SAME_SPEED * v for v in held) else "fit"
         for r, counts in zip(records, judged, strict=True)
@@ -153,25 +153,41 @@ def summary(result: Result) -> dict[str, Any]:
         "not_told_apart": [{"parameters": [a, b], "correlation": c} for a, b, c in found.pairs],
         "force_offset_N": found.offset,
         "validation": [asdict(row) for row in result.validation],
-        "heldout": totals([row for row in result.validation if row.split == "heldout"]),
-        "fit": totals([row for row in result.validation if row.split == "fit"]),
+        "heldout": totals(result.validation, "heldout"),
+        "fit": totals(result.validation, "fit"),
     }  # fmt: skip
 
 
-def totals(rows: Sequence[Validated]) -> dict[str, float] | None:
-    """Errors over several records: force as RMSE, works relative to the measured ones."""
-    harmonics = [row for row in rows if row.measurement == "harmonic"]
+def totals(rows: Sequence[Validated], split: str) -> dict[str, float | None] | None:
+    """Errors over the harmonic records of a split: force as RMSE, works relative to the measured one and to the intact one.
+
+    The latter says more where a degraded damper does little work: 3 J of 10 J are nothing beside the intact 100 J.
+    """
+    harmonics = [row for row in rows if row.measurement == "harmonic" and row.split == split]
     if not harmonics:
         return None
     errors = np.array([
         [abs(s - m) / abs(m) for s, m in zip(row.work_simulated, row.work_measured, strict=True)] for row in harmonics
     ])  # fmt: skip
-    return {
+    found: dict[str, float | None] = {
         "records": len(harmonics),
         "force_rmse_N": float(np.sqrt(np.mean([row.force_rmse**2 for row in harmonics]))),
         "force_rmse_of_peak": float(np.mean([row.force_rmse / row.force_peak for row in harmonics])),
-        "work_error_first": float(np.median(errors[:, 0])),
-        "work_error_first_worst": float(errors[:, 0].max()),
-        "work_error_last": float(np.median(errors[:, 1])),
-        "work_error_last_worst": float(errors[:, 1].max()),
     }
+    for i, which in enumerate(("first", "last")):
+        found[f"work_error_{which}"] = float(np.median(errors[:, i]))
+        found[f"work_error_{which}_worst"] = float(errors[:, i].max())
+        relative = [of_intact(row, rows, i) for row in harmonics]
+        known = [value for value in relative if value is not None]
+        found[f"work_error_{which}_of_intact"] = float(np.median(known)) if known else None
+        found[f"work_error_{which}_of_intact_worst"] = max(known) if known else None
+    return found
+
+
+def of_intact(row: Validated, rows: Sequence[Validated], i: int) -> float | None:
+    """Error of a record's first or last work relative to that of the intact damper at the same velocity."""
+    for other in rows:
+        full = other.gas_preload and other.oil_level >= 0.995 and other.measurement == "harmonic"
+        if full and row.top_speed / SAME_SPEED <= other.top_speed <= SAME_SPEED * row.top_speed:
+            return abs(row.work_simulated[i] - row.work_measured[i]) / abs(other.work_measured[i])
+    return None

@@ -16,6 +16,7 @@ from twintube.variables import FV_POINTS
 
 # The middle of the stroke, in which friction is saturated and no stop is near [share of the largest stroke].
 MIDDLE = 0.6
+NOISE = 0.01  # of the stroke's range: a reversal is more than that
 V_SLOW = 1e-3  # velocity of the quasi-static measurement [m/s]
 
 
@@ -29,12 +30,25 @@ class QuasiStatic:
     sigma_0: float  # slope of the hysteresis at reversal [N/m]
 
 
+def turns(stroke: Array) -> list[int]:
+    """The samples of all reversals by more than the noise of a stroke, the first and the last sample included."""
+    least = NOISE * float(np.ptp(stroke))
+    found, extreme, rising = [0], 0, 0
+    for i, z in enumerate(stroke.tolist()):
+        if (rising >= 0 and z > stroke[extreme]) or (rising <= 0 and z < stroke[extreme]):
+            if rising == 0 and abs(z - stroke[0]) > least:
+                rising = 1 if z > stroke[0] else -1
+            if rising != 0:
+                extreme = i
+        elif rising != 0 and abs(z - stroke[extreme]) > least:
+            found.append(extreme)
+            extreme, rising = i, -rising
+    return [*found, len(stroke) - 1]
+
+
 def branches(stroke: Array) -> list[slice]:
     """The strokes of one direction between reversals, those that cross the middle only."""
-    rising = np.diff(stroke) > 0
-    edges = np.flatnonzero(rising[1:] != rising[:-1]) + 1
-    edges = np.concatenate([[0], edges, [len(stroke) - 1]])
-    found = [slice(int(a), int(b) + 1) for a, b in itertools.pairwise(edges)]
+    found = [slice(a, b + 1) for a, b in itertools.pairwise(turns(stroke)) if b > a]
     reach = MIDDLE * np.abs(stroke).max()
     return [s for s in found if np.abs(stroke[s]).max() >= reach and stroke[s].min() < 0 < stroke[s].max()]
 
@@ -82,6 +96,14 @@ def reversal_slope(stroke: Array, force: Array, line: Array, F_FrS: float) -> fl
     return float(F_FrS * np.log(2) / np.median(found))
 
 
+def direction(stroke: Array) -> NDArray[np.bool_]:
+    """Whether the stroke rises (n,), reversals by its noise apart."""
+    found = np.zeros(len(stroke), dtype=bool)
+    for a, b in itertools.pairwise(turns(stroke)):
+        found[a : b + 1] = stroke[b] > stroke[a]
+    return found
+
+
 def fv_points(damper: Damper, records: Sequence[Harmonic]) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
     """Friction-reduced points (velocity [m/s], force [N]) of rebound and compression at stroke 0 (Figure 3)."""
     p = damper.parameters
@@ -94,8 +116,9 @@ def fv_points(damper: Damper, records: Sequence[Harmonic]) -> tuple[list[tuple[f
             if len(i) == 0:
                 raise InputError(f"harmonic record up to {record.top_speed:g} m/s never crosses stroke 0")
             share = -z[i] / (z[i + 1] - z[i])
-            speed = float(np.mean(v[i] + share * (v[i + 1] - v[i])))
-            total = float(np.mean(F[i] + share * (F[i + 1] - F[i])))
+            # The median: the first crossing may still be the start from rest.
+            speed = float(np.median(v[i] + share * (v[i + 1] - v[i])))
+            total = float(np.median(F[i] + share * (F[i + 1] - F[i])))
             friction = stribeck(p, speed) * p.F_FrS * (1.0 if rising else -1.0)
             fluid = total + p.F_0 - friction
             points[rising].append((abs(speed), fluid if rising else -fluid))
@@ -117,7 +140,7 @@ def identify_intact(damper: Damper, slow: tuple[Array, Array] | None, records: S
         q = quasi_static(stroke, force)
         damper = damper.with_(c_gas=max(0.0, q.c_gas), F_0=max(0.0, q.F_0), F_FrS=q.F_FrS, sigma_0=q.sigma_0)
         damper = with_curve(damper, records)
-        rising = np.gradient(stroke) > 0
+        rising = direction(stroke)
         p = damper.parameters
         force = slow[1] - np.where(rising, fluid_force(p, V_SLOW), fluid_force(p, -V_SLOW))
     return damper

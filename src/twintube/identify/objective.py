@@ -24,6 +24,7 @@ from twintube.variables import Derived, Flow, blank
 SAMPLES = 64
 FINE = 256  # for the last least squares, whose result 64 would move by more than the noise does
 FASTER = 1.2
+MARGIN = 1.02  # of the threshold of foam
 TABLE_6 = ("X_Re", "L_PV", "G_PV", "X_Co1", "X_Co2")
 TABLES_7_8 = ("S_BV", "S_BVoil", "S_PV", "S_PVoil", "B", "E", "v_cav", "Y_Co_cav", "Y_Re_cav")
 
@@ -75,6 +76,11 @@ class Harmonic:
         return np.array([np.trapezoid(self.force[s], self.stroke[s]) for s in slices])
 
 
+def tolerant(damper: Damper) -> Damper:
+    """The damper for measured velocities: the rig's slow block moves at the threshold of foam, and they scatter about it."""
+    return damper.with_(v_foam=MARGIN * damper.parameters.v_foam)
+
+
 class Objective:
     """Equations 42 and 43 over records, for parameters called by their names in the table.
 
@@ -88,6 +94,7 @@ class Objective:
         if not records:
             raise InputError("no records to identify from")
         self.base, self.names, self.with_work = base, tuple(names), with_work
+        self.measured_at = tolerant(base)
         table = {item.name: item.metadata for item in fields(effects.Parameters)}
         thin = self.records = [record.thinned(samples) for record in records]
         # A cavitation threshold above every measured velocity is the same as none.
@@ -158,7 +165,7 @@ class Objective:
         return [found for part in self.threads.map(self._part, parts) for found in part]
 
     def _rows(self) -> list[Any]:
-        records = (self.base.parameters, blank(Derived), blank(effects.State), blank(Flow))
+        records = (self.measured_at.parameters, blank(Derived), blank(effects.State), blank(Flow))
         return [compiled.as_row(record)[0] for record in records]
 
     def _run(self, rows: list[Any], x: Array) -> tuple[Array, Array]:
@@ -166,7 +173,7 @@ class Objective:
         for name, value in zip(self.names, x, strict=True):
             rows[0][name] = value
         force, work = np.empty(len(self.z)), np.empty(len(self.z))
-        done = compiled.module().run_means(*rows, self.states, self.t, self.z, self.v, self.starts, force, work)
+        done = compiled.module().run_means(*rows, self.states, self.t, self.z, self.v, self.starts, 1, force, work)
         force[self.starts[done] :] = np.inf
         return force, work
 

@@ -7,13 +7,14 @@ from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from twintube.arrays import Array
-from twintube.data import GIVEN, Record
+from twintube.data import MEASURED, Record
 from twintube.identify.objective import Harmonic
 from twintube.simulate import InputError
 
 REST = 1.0  # a rest lasts at least so long [s] ...
-STILL = 0.02  # ... with the stroke within this share of its range
+STILL = 0.004  # ... with the stroke within this share of its range, less than a ramp of 1 mm/s goes
 SAME_SPEED = 0.8  # oscillations of the measured block reach this share of the record's largest stroke per time
+SMOOTHING = 100  # parts of an oscillation over which a velocity made from the stroke is smoothed
 HALF_WAY = 0.1  # share of the half range that the stroke must go below the middle between two beginnings
 
 
@@ -53,9 +54,37 @@ def beginnings(stroke: Array) -> NDArray[np.int64]:
     return np.array(rises, dtype=np.int64)
 
 
-def central_velocity(record: Record) -> Array:
-    """The record's velocity; where it is just a difference quotient, half a sample early or late, the central one."""
-    return np.gradient(record.stroke, record.time) if record.velocity_source == GIVEN else record.velocity
+def slopes(time: Array, stroke: Array, at: NDArray[np.int64], reach: NDArray[np.int64]) -> Array:
+    """Velocity (n,) [m/s] at the samples `at`: the straight line through the strokes up to `reach` samples to each side.
+
+    A difference of neighbouring samples would turn micrometres of noise into velocities beyond the thresholds of foam.
+    """
+    reach = np.maximum(1, np.minimum(reach, np.minimum(at, len(time) - 1 - at)))
+    low, high = np.maximum(at - reach, 0), np.minimum(at + reach, len(time) - 1)
+    t, z = time - time[0], stroke - stroke.mean()
+    sums = [np.concatenate([[0.0], np.cumsum(x)]) for x in (t, z, t * t, t * z)]
+    st, sz, stt, stz = (total[high + 1] - total[low] for total in sums)
+    n = high + 1 - low
+    found: Array = (n * stz - st * sz) / np.maximum(n * stt - st * st, 1e-30)
+    return found
+
+
+def reaches(at: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+    """Samples to each side (n,) that lie within half the way to the neighbours among `at`, of `count` samples in all."""
+    gaps = np.diff(np.concatenate([[0], at, [count - 1]]))
+    found: NDArray[np.int64] = np.minimum(gaps[:-1], gaps[1:]) // 2
+    return found
+
+
+def smooth_velocity(record: Record) -> Array:
+    """The measured velocity, or else that of the stroke, smoothed over a hundredth of each oscillation."""
+    if record.velocity_source == MEASURED:
+        return record.velocity
+    reach = np.ones(len(record.time), dtype=np.int64)
+    for part in segments(record.time, record.stroke):
+        for a, b in itertools.pairwise(beginnings(record.stroke[part]).tolist()):
+            reach[part[a] : part[b] + 1] = max(1, (b - a) // (2 * SMOOTHING))
+    return slopes(record.time, record.stroke, np.arange(len(reach)), reach)
 
 
 def harmonic(record: Record) -> Harmonic:
@@ -65,7 +94,7 @@ def harmonic(record: Record) -> Harmonic:
     """
     parts = segments(record.time, record.stroke)
     kept = np.concatenate(parts)
-    time, stroke, velocity, force = (x[kept] for x in (record.time, record.stroke, central_velocity(record), record.force))
+    time, stroke, velocity, force = (x[kept] for x in (record.time, record.stroke, smooth_velocity(record), record.force))
     way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(stroke)))])
     starts = np.cumsum([0, *(len(part) for part in parts)])
     marked = [beginnings(stroke[a:b]) + a for a, b in itertools.pairwise(starts)]

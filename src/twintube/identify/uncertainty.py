@@ -24,6 +24,9 @@ UNDETERMINED = 0.5  # an interval wider than this share of the allowed range say
 AT_BOUND = 1e-3  # share of the allowed range
 SLOPE = 1e-3  # step of a derivative as a share of the allowed range: smaller ones meet the kinks of the model
 POLISHING = 40  # most evaluations of the last least squares
+SHARP = 0.1  # share of the allowed range: an interval narrower than that needs no profile
+PROFILING = 6  # most evaluations of a least squares along a profile
+LEAST = 0.01  # half an interval's least width as a share of the allowed range: what the optimum can be found to
 PHASES = 32  # phases of an oscillation at which its residuals are compared
 
 
@@ -143,15 +146,59 @@ def estimates(
     sampler.run_mcmc(state, steps)
     chain = sampler.get_chain(discard=int(BURN_IN * steps), flat=True)
     z = float(norm.ppf(1 - (1 - LEVEL) / 2 / len(x)))
+    pulls = z * scatter(objective, x, J, rows) * (high - low)
     q16, q50, q84 = np.quantile(chain, norm.cdf([-1, 0, 1]), axis=0)
+    pulls = np.maximum(pulls, LEAST * (high - low))
     found = []
     for i, name in enumerate(objective.names):
-        a = max(low[i], min(x[i], q50[i] - z * (q50[i] - q16[i])) - moved[i])
-        b = min(high[i], max(x[i], q50[i] + z * (q84[i] - q50[i])) + moved[i])
+        a = max(low[i], min(x[i] - pulls[i], q50[i] - z * (q50[i] - q16[i])) - moved[i])
+        b = min(high[i], max(x[i] + pulls[i], q50[i] + z * (q84[i] - q50[i])) + moved[i])
+        # The walkers may not have found the way: whether a bound itself explains the records as well.
+        if b - a > SHARP * (high[i] - low[i]):
+            a = low[i] if profiled(objective, x, i, low[i], rows) <= z * z else a
+            b = high[i] if profiled(objective, x, i, high[i], rows) <= z * z else b
         found.append(Estimate(name, float(x[i]), float(a), float(b), (float(low[i]), float(high[i]))))
     with np.errstate(invalid="ignore"):
         related: Array = np.nan_to_num(np.corrcoef(chain.T))
     return found, related
+
+
+def profiled(objective: Objective, x: Array, i: int, value: float, rows: Array) -> float:
+    """Rise of the weighted squared error with parameter i at `value`, the others at their best: profile likelihood."""
+    low, high = objective.bounds.T
+    width = high - low
+    others = np.flatnonzero(np.arange(len(x)) != i)
+
+    def full(u: Array) -> Array:
+        found = x.copy()
+        found[others] = low[others] + u * width[others]
+        found[i] = value
+        return found
+
+    def errors(u: Array) -> Array:
+        return np.asarray(objective.residuals(full(u)[None])[0] * rows)
+
+    start = np.clip((x[others] - low[others]) / width[others], 1e-6, 1 - 1e-6)
+    fit = least_squares(
+        errors, start, jac=lambda u: slopes(objective, full(u))[:, others] * rows[:, None], bounds=(0, 1), max_nfev=PROFILING
+    )
+    base = objective.residuals(x[None])[0] * rows
+    return float(2 * fit.cost - base @ base)
+
+
+def scatter(objective: Objective, x: Array, J: Array, rows: Array) -> Array:
+    """Standard deviations (k,), as shares of the ranges, from how differently the records pull (sandwich estimate).
+
+    What a record's samples have in common, an error of model or sampling, is no noise; records tell it apart.
+    """
+    errors = objective.residuals(x[None])[0] * rows
+    edges = np.cumsum([0, *(len(r.time) - 1 - r.marks[0] for r in objective.records)])
+    pulls = np.array([J[a:b].T @ errors[a:b] for a, b in itertools.pairwise(edges)])
+    pulls -= pulls.mean(axis=0)
+    inverse = np.linalg.inv(J.T @ J + 12 * np.eye(len(x)))
+    count = len(pulls)
+    found: Array = np.sqrt(np.diag(inverse @ (pulls.T @ pulls * count / max(1, count - 1)) @ inverse))
+    return found
 
 
 def reflected(X: Array, low: Array, high: Array) -> Array:

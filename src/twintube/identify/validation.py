@@ -7,8 +7,8 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.data import Record
-from twintube.identify.objective import Harmonic
-from twintube.identify.oscillations import central_velocity
+from twintube.identify.objective import Harmonic, tolerant
+from twintube.identify.oscillations import smooth_velocity
 from twintube.parameters import Damper
 from twintube.simulate import simulate
 
@@ -32,8 +32,8 @@ class Validated:
 
 
 def state(damper: Damper, level: float, preload: bool | int) -> Damper:
-    """The damper in the condition of a record."""
-    return damper.with_(oil_level=level, gas_preload=int(preload))
+    """The damper in the condition of a record, for a measured velocity."""
+    return tolerant(damper.with_(oil_level=level, gas_preload=int(preload)))
 
 
 def validate_harmonic(damper: Damper, record: Harmonic, split: str, offset: float = 0.0) -> Validated:
@@ -56,7 +56,7 @@ def validate_harmonic(damper: Damper, record: Harmonic, split: str, offset: floa
 def validate_drives(damper: Damper, records: Sequence[Record]) -> list[Validated]:
     """Force and work of the drives; relative to the record of the intact damper over the same stroke, where there is one."""
     forces = [
-        simulate(state(damper, r.oil_level, r.gas_preload), r.stroke, central_velocity(r), r.time).force for r in records
+        simulate(state(damper, r.oil_level, r.gas_preload), r.stroke, smooth_velocity(r), r.time).force for r in records
     ]
     works = [[float(np.trapezoid(F, r.stroke)) for F in (r.force, found)] for r, found in zip(records, forces, strict=True)]
     rows = []

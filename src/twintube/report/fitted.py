@@ -1,4 +1,4 @@
-"""The damper identified from records, in the paper's four steps; kept as a parameter file beside the report."""
+"""The damper identified from records, as `twintube identify` does it; kept as a parameter file beside the report."""
 
 import hashlib
 from collections.abc import Callable, Sequence
@@ -10,7 +10,7 @@ from twintube.identify import Harmonic
 from twintube.identify.workflow import PAPER, Budget, identify_damper
 from twintube.parameters import Damper
 
-HOW = "identified from the virtual rig's records in the paper's four steps"
+HOW = "identified from the virtual rig's records in the paper's four steps and two searches over all parameters together"
 # Small swarms for eight dampers in minutes; the walkers make intervals, which a report of curves does not show.
 QUICK = Budget(table_6=(32, 60), tables_7_8=(64, 120), together=(24, 100), intervals=(32, 2))
 

@@ -134,15 +134,20 @@ def drives(rows: Sequence[Validated]) -> Figure:
     return figure
 
 
-def percent(part: dict[str, float] | None, what: str) -> list[str]:
+def percent(part: dict[str, float | None] | None, what: str) -> list[str]:
     """A row of the table of errors."""
     if part is None:
         return [what, "none", "", "", ""]
-    return [
-        what, f"{part['records']:.0f}", f"{part['force_rmse_N']:.1f} N, {part['force_rmse_of_peak']:.1%} of the peak",
-        f"{part['work_error_first']:.1%} (worst {part['work_error_first_worst']:.1%})",
-        f"{part['work_error_last']:.1%} (worst {part['work_error_last_worst']:.1%})",
-    ]  # fmt: skip
+
+    def work(which: str) -> str:
+        text = f"{part[f'work_error_{which}']:.1%} (worst {part[f'work_error_{which}_worst']:.1%})"
+        beside = part[f"work_error_{which}_of_intact"]
+        if beside is not None:
+            text += f"; of the intact work {beside:.1%} (worst {part[f'work_error_{which}_of_intact_worst']:.1%})"
+        return text
+
+    force = f"{part['force_rmse_N']:.1f} N, {part['force_rmse_of_peak']:.1%} of the peak"
+    return [what, f"{part['records']:.0f}", force, work("first"), work("last")]
 
 
 def parameter_table(result: Result) -> Table:
@@ -174,7 +179,7 @@ def write_report(result: Result, folder: Path) -> list[Path]:
     errors = Table(
         ["records", "number", "force, root mean square", "work, first oscillation", "work, last oscillation"],
         [
-            percent(totals([r for r in harmonics if r.split == kind]), text)
+            percent(totals(result.validation, kind), text)
             for kind, text in (("heldout", "held out"), ("fit", "fitted"))
         ],
         "Error of the identified model; works as median",

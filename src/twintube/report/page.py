@@ -19,6 +19,7 @@ class Picture:
 
     png: bytes
     alt: str
+    caption: str = ""
 
     @property
     def uri(self) -> str:
@@ -33,6 +34,7 @@ class Table:
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
     caption: str = ""
+    numeric: Sequence[int] = ()  # columns that are set flush right
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,16 @@ class Finding:
 
 
 @dataclass(frozen=True)
+class Headline:
+    """The answer in one sentence, large and above everything else."""
+
+    text: str
+    verdict: str = ""
+    mark: str = "open"  # class of the style sheet: yes, no, open, warn or found
+    tiles: Sequence[tuple[str, str]] = ()  # a figure and what it is
+
+
+@dataclass(frozen=True)
 class Section:
     """One entry of the table of contents."""
 
@@ -73,6 +85,7 @@ class Section:
     findings: Sequence[Finding] = ()
     tables: Sequence[Table] = ()
     notes: Sequence[tuple[str, str]] = ()  # name and text, below the findings
+    items: Sequence[str] = ()  # a list below the text
 
     @property
     def mark(self) -> str:
@@ -93,10 +106,13 @@ def readable(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
-def html(title: str, lead: Iterable[str], sections: Iterable[Section], summary: Iterable[Table] = (), foot: str = "") -> str:
+def html(
+    title: str, lead: Iterable[str], sections: Iterable[Section], summary: Iterable[Table] = (), foot: str = "",
+    headline: Headline | None = None,
+) -> str:  # fmt: skip
     """The whole page."""
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     source = files("twintube.report").joinpath("page.html").read_text(encoding="utf-8")
     return environment.from_string(source).render(
-        title=title, lead=list(lead), sections=list(sections), summary=list(summary), foot=foot
+        title=title, lead=list(lead), sections=list(sections), summary=list(summary), foot=foot, headline=headline
     )

@@ -17,6 +17,7 @@ from twintube.report.context import Context
 from twintube.report.figures import FIGURES
 from twintube.report.page import Finding, Picture, Section, Table, html
 from twintube.report.statement import Plot, Statement, as_json, plain
+from twintube.simulate import InputError
 
 TITLE = "Degraded twin-tube shock absorbers: the paper's figures, reproduced"
 PAPER = (
@@ -90,10 +91,12 @@ def reproduce(
 
     Raises:
         ParameterError: there is no such figure.
-        InputError: a record cannot be simulated.
+        InputError: a record cannot be simulated, or there is no process to do so.
 
     """
     numbers = chosen(figures)
+    if processes is not None and processes < 1:
+        raise InputError(f"processes = {processes}: must be at least 1")
     output.mkdir(parents=True, exist_ok=True)
     context = Context(output, quick=quick, processes=processes, progress=progress)
     context.records.prepare(job for number in numbers for job in FIGURES[number].jobs())

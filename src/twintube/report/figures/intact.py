@@ -116,9 +116,10 @@ def figure_7(context: Context) -> Plot:
     for level, job, colour in zip(levels(damper), slow_jobs("SA7"), style.LEVELS, strict=True):
         text = "100% oil, gas preload" if level >= 1.0 else f"{level:.0%} oil, no preload"
         run = simulate(state(damper, level), signal.stroke, signal.velocity)
-        axes[0][0].plot(run.stroke * 1e3, run.force, color=colour, lw=1.2, label=text)
+        dash = (0, (4, 3)) if level == levels(damper)[-1] else "-"  # the two degraded states lie on each other
+        axes[0][0].plot(run.stroke * 1e3, run.force, color=colour, ls=dash, lw=1.2, label=text)
         rig = context.records.get(job)
-        axes[0][1].plot(rig.stroke * 1e3, rig.force, color=colour, lw=1.2)
+        axes[0][1].plot(rig.stroke * 1e3, rig.force, color=colour, ls=dash, lw=1.2)
         slopes["model"].append(slope(run.stroke, run.force))
         slopes["virtual rig"].append(slope(rig.stroke, rig.force))
     style.title(axes[0][0], "model")

@@ -228,7 +228,7 @@ def figure_18(context: Context) -> Plot:
         ax.plot(share, table[E], color=colour, lw=1.6, label=f"E = {E:g}")
     ax.set_xlabel("oil share of the foam $p_{oil}$ [1]")
     ax.set_ylabel("force relative to oil [1]")
-    ax.legend(fontsize=9)
+    ax.legend(fontsize=9, frameon=False)
     linear = float(np.abs(table[1.0] - share).max())
     falls = all((table[b] <= table[a] + 1e-12).all() for a, b in itertools.pairwise(exponents))
     return Plot(

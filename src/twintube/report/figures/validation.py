@@ -7,19 +7,20 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.claims.claim import FRONT
 from twintube.identify import Harmonic
+from twintube.kernel import prepare
 from twintube.parameters import Damper
-from twintube.plan import velocities
+from twintube.plan import amplitude, velocities
 from twintube.report import fitted, notes, style
 from twintube.report.context import TOP, Context, state
 from twintube.report.records import Job, filled, levels
 from twintube.report.statement import Plot, Statement
 from twintube.simulate import Simulation, simulate, work_between
+from twintube.variables import Derived, blank
 
 SAME = 0.99  # work of the 19th over that of the 1st oscillation above which nothing fell, as C1 has it
 SPENT = 0.05  # share of the intact work below which a state is not judged, as in C3
 CLOSE = 0.10  # the model error that the paper names itself (Section 3.3, Figure 33), here of the intact work
 SHAPE = 0.10  # root mean square error of a force over the range of the measured one
-FULL = "no work is lost at the middle level: with the assumed dead length the oil left still fills both working chambers"
 Tables = dict[str, dict[float, Array]]
 REMARK = (
     "Markers are the virtual rig's works: they say how the method copes with other physics, not how the paper's dampers are."
@@ -121,7 +122,11 @@ def statements(found: Tables, speeds: Array, damper: Damper) -> tuple[Statement,
             holds=falling,
             numbers={"mean_work_relative_to_intact_at_100_60_40": falls},
             basis="evidence",
-            reason="" if falling else FULL if ours[1] >= ours[0] else "the lower of the two levels does more work",
+            reason=""
+            if falling
+            else filling(damper, degraded[0])
+            if ours[1] >= ours[0]
+            else "the lower of the two levels does more work",
         ),
         Statement(
             text="at high velocities the 19th oscillation does less work than the 1st",
@@ -152,8 +157,22 @@ def statements(found: Tables, speeds: Array, damper: Damper) -> tuple[Statement,
             numbers={"mean_deviation_of_works_relative_to_intact_by_level": away},
             basis="stand-in",
             criterion=f"mean deviation over the velocities up to {CLOSE:.0%} of the intact work, every level, 1st and 19th",
-            reason="" if worst <= CLOSE else f"other physics; worst at {level} oil, {number} oscillation: {worst:.0%}",
+            reason="" if worst <= CLOSE else f"other physics; worst at {level} oil, {number} oscillation: {worst:.1%}",
         ),
+    )
+
+
+def filling(damper: Damper, level: float) -> str:
+    """Why no work is lost at an oil level: whether the oil left fills both working chambers wherever the piston is."""
+    d = blank(Derived)
+    prepare(damper.parameters, d)
+    reach = amplitude(damper)
+    room = d.A_1 * (d.half_length - reach) + d.A_2 * (d.half_length + reach)
+    oil = level * damper.parameters.V_oil
+    fills = "fills" if oil >= room else "does not fill"
+    return (
+        f"no work is lost at {level:.0%} oil, which is {oil * 1e6:.0f} mL and {fills} the two working chambers of up to "
+        f"{room * 1e6:.0f} mL (dead length and maximum stroke are assumed)"
     )
 
 
