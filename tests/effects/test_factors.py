@@ -12,9 +12,19 @@ def test_side_load_multiplies_the_friction_and_its_work(sa8: Damper) -> None:
     block = harmonic_block(0.524)
     plain, loaded = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(side_load=2.0)))
     fluid = simulate(sa8.with_(F_FrS=0.0), block.stroke, block.velocity)
-    assert loaded.F_friction == pytest.approx(3.0 * plain.F_friction)
+    fast = np.abs(block.velocity) > 0.06
+    p = sa8.parameters
+    factor = 1.0 + 2.0 / (1.0 + p.oil_loss_gain * (1.0 - p.oil_level))
+    assert loaded.F_friction[fast] == pytest.approx(factor * plain.F_friction[fast], rel=1e-3)
     assert np.array_equal(loaded.F_fluid, plain.F_fluid)
-    assert loaded.work - fluid.work == pytest.approx(3.0 * (plain.work - fluid.work), rel=1e-6, abs=1e-6)
+    assert loaded.work[-1] - fluid.work[-1] == pytest.approx(factor * (plain.work[-1] - fluid.work[-1]), rel=0.02)
+
+
+def test_slow_ramps_show_no_side_load(sa8: Damper) -> None:
+    z = np.linspace(-0.01, 0.01, 2001)
+    v = np.full(len(z), 1e-5)
+    plain, loaded = (simulate(x, z, v).F_friction for x in (sa8, sa8.with_(side_load=5.0)))
+    assert loaded == pytest.approx(plain, rel=0.02, abs=1e-3)
 
 
 def test_wear_scales_each_branch_and_its_work() -> None:

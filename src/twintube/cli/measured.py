@@ -1,4 +1,4 @@
-"""Commands about measured data and larger computations: check, identify, study, reproduce."""
+"""Commands about measured data and larger computations: check, identify, diagnose, study, reproduce."""
 
 import json
 import shutil
@@ -127,3 +127,35 @@ def reproduce(
     with answering():
         made = run(output, figures=figure, quick=not paper_budget, processes=processes, report=typer.echo)
         typer.echo(f"{made.page}: {len(made.pictures)} figures")
+
+
+@app.command(epilog="Example: twintube diagnose my_dataset --output diagnosis")
+def diagnose(
+    dataset: Annotated[Path, typer.Argument(help="A folder with dataset.toml and its records, or that file.")],
+    output: Annotated[Path, typer.Option(help="Folder for the answer, the extended parameter set and the report.")] = Path(
+        "diagnosis"
+    ),
+) -> None:
+    """Find what the simulation gets wrong, name the cause and extend the model, judged on held-out records.
+
+    Experimental: how often it is right is stated in docs/diagnosis.md.
+    """
+    from twintube.diagnose import as_json
+    from twintube.diagnose import diagnose as run
+    from twintube.parameters import to_toml
+    from twintube.report.diagnosis import write_report
+
+    with answering():
+        with tqdm(unit="fit", leave=False) as bar:
+
+            def progress(text: str) -> None:
+                bar.set_description(text)
+                bar.update()
+
+            found = run(dataset, progress)
+        output.mkdir(parents=True, exist_ok=True)
+        write(output / "extended.toml", to_toml(found.extended))
+        write(output / "diagnosis.json", json.dumps(as_json(found), indent=1) + "\n")
+        write_report(found, output)
+        typer.echo(found.sentence)
+        typer.echo(f"{output}: diagnosis.json, extended.toml, report.html ({found.seconds:.0f} s)")

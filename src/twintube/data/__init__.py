@@ -7,7 +7,17 @@
 Reading: manifest.py (dataset.toml), formats.py (CSV, text, Parquet, MATLAB, MDF), table.py (units). Judging: checks.py.
 """
 
-from twintube.data.dataset import GIVEN, GRADIENT, MEASURED, Dataset, LoadedDataset, Record, check_dataset, load_dataset
+from twintube.data.dataset import (
+    GIVEN,
+    GRADIENT,
+    MEASURED,
+    Dataset,
+    LoadedDataset,
+    Record,
+    check_dataset,
+    flipped_dataset,
+    load_dataset,
+)
 from twintube.data.findings import DataError, Finding, report
 
 __all__ = [
@@ -20,6 +30,7 @@ __all__ = [
     "LoadedDataset",
     "Record",
     "check_dataset",
+    "flipped_dataset",
     "load_dataset",
     "report",
 ]

@@ -78,6 +78,16 @@ def load_dataset(path: str | Path) -> LoadedDataset:
 
 def check_dataset(path: str | Path) -> Dataset:
     """As `load_dataset`, but errors are only in the findings; nothing is raised."""
+    return read_dataset(path, 1)
+
+
+def flipped_dataset(path: str | Path) -> Dataset:
+    """As `check_dataset` with the sign of every force turned: what a wrong sign of the force channel would explain."""
+    return read_dataset(path, -1)
+
+
+def read_dataset(path: str | Path, sign: int) -> Dataset:
+    """The dataset with its forces times `sign`."""
     folder = Path(path)
     toml = folder / FILE if folder.is_dir() or folder.suffix != ".toml" else folder
     notes = Notes(toml.name)
@@ -92,7 +102,8 @@ def check_dataset(path: str | Path) -> Dataset:
     damper = damper_of(manifest, toml.parent, notes)
     records: list[Record] = []
     found: list[Finding] = []
-    for entry in manifest.entries:
+    for stated in manifest.entries:
+        entry = replace(stated, force_sign=sign * stated.force_sign)
         own = Notes(entry.file)
         record = read_record(entry, toml.parent, damper, notes, own)
         found += own.findings

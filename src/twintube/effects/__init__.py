@@ -1,6 +1,6 @@
 """Physical effects beyond the paper's model: one file each, nothing else names it.
 
-A file `<effect>.py` in this folder has the constants TITLE, CAUSE, ABSENCE, STRENGTH and NEEDS_TIME, the records
+A file `<effect>.py` in this folder has the constants TITLE, CAUSE, ABSENCE, DECIDES, STRENGTH and NEEDS_TIME, the records
 `Parameters` and (optional) `State`, whose own fields join the table of variables, and functions called `<effect>_<hook>` in
 the kernel's subset of Python. An effect acts if one of its parameters named by STRENGTH is not 0. From the files this
 module makes the full records and one function per hook, which calls the hooks of the active effects by the order of their
@@ -14,7 +14,7 @@ names; the interpreter executes its text, `compiled.py` joins it to the kernel.
     phases          (p, s, way, dt)                   changes of the phases, before kernel.step
     transition      (p, s, f, v, dz)                  s.k_degr, f.k_degr, f.k_mean after kernel.step
     scale_fluid     (p, s, v) -> factor               of the fluid force in the direction of v
-    scale_friction  (p) -> factor                     of the friction force
+    scale_friction  (p, v) -> factor                  of the friction force at the velocity v
     elastic         (p, z) -> force [N]               beside the gas force, no work
     series          (p, s, F, dt) -> speed [m/s]      taken up in series with the valves at the fluid force F
     force           (p, s, v, dz, dt)                 s.F_fluid, s.W_step where the force has a memory
@@ -40,7 +40,7 @@ HOOKS = {
     "phases": ("p, s, way, dt", "call"),
     "transition": ("p, s, f, v, dz", "call"),
     "scale_fluid": ("p, s, v", "product"),
-    "scale_friction": ("p", "product"),
+    "scale_friction": ("p, v", "product"),
     "elastic": ("p, z", "sum"),
     "series": ("p, s, F, dt", "sum"),
     "force": ("p, s, v, dz, dt", "call"),
@@ -64,6 +64,7 @@ class Effect:
     title: str
     cause: str
     absence: str
+    decides: str  # the measurement that tells it from its look-alikes
     strength: tuple[str, ...]
     needs_time: bool
     parameters: tuple[Field[Any], ...]
@@ -123,6 +124,7 @@ def load(name: str) -> Effect:
         module.TITLE,
         module.CAUSE,
         module.ABSENCE,
+        module.DECIDES,
         strengths(sources()[name]),
         module.NEEDS_TIME,
         own(module.Parameters, variables.Parameters),

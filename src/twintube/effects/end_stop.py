@@ -12,6 +12,7 @@ from twintube.variables import var
 TITLE = "Bump or rebound stop engaged"
 CAUSE = "The stroke reaches a rubber stop inside the damper, which adds an elastic force near the end of the stroke."
 ABSENCE = "The residual is zero over most of the stroke and rises steeply at one end, alike in both directions."
+DECIDES = "the same velocity with half the amplitude"
 STRENGTH = ("F_stop_re", "F_stop_co")
 NEEDS_TIME = False
 REFERENCE = 0.01  # [m]

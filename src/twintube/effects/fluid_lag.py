@@ -14,6 +14,7 @@ from twintube.variables import FV_POINTS, var
 TITLE = "Compressible oil and late check valves"
 CAUSE = "Oil, dissolved gas and walls give under pressure and check valves close late, so the fluid force lags the velocity."
 ABSENCE = "The measured F-v curve opens to a loop that the model does not have, widest where the acceleration is largest."
+DECIDES = "small amplitudes at the same velocity: a lag grows with the frequency, a mount with the force"
 STRENGTH = ("C_fluid",)
 NEEDS_TIME = True
 

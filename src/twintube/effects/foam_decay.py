@@ -10,6 +10,7 @@ from twintube.variables import var
 TITLE = "Foam separates with time"
 CAUSE = "Drainage and bursting bubbles separate foam into oil and gas at a rate of its own, at rest too."
 ABSENCE = "After a rest or in slow motion the measured force is higher than the model's, whose foam stays."
+DECIDES = "rests of 5, 20 and 60 s between blocks below the cavitation threshold"
 STRENGTH = ("foam_decay_rate",)
 NEEDS_TIME = True
 

@@ -14,6 +14,7 @@ from twintube.variables import var
 TITLE = "Gas goes back into the oil"
 CAUSE = "Bubbles freed by cavitation collapse and dissolve again under pressure, which the paper's model does not give back."
 ABSENCE = "The model loses force from oscillation to oscillation where the measured damper recovers, at rest above all."
+DECIDES = "rests of 5, 20 and 60 s between blocks above the cavitation threshold"
 STRENGTH = ("redissolution_rate",)
 NEEDS_TIME = True
 

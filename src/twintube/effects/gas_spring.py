@@ -1,4 +1,4 @@
-"""Residual or wrong preload: a gas force c_residual z - F_residual beside the one of the parameter set.
+"""Residual preload: a gas force c_residual z - F_residual in the states whose preload is taken as lost.
 
 A constant force alone (c_residual = 0) cannot be told from an offset of the force sensor.
 """
@@ -11,6 +11,7 @@ from twintube.variables import var
 TITLE = "Residual or wrong gas preload"
 CAUSE = "Gas pressure is left where it is taken as lost, or the preload differs from the one of the parameter set."
 ABSENCE = "The residual is a straight line over the stroke, the same in both directions and at every velocity."
+DECIDES = "a quasi-static record of the degraded damper over the whole stroke"
 STRENGTH = ("c_residual", "F_residual")
 NEEDS_TIME = False
 
@@ -26,5 +27,7 @@ class Parameters(variables.Parameters):
 
 
 def gas_spring_elastic(p: Parameters, z: float) -> float:
-    """Force [N] at the stroke `z` [m]."""
+    """Force [N] at the stroke `z` [m]; with preload the gas spring of the parameter set is measured, not assumed."""
+    if p.gas_preload > 0:
+        return 0.0
     return p.c_residual * z - p.F_residual

@@ -16,6 +16,7 @@ from twintube.variables import Derived, var
 TITLE = "Rubber mount in series"
 CAUSE = "A rubber mount between rig or body and piston rod deflects under the force, so that the piston moves less."
 ABSENCE = "The measured force lags behind the model's after every reversal, and small strokes do much less work."
+DECIDES = "small amplitudes at the same velocity: a mount takes its deflection from every stroke"
 STRENGTH = ("C_mount",)
 NEEDS_TIME = True
 
@@ -51,7 +52,7 @@ def mount_compliance_excess(p: Parameters, d: Derived, s: State, z: float, v: fl
     rate = v - u - effects_series(p, s, F, dt)
     x = s.x_mount + rate * dt
     goal = z - x
-    friction = effects_scale_friction(p) * stribeck(p, v) * dahl(p, d, s.F_D, goal - s.z)
+    friction = effects_scale_friction(p, v) * stribeck(p, v) * dahl(p, d, s.F_D, goal - s.z)
     gas = d.c_gas * goal + effects_elastic(p, goal) - effects_elastic(p, 0.0)
     return (x + p.tau_mount * rate) / p.C_mount - F - friction - gas
 

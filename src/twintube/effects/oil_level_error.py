@@ -14,6 +14,7 @@ CAUSE = "The oil that was drained or filled in is not what the record says, by t
 ABSENCE = (
     "In every degraded state the model's force rises at another stroke than the measured one, from the first oscillation."
 )
+DECIDES = "the oil weighed"
 STRENGTH = ("level_error",)
 NEEDS_TIME = False
 

@@ -12,9 +12,10 @@ from twintube import variables
 from twintube.frame import Frame
 from twintube.variables import var
 
-TITLE = "Self-heating thins the oil"
+TITLE = "Self-heating of the oil"
 CAUSE = "The dissipated work heats the oil, whose viscosity falls exponentially with temperature and recovers at rest."
 ABSENCE = "The measured fluid force falls from oscillation to oscillation below the model's and comes back after a rest."
+DECIDES = "a rest of ten minutes within a record: heat goes, lost oil does not come back"
 STRENGTH = ("fade_heat",)
 NEEDS_TIME = True
 

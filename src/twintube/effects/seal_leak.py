@@ -12,6 +12,7 @@ from twintube.variables import var
 TITLE = "Oil leaks past the rod seal"
 CAUSE = "A worn seal lets a film of oil out with every stroke, so that the oil level falls during the measurement."
 ABSENCE = "The measured damper loses force over the whole measurement, also at low velocity, and does not recover at rest."
+DECIDES = "a rest of ten minutes within a record, and the oil weighed afterwards"
 STRENGTH = ("leak_film",)
 NEEDS_TIME = False
 

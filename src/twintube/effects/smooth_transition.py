@@ -14,6 +14,7 @@ from twintube.variables import Flow, var
 TITLE = "Gradual build-up of the force"
 CAUSE = "Oil and gas are mixed near the level between them, so that the force builds up over a stroke instead of at once."
 ABSENCE = "The model's force steps where the measured one rises gradually: a residual of both signs around the rise."
+DECIDES = "the same velocity with half the amplitude: the build-up is a length of stroke, not a time"
 STRENGTH = ("build_up",)
 NEEDS_TIME = False
 

@@ -6,9 +6,10 @@ from twintube import variables
 from twintube.frame import Frame
 from twintube.variables import var
 
-TITLE = "The F-v curve itself changed"
+TITLE = "Change of the F-v curve"
 CAUSE = "Worn, set or clogged valves make less or more force than the F-v curve of the parameter set."
 ABSENCE = "The residual is proportional to the fluid force, with a factor for each direction, from the first oscillation."
+DECIDES = "an intact reference measured on the same day"
 STRENGTH = ("wear_re", "wear_co")
 NEEDS_TIME = False
 

@@ -55,17 +55,21 @@ def beginnings(stroke: Array) -> NDArray[np.int64]:
 
 
 def slopes(time: Array, stroke: Array, at: NDArray[np.int64], reach: NDArray[np.int64]) -> Array:
-    """Velocity (n,) [m/s] at the samples `at`: the straight line through the strokes up to `reach` samples to each side.
+    """Velocity (n,) [m/s] at the samples `at`: between the mean strokes of the `reach` samples before and after.
 
     A difference of neighbouring samples would turn micrometres of noise into velocities beyond the thresholds of foam.
     """
-    reach = np.maximum(1, np.minimum(reach, np.minimum(at, len(time) - 1 - at)))
-    low, high = np.maximum(at - reach, 0), np.minimum(at + reach, len(time) - 1)
-    t, z = time - time[0], stroke - stroke.mean()
-    sums = [np.concatenate([[0.0], np.cumsum(x)]) for x in (t, z, t * t, t * z)]
-    st, sz, stt, stz = (total[high + 1] - total[low] for total in sums)
-    n = high + 1 - low
-    found: Array = (n * stz - st * sz) / np.maximum(n * stt - st * st, 1e-30)
+    last = len(time) - 1
+    reach = np.maximum(1, np.minimum(reach, np.minimum(at, last - at)))
+    low, high = np.maximum(at - reach, 0), np.minimum(at + reach, last)
+
+    def mean(sums: Array, a: NDArray[np.int64], b: NDArray[np.int64]) -> Array:
+        return np.asarray((sums[b + 1] - sums[a]) / (b + 1 - a), dtype=float)
+
+    # Sums of long records lose the digits that a short window needs, unless they are of extended precision.
+    totals = [np.concatenate([[0.0], np.cumsum(x.astype(np.longdouble))]) for x in (time - time[0], stroke)]
+    ways = [mean(total, at, high) - mean(total, low, at) for total in totals]
+    found: Array = ways[1] / np.maximum(ways[0], 1e-12)
     return found
 
 

@@ -1,0 +1,178 @@
+"""The model against all cases at once: residuals for any parameters of damper and measurement, and their least squares."""
+
+import os
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from twintube import compiled, effects
+from twintube.arrays import Array
+from twintube.diagnose.prepare import Case
+from twintube.identify.objective import tolerant
+from twintube.parameters import Damper
+from twintube.variables import Derived, Flow, blank
+
+# What the measurement adds to the damper: names, neutral values and bounds.
+MEASUREMENT = {"force_offset": (0.0, "N"), "force_gain": (1.0, "1"), "channel_delay": (0.0, "s")}
+NUMERICS = 3e-3  # of a record's peak force: what sampling and the time step of the model leave [tests/diagnose]
+STEP = 1e-3  # of a parameter's range: step of a derivative
+PRIOR = 0.5  # of a parameter's range: standard deviation of a weak pull to its start, which keeps idle ones in place
+ITERATIONS = 12
+LEAST_MISFIT = 0.5  # below the noise: no record gains from being fitted better than that
+PARTS = 3  # steps of the model per interval
+
+
+@dataclass(frozen=True)
+class Free:
+    """A parameter that a fit may move."""
+
+    name: str
+    start: float
+    low: float
+    high: float
+
+    @property
+    def width(self) -> float:
+        """Its range."""
+        return self.high - self.low
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The optimum of one model."""
+
+    free: tuple[Free, ...]
+    values: dict[str, float]  # of all free parameters
+    forces: Array  # (n,) predicted mean forces [N] of all cases
+    misfit: Array  # (r,) mean squared weighted error per case
+    covariance: Array  # (k, k), robust against errors that a record's samples share
+
+
+class Problem:
+    """All cases laid end to end."""
+
+    def __init__(self, damper: Damper, cases: Sequence[Case]) -> None:
+        self.given = damper
+        self.cases = list(cases)
+        self.damper = tolerant(damper)
+        self.starts = np.concatenate([[0], np.cumsum([len(c.time) for c in cases])]).astype(np.int64)
+        self.states = np.array([[c.oil_level, c.preload] for c in cases], dtype=float)
+        self.t, self.z, self.v = (np.concatenate([getattr(c, n) for c in cases]) for n in ("time", "stroke", "velocity"))
+        self.measured = np.concatenate([c.measured() for c in cases])
+        self.sigma = np.concatenate([np.hypot(c.noise, NUMERICS * c.peak) for c in cases])
+        # The first sample of a record has no interval before it.
+        self.weight = 1 / self.sigma
+        self.weight[self.starts[:-1]] = 0.0
+        self.share = np.ones(len(self.z))
+        self.counts = np.diff(self.starts) - 1
+        self.threads = ThreadPoolExecutor(os.cpu_count())
+        self.known = {item.name for item in fields(effects.Parameters)}
+
+    def with_cases(self, cases: Sequence[Case]) -> "Problem":
+        """The same damper with other cases."""
+        return Problem(self.given, cases)
+
+    def forces(self, values: Mapping[str, float]) -> Array:
+        """Predicted mean forces (n,) [N], measurement included."""
+        records = (self.damper.parameters, blank(Derived), blank(effects.State), blank(Flow))
+        rows: list[Any] = [compiled.as_row(record)[0] for record in records]
+        for name, value in values.items():
+            if name in self.known:
+                rows[0][name] = value
+        force, work = np.empty(len(self.z)), np.empty(len(self.z))
+        done = compiled.module().run_means(*rows, self.states, self.t, self.z, self.v, self.starts, PARTS, force, work)
+        force[self.starts[done] :] = 1e9
+        found: Array = values.get("force_gain", 1.0) * force + values.get("force_offset", 0.0)
+        return found
+
+    def target(self, values: Mapping[str, float]) -> Array:
+        """Measured mean forces (n,), read later by the delay of the force channel."""
+        delay = values.get("channel_delay", 0.0)
+        return np.concatenate([c.measured(delay) for c in self.cases]) if delay else self.measured
+
+    def residual(self, values: Mapping[str, float]) -> Array:
+        """Weighted errors (n,)."""
+        return (self.forces(values) - self.target(values)) * self.weight
+
+    def shared(self, values: Mapping[str, float]) -> Array:
+        """The same with the records balanced."""
+        return self.residual(values) * self.share
+
+    def residuals(self, many: Sequence[Mapping[str, float]]) -> list[Array]:
+        """Balanced errors of several parameter sets, shared out to threads."""
+        return list(self.threads.map(self.shared, many))
+
+    def rows(self, cases: Sequence[int]) -> NDArray[np.int64]:
+        """The samples of some cases."""
+        return np.concatenate([np.arange(self.starts[i], self.starts[i + 1]) for i in cases])
+
+    def balance(self, misfit: Array) -> None:
+        """Let every record count alike in what follows: `misfit` (r,) is its mean squared weighted error.
+
+        A record that no model explains, say at the edge between two states of filling, would else outweigh all others.
+        """
+        self.share = np.repeat(1 / np.sqrt(np.maximum(1.0, misfit)), np.diff(self.starts))
+
+    def misfits(self, residual: Array) -> Array:
+        """Mean squared weighted error (r,) per case."""
+        found: Array = np.add.reduceat(residual**2, self.starts[:-1]) / self.counts
+        return found
+
+    def score(self, misfit: Array, cases: Sequence[int]) -> float:
+        """Twice the negative log-likelihood of some cases, each with a variance of its own not below its noise's."""
+        picks = np.asarray(cases)
+        return float(self.counts[picks] @ np.log(np.maximum(LEAST_MISFIT, misfit[picks])))
+
+    def fit(
+        self, free: Sequence[Free], fixed: Mapping[str, float], cases: Sequence[int], iterations: int = ITERATIONS
+    ) -> Fit:
+        """Least squares over some cases for the free parameters, from their starts."""
+        free = tuple(free)
+        picks = self.rows(cases)
+        start = np.array([f.start for f in free])
+        width = np.array([f.width for f in free])
+        low = np.array([f.low for f in free])
+
+        def values(u: Array) -> dict[str, float]:
+            return {**fixed, **{f.name: float(x) for f, x in zip(free, low + u * width, strict=True)}}
+
+        u0 = np.clip((start - low) / width, 1e-9, 1 - 1e-9)
+        scaled = np.array([1e-6 if f.name in MEASUREMENT else 1.0 for f in free])  # no pull on the measurement
+
+        def errors(u: Array) -> Array:
+            return np.concatenate([self.shared(values(u))[picks], scaled * (u - u0) / PRIOR])
+
+        def slopes(u: Array) -> Array:
+            steps = np.where(u + STEP <= 1.0, STEP, -STEP)
+            found = self.residuals([values(u), *(values(u + e) for e in np.diag(steps))])
+            J = np.array([(other - found[0])[picks] / step for other, step in zip(found[1:], steps, strict=True)]).T
+            return np.vstack([J, np.diag(scaled / PRIOR)])
+
+        if free:
+            found = least_squares(errors, u0, jac=slopes, bounds=(0.0, 1.0), max_nfev=iterations, x_scale=1.0)
+            u = found.x
+            J = slopes(u)
+            covariance = self.robust(J, errors(u), cases) * np.outer(width, width)
+        else:
+            u, covariance = u0, np.zeros((0, 0))
+        best = values(u)
+        return Fit(free, best, self.forces(best), self.misfits(self.residual(best)), covariance)
+
+    def robust(self, J: Array, errors: Array, cases: Sequence[int]) -> Array:
+        """Covariance (k, k) of the parameters from the scatter of the records' pulls (sandwich)."""
+        k = J.shape[1]
+        inverse = np.linalg.pinv(J.T @ J)
+        middle = np.zeros((k, k))
+        at = 0
+        for i in cases:
+            n = self.starts[i + 1] - self.starts[i]
+            g = J[at : at + n].T @ errors[at : at + n]
+            middle += np.outer(g, g)
+            at += n
+        records = max(2, len(cases))
+        return np.asarray(inverse @ (middle * records / (records - 1) + J[at:].T @ J[at:]) @ inverse)

@@ -1,0 +1,133 @@
+"""Which causes the records ask for: forward selection on whole held-out records, with a known rate of false alarms.
+
+An improvement on held-out noise of a model that is no better exceeds c with a probability of at most Q(sqrt(c)), Q being
+the normal tail: 2 r d - d^2 with r normal is largest where d^2 = c. With k candidates and a rate of ALARM in all,
+c = Q^-1(ALARM / k)^2. Each record has a variance of its own, so the misfit is the log-likelihood sum n log(mean square).
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import norm
+
+from twintube.arrays import Array
+from twintube.diagnose.candidates import Candidate, base, best_start, nuisances
+from twintube.diagnose.fit import Fit, Free, Problem
+
+ALARM = 0.01  # of a cause where there is none, by noise
+WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: below it the model's numerics decide
+NEXT = 0.35  # least share of what is left that a further cause must explain: less is the first one's formulation
+ROUNDS = 3
+RECALIBRATE = "recalibrate"
+CLOSE = 0.03  # of the explainable misfit: candidates that differ by less are not told apart
+
+
+@dataclass(frozen=True)
+class Option:
+    """A candidate tried in one round, with the model that it makes."""
+
+    names: tuple[str, ...]  # of all causes in the model, the new one last
+    fit: Fit
+    score: float  # misfit of the held-out records
+
+
+@dataclass(frozen=True)
+class Selection:
+    """All rounds: options best first, and what was chosen."""
+
+    start: Option  # nothing but the nuisances
+    rounds: list[list[Option]]
+    chosen: list[str]
+    final: Option
+    recalibrated: Option
+    count: int  # held-out samples
+    limit: float  # c
+
+
+class Selector:
+    """Fits and compares models; `held` and `fitted` are the cases' numbers."""
+
+    def __init__(
+        self, problem: Problem, candidates: Sequence[Candidate], fitted: Sequence[int], held: Sequence[int]
+    ) -> None:
+        self.problem, self.fitted, self.held = problem, list(fitted), list(held)
+        self.candidates = {c.name: c for c in candidates}
+        self.limit = float(norm.isf(ALARM / (len(candidates) + 1))) ** 2
+        self.count = len(problem.rows(held)) - len(held)
+
+    def option(self, names: Sequence[str], free: Sequence[Free], iterations: int = 12) -> Option:
+        """The model with some causes, fitted."""
+        fit = self.problem.fit(free, {}, self.fitted, iterations)
+        return Option(tuple(names), fit, self.problem.score(fit.misfit, self.held))
+
+    def free(self, names: Sequence[str], values: dict[str, float]) -> dict[str, Free]:
+        """The free parameters of a model by name, from the values where they are known."""
+        found = {f.name: f for f in nuisances(self.problem)}
+        for name in names:
+            wanted = base(self.problem) if name == RECALIBRATE else self.candidates[name].free
+            found |= {f.name: f for f in wanted}
+        return {
+            name: Free(name, min(max(values.get(name, f.start), f.low), f.high), f.low, f.high) for name, f in found.items()
+        }
+
+    def extended(self, current: Option, name: str) -> Option:
+        """The current model with one more cause, from its best start."""
+        values = dict(current.fit.values)
+        names = [*current.names, name]
+        if name != RECALIBRATE:
+            values |= {f.name: f.start for f in best_start(self.problem, self.candidates[name], values, self.fitted)}
+        return self.option(names, list(self.free(names, values).values()))
+
+    def worth(self, before: float, after: float, first: bool) -> bool:
+        """Whether an improvement of the held-out misfit is more than noise, numerics and formulation make."""
+        gained = before - after
+        if gained <= self.limit or gained <= WORTH * self.count:
+            return False
+        return first or gained >= NEXT * max(before, 0.0)
+
+    def run(self, progress: Callable[[str], None]) -> Selection:
+        """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
+        start = self.option((), nuisances(self.problem))
+        self.problem.balance(start.fit.misfit)
+        recalibrated = self.extended(start, RECALIBRATE)
+        current, rounds = start, []
+        for n in range(ROUNDS):
+            names = [name for name in (RECALIBRATE, *self.candidates) if name not in current.names]
+            options = []
+            for name in names:
+                progress(f"round {n + 1}: {name}")
+                options.append(recalibrated if name == RECALIBRATE and n == 0 else self.extended(current, name))
+            options.sort(key=lambda o: o.score)
+            rounds.append(options)
+            if not self.worth(current.score, options[0].score, n == 0):
+                break
+            current = options[0]
+        current = self.pruned(current, progress)
+        return Selection(
+            start, rounds, list(current.names), current, recalibrated, self.count, self.limit
+        )  # fmt: skip
+
+    def pruned(self, current: Option, progress: Callable[[str], None]) -> Option:
+        """Without the causes that the others make superfluous, such as a calibration that stood in for an effect."""
+        while len(current.names) > 1:
+            without = []
+            for name in current.names:
+                progress(f"without {name}")
+                rest = [other for other in current.names if other != name]
+                without.append(self.option(rest, list(self.free(rest, current.fit.values).values())))
+            best = min(without, key=lambda o: o.score)
+            if self.worth(best.score, current.score, first=True):
+                return current
+            current = best
+        return current
+
+
+def bootstrap(values: Array, seed: int = 1, level: float = 0.95) -> tuple[float, float]:
+    """Interval of the ratio of sums of the columns (r, 2), by resampling its rows."""
+    rng = np.random.default_rng(seed)
+    picks = rng.integers(0, len(values), (2000, len(values)))
+    sums = values[picks].sum(axis=1)
+    ratios = sums[:, 0] / np.where(np.abs(sums[:, 1]) > 0, sums[:, 1], np.nan)
+    low, high = np.nanquantile(ratios, [(1 - level) / 2, (1 + level) / 2])
+    return float(low), float(high)

@@ -1,0 +1,120 @@
+"""Hidden causes are found, nothing is found where nothing is hidden, and bad input gets a clear answer."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from blind_trials.trials import Trial, dataset, trial, write
+from twintube.cli import app
+from twintube.diagnose import Diagnosis, diagnose
+from twintube.diagnose.fit import Free, Problem
+from twintube.diagnose.prepare import prepare
+from twintube.parameters import load
+from twintube.simulate import InputError
+
+BLOCKS = (0.131, 0.262, 0.524, 0.786, 1.048)
+
+
+@pytest.fixture(scope="module")
+def nothing() -> Trial:
+    return trial("none", 2001, blocks=BLOCKS)
+
+
+def answered(kind: str, folder: Path, seed: int = 2001) -> Diagnosis:
+    return diagnose(write(trial(kind, seed, blocks=BLOCKS), folder))
+
+
+def test_a_case_keeps_the_force_s_impulse_and_knows_its_noise(nothing: Trial) -> None:
+    for case, record in zip(prepare(dataset(nothing)), nothing.records, strict=True):
+        gone = np.diff(case.time) * case.measured()[1:]
+        whole = np.interp(case.time[[0, -1]], case.dense_time, case.impulse)
+        assert gone.sum() == pytest.approx(whole[1] - whole[0], rel=1e-9)
+        assert len(case.time) < len(record.time)
+        if record.measurement == "harmonic":
+            per = len(record.time) / len(case.time)
+            assert 0.3 < np.median(case.noise) / (record.noise_N / np.sqrt(per)) < 4.0
+
+
+def test_the_model_is_at_the_noise_where_nothing_is_hidden(nothing: Trial) -> None:
+    """Another scheme made the records: sampling, thinning and the model's steps cost less than the noise."""
+    data = dataset(nothing)
+    problem = Problem(data.damper, prepare(data))
+    offset = Free("force_offset", 0.0, -50.0, 50.0)
+    fit = problem.fit([offset], {}, range(len(problem.cases)))
+    assert np.median(fit.misfit) < 1.5
+    assert fit.misfit.max() < 4.0
+
+
+def test_fit_recovers_a_parameter(nothing: Trial) -> None:
+    data = dataset(nothing)
+    problem = Problem(data.damper, prepare(data))
+    free = [Free("X_Co2", 0.85, 0.0, 1.0), Free("force_offset", 0.0, -50.0, 50.0)]
+    fit = problem.fit(free, {}, range(len(problem.cases)))
+    assert fit.values["X_Co2"] == pytest.approx(data.damper.parameters.X_Co2, abs=0.01)
+
+
+def test_nothing_hidden_is_nothing_found(nothing: Trial, tmp_path: Path) -> None:
+    found = diagnose(write(nothing, tmp_path))
+    assert found.verdict == "none"
+    assert found.causes == []
+    assert found.extended.parameters == load("SA8").parameters
+
+
+def test_valve_wear_is_found_and_gains_on_held_out_records(tmp_path: Path) -> None:
+    found = answered("valve_wear", tmp_path)
+    assert (found.verdict, found.causes[0].effect) == ("cause", "valve_wear")
+    assert found.causes[0].gain.heldout > 0.8
+    assert found.errors["heldout"]["extended"].force_rmse_N < found.errors["heldout"]["base"].force_rmse_N
+    assert found.extended.parameters.wear_re != 0.0  # type: ignore[attr-defined]
+    assert found.extended.sources["valve_wear"] == "found by diagnosis"
+
+
+def test_zero_of_the_load_cell_is_a_fault_of_the_measurement(tmp_path: Path) -> None:
+    found = answered("force_offset", tmp_path)
+    assert (found.verdict, found.causes[0].effect) == ("measurement_fault", "force_offset")
+    value = found.causes[0].parameters["force_offset"]
+    assert value.low <= value.value <= value.high
+
+
+def test_turned_sign_is_found_by_the_command(tmp_path: Path) -> None:
+    folder = write(trial("sign_flip", 2001, blocks=BLOCKS[2:]), tmp_path / "data")
+    result = CliRunner().invoke(app, ["diagnose", str(folder), "--output", str(tmp_path / "out")])
+    assert result.exit_code == 0, result.output
+    found = json.loads((tmp_path / "out" / "diagnosis.json").read_text())
+    assert found["verdict"] == "measurement_fault"
+    assert found["causes"][0]["effect"] == "sign_flip"
+    assert load(tmp_path / "out" / "extended.toml").name == "SA8"
+    assert "sign" in (tmp_path / "out" / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("keep", "split", "message"),
+    [
+        (1, "", "1 record, at least two"),
+        (4, "heldout", "4 of 4 records are held out"),
+        (2, "same", "all records have one velocity"),
+    ],
+)
+def test_datasets_that_allow_no_judgement(nothing: Trial, tmp_path: Path, keep: int, split: str, message: str) -> None:
+    records = [r for r in nothing.records if r.measurement == "harmonic"][:keep]
+    if split == "same":
+        records = [records[0], replace(records[0], file="again.parquet", force=records[0].force * 1.01)]
+    folder = write(replace(nothing, records=records), tmp_path)
+    if split == "heldout":
+        toml = folder / "dataset.toml"
+        toml.write_text(toml.read_text().replace("[[record]]\n", '[[record]]\nsplit = "heldout"\n'))
+    with pytest.raises(InputError, match=message):
+        diagnose(folder)
+
+
+def test_empty_dataset_and_unknown_damper(tmp_path: Path) -> None:
+    (tmp_path / "dataset.toml").write_text('title = "x"\ndamper = "SA9"\n')
+    result = CliRunner().invoke(app, ["diagnose", str(tmp_path), "--output", str(tmp_path / "out")])
+    assert result.exit_code == 2
+    assert "no [[record]]" in result.output
+    assert "SA9" in result.output
+    assert not (tmp_path / "out").exists()

@@ -1,0 +1,274 @@
+"""The page of a diagnosis: every verdict, one file, what a browser makes of it."""
+
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+import pytest
+
+from tests.report.test_page import parsed
+from twintube.checks import tube_limit
+from twintube.data import Record
+from twintube.diagnose.prepare import Case, prepared
+from twintube.diagnose.result import VERDICTS, Alternative, Cause, Diagnosis, Errors, Found, Gain, Map, RecordResult, Tried
+from twintube.effects import EFFECTS
+from twintube.parameters import Damper, load
+from twintube.report.diagnosis import BADGES, write_report
+from twintube.report.diagnosis_records import closed, compared, noise, oscillations, parts, telling, work
+from twintube.report.engineering import digits, percent, with_interval
+from twintube.rig import harmonic_block
+from twintube.simulate import simulate
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+NOISE = 8.0  # [N]
+SENTENCES = {
+    "cause": "A rubber mount in series explains the deviation: compliance 5.0 mm/kN.",
+    "none": "Nothing is missing: the model agrees with the data within the noise.",
+    "recalibrate": "The model needs other values of its parameters, but no further effect.",
+    "ambiguous": "A rubber mount and compressible oil explain these records equally well.",
+    "unexplained": "The deviation is real, but no candidate explains it.",
+    "measurement_fault": "The force channel reads 5 % too low; the damper needs no further effect.",
+}
+
+
+def state(damper: Damper, level: float) -> Damper:
+    return damper.with_(oil_level=level, gas_preload=int(level >= 1))
+
+
+def measure(truth: Damper, level: float, v: float, rng: np.random.Generator) -> Record:
+    """A record of the model itself, with noise."""
+    block = harmonic_block(v, dt=1e-3, rest=2.0)
+    force = simulate(state(truth, level), block.stroke, block.velocity, block.time).force
+    force = force + rng.normal(0, NOISE, len(force))
+    name = f"h{level * 100:.0f}_{v:g}"
+    return Record(name, name + ".csv", "harmonic", level, level >= 1, None, None, block.time, block.stroke, force,
+                  block.velocity, "measured", None, ())  # fmt: skip
+
+
+def force_of(damper: Damper, record: Record, case: Case) -> np.ndarray:
+    """Mean simulated force over the intervals of a case."""
+    found = simulate(state(damper, record.oil_level), record.stroke, record.velocity, record.time).force
+    total = np.concatenate([[0.0], np.cumsum((found[1:] + found[:-1]) / 2 * np.diff(record.time))])
+    at = np.searchsorted(record.time, case.time)
+    return np.concatenate([found[:1], np.diff(total[at]) / np.diff(case.time)])
+
+
+def results(
+    truth: Damper, base: Damper, recalibrated: Damper, extended: Damper, gain: float, levels: tuple[float, ...]
+) -> list[RecordResult]:
+    rng = np.random.default_rng(0)
+    found = []
+    for level in levels:
+        for i, v in enumerate((0.131, 0.524, 1.048) if len(levels) > 1 else (0.262, 0.524)):
+            record = measure(truth, level, v, rng)
+            case = prepared(record, tube_limit(base.parameters))
+            forces = [force_of(damper, record, case) for damper in (base, recalibrated, extended)]
+            forces[2] = forces[2] * gain
+            found.append(RecordResult(case, "heldout" if i == 1 else "fit", case.measured(), *forces))
+    return found
+
+
+def rms(records: list[RecordResult], name: str) -> Errors:
+    """Errors over records; noise_floor is that of the cases."""
+    if name == "noise_floor":
+        return Errors(float(np.mean([noise(r) for r in records])), 0.4)
+    force = np.mean([r.rms(getattr(r, name)) ** 2 for r in records]) ** 0.5
+    off = np.concatenate([work(r.case, getattr(r, name)) - work(r.case, r.measured) for r in records])
+    return Errors(float(force), float(np.sqrt(np.mean(off**2))))
+
+
+def residual_maps(records: list[RecordResult]) -> list[Map]:
+    joined = {k: np.concatenate([getattr(r.case, k)[1:] for r in records]) for k in ("stroke", "velocity", "time")}
+    joined["cycle"] = np.concatenate([r.case.cycle[1:].astype(float) for r in records])
+    joined["oil level"] = np.concatenate([np.full(len(r.base) - 1, r.case.oil_level) for r in records])
+    joined["acceleration"] = np.concatenate([np.gradient(r.case.velocity, r.case.time)[1:] for r in records])
+    base, extended = (np.concatenate([(r.measured - getattr(r, k))[1:] for r in records]) for k in ("base", "extended"))
+    units = {"stroke": "m", "velocity": "m/s", "time": "s", "oil level": "1", "acceleration": "m/s2", "cycle": ""}
+    found = []
+    for name, x in joined.items():
+        levels = np.unique(x)
+        edges = np.append(levels, levels[-1] + 1) - 0.1 if len(levels) < 5 else np.linspace(x.min(), x.max() + 1e-9, 13)
+        which = [(x >= a) & (x < b) for a, b in zip(edges, edges[1:], strict=False)]
+        centres = levels if len(levels) < 5 else (edges[1:] + edges[:-1]) / 2
+        floor = np.where([w.any() for w in which], np.mean([noise(r) for r in records]), np.nan)
+        stats = [
+            [f(y[w]) if w.any() else np.nan for w in which]
+            for f, y in (
+                (lambda e: np.sqrt(np.mean(e**2)), base),
+                (lambda e: np.sqrt(np.mean(e**2)), extended),
+                (np.mean, base),
+            )
+        ]
+        found.append(Map(name, units[name], centres, np.array(stats[0]), np.array(stats[1]), floor, np.array(stats[2])))
+    return found
+
+
+def tried(chosen: str) -> list[Tried]:
+    names = [
+        "mount_compliance",
+        "fluid_lag",
+        *sorted(set(EFFECTS) - {"mount_compliance", "fluid_lag"}),
+        "channel_delay",
+        "force_gain",
+    ]
+    gains = np.r_[0.95, 0.88, np.linspace(0.3, -0.2, len(names) - 3), -7.0]
+    first = [
+        Tried(1, n, float(g), (float(g - 0.06 * (1 + abs(g))), float(g + 0.03)),
+              "chosen" if n == chosen else "alternative" if g > 0.5 else "rejected",
+              "largest gain on held-out records" if n == chosen else "close to the best" if g > 0.5 else "gain within its uncertainty")
+        for n, g in zip(names, gains, strict=True)
+    ]  # fmt: skip
+    second = [Tried(2, n, float(g), (float(g - 0.04), float(g + 0.04)), "rejected", "less than 5 % of what is left")
+              for n, g in zip(names[1:], np.linspace(0.03, -0.1, len(names) - 1), strict=True)]  # fmt: skip
+    return first + (second if chosen else [])
+
+
+@cache
+def example(verdict: str) -> Diagnosis:
+    """A diagnosis of each kind: the truth is what the verdict says."""
+    base = load("SA8")
+    mount = base.with_(C_mount=5e-6)
+    new = base.with_(X_Re=0.1, k_high=min(5.0, base.parameters.k_high * 3 + 0.5))
+    truth, recalibrated, extended, gain = {
+        "cause": (mount, base.with_(k_high=base.parameters.k_high + 0.1), mount, 1.0),
+        "ambiguous": (mount, base, mount, 1.0),
+        "none": (base, base, base, 1.0),
+        "recalibrate": (new, new, new, 1.0),
+        "unexplained": (mount, base, base, 1.0),
+        "measurement_fault": (base.with_(wear_re=-0.05, wear_co=-0.05), base, base, 0.95),
+    }[verdict]
+    records = results(truth, base, recalibrated, extended, gain, (1.0, 0.4) if verdict == "cause" else (0.6,))
+    splits = {s: [r for r in records if r.split == s] for s in ("heldout", "fit")}
+    gains = Gain(0.96, 0.95, (0.91, 0.97), 0.82)
+    causes = {
+        "cause": [Cause("mount_compliance", EFFECTS["mount_compliance"].title, EFFECTS["mount_compliance"].cause, {
+            "C_mount": Found(5.02e-6, 4.9e-6, 5.15e-6, "m/N"), "tau_mount": Found(1.1e-3, 0.6e-3, 1.6e-3, "s")}, gains)],
+        "measurement_fault": [Cause("force_gain", "Force gain", "The load cell's sensitivity is wrong.",
+                                    {"force_gain": Found(0.95, 0.948, 0.952, "1")}, gains)],
+    }.get(verdict, [])  # fmt: skip
+    return Diagnosis(
+        title="Bench, SA8 <42 & more>", verdict=verdict, sentence=SENTENCES[verdict], causes=causes,
+        alternatives=[Alternative("fluid_lag", 0.88, "records of small strokes at high frequency")] if verdict in ("cause", "ambiguous") else [],
+        errors={s: {n: rms(some, n) for n in ("base", "recalibrated", "extended", "noise_floor")} for s, some in splits.items()},
+        where="" if verdict == "none" else "after every reversal, most at 1.05 m/s, alike at all oil levels.",
+        signature="a force of both signs after reversals, about 3 ms late." if verdict == "unexplained" else "",
+        maps=residual_maps(records)[: 6 if verdict == "cause" else 2], tried=tried("mount_compliance" if verdict == "cause" else ""), records=records, base=base,
+        recalibrated=recalibrated, extended=extended,
+        next_measurements=[] if verdict == "none" else ["A sine of 5 mm at 10 Hz", "A rest of 300 s, then the same block"],
+        remarks=["2 records of less than 3 oscillations give no noise of their own"] if verdict == "cause" else [], seconds=42.3,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory) -> dict[str, Path]:
+    found = {}
+    for verdict in VERDICTS:
+        folder = tmp_path_factory.mktemp(verdict)
+        files = write_report(example(verdict), folder)
+        assert all(file.is_file() for file in files)
+        found[verdict] = folder / "report.html"
+    return found
+
+
+@pytest.mark.parametrize("verdict", VERDICTS)
+def test_every_verdict(pages, verdict):
+    text = pages[verdict].read_text(encoding="utf-8")
+    page = parsed(text)
+    assert page.loads and all(uri.startswith("data:image/png;base64,") for uri in page.loads)
+    assert not re.search(r"https?://|@import|url\(|<script", text)
+    assert SENTENCES[verdict] in text and BADGES[verdict][0] in text
+    assert {link[1:] for link in page.links} <= page.anchors
+    assert "nan" not in re.sub(r"base64,[^\"]*", "", text)
+    assert "SA8 &lt;42 &amp; more&gt;" in text and "Computed in 42 s" in text
+
+
+def test_empty_parts_vanish(pages):
+    texts = {verdict: page.read_text(encoding="utf-8") for verdict, page in pages.items()}
+    assert "What to measure next" not in texts["none"] and "What was found" not in texts["none"]
+    assert "within the noise" in texts["none"] and "extended model" not in texts["none"]
+    assert "5.02 mm/kN" in texts["cause"] and "4.90 to 5.15 mm/kN" in texts["cause"]
+    assert "Parameters that were recalibrated" in texts["recalibrate"] and "X_Re" in texts["recalibrate"]
+    assert "What no candidate explains" in texts["unexplained"]
+    assert "fault accounted for" in texts["measurement_fault"]
+
+
+def test_a_curve_is_not_drawn_twice():
+    names = {verdict: [m.name for m in compared(example(verdict))] for verdict in ("cause", "none", "recalibrate")}
+    assert names == {"cause": ["base", "extended"], "none": ["base"], "recalibrate": ["base", "recalibrated"]}
+
+
+def test_oscillations_and_their_work():
+    """Nineteen of them, without the slow ones before; the work is that of the dense record."""
+    record = measure(load("SA8"), 0.6, 0.524, np.random.default_rng(1))
+    case = prepared(record, 1.0)
+    block = oscillations(case)
+    assert len(block) == 19 and [name for name, _ in parts(case)] == ["first oscillation", "oscillation 19"]
+    marks = harmonic_block(0.524, dt=1e-3, rest=2.0).marks
+    dense = [np.trapezoid(record.force[a : b + 1], record.stroke[a : b + 1]) for a, b in zip(marks, marks[1:], strict=False)]
+    assert work(case, case.measured()) == pytest.approx(np.array(dense), rel=0.01)
+    ends = closed(case, block[0])
+    assert len(ends) == len(block[0]) + 1 and closed(case, block[-1])[0] == block[-1][0] - 1
+
+
+def test_held_out_records_come_first():
+    assert [r.split for r in telling(example("cause"))] == ["heldout"] * 2 + ["fit"] * 4
+
+
+def test_numbers_for_readers():
+    assert with_interval(-0.0312, -0.04, -0.022, "1") == ("-3.1 %", "-4.0 to -2.2 %")
+    assert with_interval(0.95, 0.948, 0.952, "1", share=False) == ("0.950", "0.948 to 0.952")
+    assert with_interval(1.1e-3, float("nan"), 2e-3, "s") == ("1.1 ms", "–")
+    assert percent(-1e-5) == "0.0 %"
+    assert (percent(0.953), percent(-70.0), percent(0.004), percent(float("nan"))) == ("95 %", "below −999 %", "0.4 %", "–")
+    assert digits(12345.6, 30.0) == "12346"
+
+
+def test_records_without_oscillations_and_none_at_all(tmp_path):
+    """A drive is drawn as a whole; a fault that leaves no records to show still gives a page."""
+    some = example("cause")
+    rng = np.random.default_rng(3)
+    time = np.arange(0, 6, 2e-3)
+    stroke = np.interp(time, time[::100], 0.01 * np.cumsum(rng.normal(size=30)) / 3)
+    velocity = np.gradient(stroke, time)
+    force = 1000 * velocity + rng.normal(0, NOISE, len(time))
+    drive = Record(
+        "road", "road.csv", "stochastic", 0.6, False, None, None, time, stroke, force, velocity, "measured", None, ()
+    )
+    case = prepared(drive, 1.0)
+    result = RecordResult(case, "fit", case.measured(), 0.9 * case.measured(), 0.9 * case.measured(), case.measured())
+    assert not oscillations(case) and parts(case)[0][0] == "whole record"
+    one = replace(some, records=[result], errors={"fit": some.errors["fit"], "heldout": {}}, maps=[], tried=[], causes=[])
+    names = {file.name for file in write_report(one, tmp_path)}
+    assert names == {"loops.png", "residual.png", "errors.png", "report.html"}
+    nothing = replace(one, records=[], errors={}, verdict="measurement_fault")
+    assert [file.name for file in write_report(nothing, tmp_path)] == ["report.html"]
+
+
+def browse(page: Path, *options: str) -> str:
+    """What headless Chromium prints for a page; it goes nowhere else."""
+    browser = next((found for name in BROWSERS if (found := shutil.which(name))), None)
+    if browser is None:
+        pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is installed")
+    switches = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
+                "--disable-background-networking", "--disable-component-update", f"--user-data-dir={page.parent / 'profile'}"]  # fmt: skip
+    done = subprocess.run(
+        [browser, *switches, *options, page.as_uri()], capture_output=True, text=True, timeout=60, check=True
+    )
+    return done.stdout
+
+
+def test_in_a_browser(pages):
+    page = pages["cause"]
+    dom = browse(page, "--dump-dom")
+    head = re.search(r'<div class="headline found">(.*?)</p>', dom, re.DOTALL)
+    assert head and SENTENCES["cause"] in head[1] and "cause found" in head[1]
+    shot = page.parent / "shot.png"
+    browse(page, f"--screenshot={shot}", "--window-size=1200,6000")
+    image = matplotlib.image.imread(shot)[..., :3]
+    assert image.shape[:2] == (6000, 1200)
+    assert image.std() > 0.05 and all(strip.std() > 0.02 for strip in np.array_split(image, 6))
