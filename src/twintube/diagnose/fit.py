@@ -17,8 +17,8 @@ from twintube.identify.objective import tolerant
 from twintube.parameters import Damper
 from twintube.variables import Derived, Flow, blank
 
-# What the measurement adds to the damper: names, neutral values and bounds.
-MEASUREMENT = {"force_offset": (0.0, "N"), "force_gain": (1.0, "1"), "channel_delay": (0.0, "s")}
+# What the measurement adds to the damper.
+MEASUREMENT = ("force_offset", "force_gain", "channel_delay")
 NUMERICS = 3e-3  # of a record's peak force: what sampling and the time step of the model leave [tests/diagnose]
 STEP = 1e-3  # of a parameter's range: step of a derivative
 PRIOR = 0.5  # of a parameter's range: standard deviation of a weak pull to its start, which keeps idle ones in place

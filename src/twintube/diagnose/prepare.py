@@ -1,7 +1,6 @@
 """Records made ready for comparison: thinned, with the mean of the measured force over each interval and its noise."""
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -149,15 +148,3 @@ def prepared(record: Record, limit: float) -> Case:
     usual = float(np.median(held[fastest])) if fastest.any() else float(np.median(held))
     noise = repeat_noise(case.measured()[fastest], cycle[fastest]) or sample_noise(record, usual)
     return replace(case, noise=np.maximum(noise * np.sqrt(usual / held), LEAST_NOISE * peak))
-
-
-def groups(cases: Sequence[Case]) -> list[int]:
-    """A number per record; records of one velocity share it, so that whole velocities are held out together."""
-    found: list[float] = []
-    numbers = []
-    for case in cases:
-        near = [i for i, v in enumerate(found) if 0.95 < case.top_speed / v < 1.05]
-        if not near:
-            found.append(case.top_speed)
-        numbers.append(near[0] if near else len(found) - 1)
-    return numbers
