@@ -87,6 +87,7 @@ def test_turned_sign_is_found_by_the_command(tmp_path: Path) -> None:
     found = json.loads((tmp_path / "out" / "diagnosis.json").read_text())
     assert found["verdict"] == "measurement_fault"
     assert found["causes"][0]["effect"] == "sign_flip"
+    assert 0.9 < found["causes"][0]["gain"]["heldout"] <= 1.0
     assert load(tmp_path / "out" / "extended.toml").name == "SA8"
     assert "sign" in (tmp_path / "out" / "report.html").read_text()
 

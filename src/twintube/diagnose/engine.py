@@ -11,7 +11,7 @@ from twintube import effects
 from twintube.arrays import Array
 from twintube.data import LoadedDataset
 from twintube.diagnose.candidates import BASE, Candidate, candidates
-from twintube.diagnose.faults import Fault, read, unit_error
+from twintube.diagnose.faults import Fault, read, scaled, unit_error
 from twintube.diagnose.fit import Fit, Problem
 from twintube.diagnose.prepare import Case, prepare
 from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Tried
@@ -36,33 +36,56 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     dataset, fault = read(path)
     cases = prepare(dataset)
     fitted, held, remarks = split(dataset.title, cases)
-    problem = Problem(dataset.damper, cases)
+    problem = recorded = Problem(dataset.damper, cases)
     wrong, problem = unit_error(problem)
-    fault = fault or wrong
+    if fault is not None:
+        recorded = recorded.with_cases([scaled(case, fault.factor, 1.0) for case in cases])
     selector = Selector(problem, candidates(problem), fitted, held)
     selection = selector.run(progress)
     found = answer(dataset, problem, selector, selection, fitted, held)
-    if fault is not None:
-        found = faulty(found, fault)
+    for one in (wrong, fault):
+        if one is not None:
+            found = faulty(found, one, repaired(recorded, problem, fitted, held))
     return replace(found, remarks=[*remarks, *found.remarks], seconds=time.monotonic() - began)
 
 
-def faulty(found: Diagnosis, fault: Fault) -> Diagnosis:
-    """The diagnosis of a measurement with a fault that was put right before anything was fitted."""
-    gain = Gain(1.0, 1.0, (1.0, 1.0), 1.0)
-    first = Cause(
-        fault.effect, fault.title, fault.explanation, {"factor": Found(fault.factor, fault.factor, fault.factor, "1")}, gain
+def repaired(recorded: Problem, problem: Problem, fitted: Sequence[int], held: Sequence[int]) -> Gain:
+    """What putting a fault right gains for the base model: errors relative to the force, as units and signs differ."""
+
+    def shares(p: Problem) -> Array:
+        forces = p.forces({})
+        rows = []
+        for case, a, b in zip(p.cases, p.starts[:-1] + 1, p.starts[1:], strict=True):
+            size = float(np.sum(p.measured[a:b] ** 2))
+            rows.append(
+                (float(np.sum((forces[a:b] - p.measured[a:b]) ** 2)) / size, float(np.sum(case.noise[1:] ** 2)) / size)
+            )
+        return np.array(rows)
+
+    before, after = shares(recorded), shares(problem)
+    gone = before[:, 0] - np.maximum(after[:, 0], after[:, 1])
+    rows = np.column_stack([gone, np.maximum(before[:, 0] - after[:, 1], 1e-9)])
+    some, other = rows[list(fitted)], rows[list(held)]
+    return Gain(
+        fit=float(some[:, 0].sum() / some[:, 1].sum()),
+        heldout=float(other[:, 0].sum() / other[:, 1].sum()),
+        heldout_interval=bootstrap(other),
+        worst_record=worst(other),
     )
-    beside = f" With it put right: {found.sentence}"
+
+
+def faulty(found: Diagnosis, fault: Fault, gain: Gain) -> Diagnosis:
+    """The diagnosis of a measurement with a fault that was put right before anything was fitted."""
+    factor = Found(fault.factor, fault.factor, fault.factor, "1")
+    first = Cause(fault.effect, fault.title, fault.explanation, {"factor": factor}, gain)
     text = f"The measurement is faulty: {fault.explanation[0].lower()}{fault.explanation[1:]}"
-    remarks = ["the fault was put right for everything shown here; its gain is not measured but given as whole"]
     return replace(
         found,
         verdict="measurement_fault",
         causes=[first, *found.causes],
-        sentence=text + beside,
+        sentence=f"{text} With it put right: {found.sentence}",
         signature="",
-        remarks=remarks,
+        remarks=[*found.remarks, "the fault was put right for everything shown here; its gain is relative to the force"],
     )
 
 
