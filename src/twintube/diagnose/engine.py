@@ -12,10 +12,10 @@ from twintube.arrays import Array
 from twintube.data import LoadedDataset
 from twintube.diagnose.candidates import BASE, Candidate, candidates
 from twintube.diagnose.faults import Fault, read, scaled, unit_error
-from twintube.diagnose.fit import Fit, Problem
+from twintube.diagnose.fit import LEAST_MISFIT, Fit, Problem
 from twintube.diagnose.prepare import Case, prepare
 from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Tried
-from twintube.diagnose.select import CLOSE, RECALIBRATE, Option, Selection, Selector, bootstrap
+from twintube.diagnose.select import CLOSE, RECALIBRATE, WORTH, Option, Selection, Selector, bootstrap
 from twintube.diagnose.where import describe, maps
 from twintube.parameters import Damper
 from twintube.simulate import InputError
@@ -153,7 +153,7 @@ def answer(
         where=describe(residuals),
         signature=describe(residuals, left=True) if verdict == "unexplained" else "",
         maps=residuals,
-        tried=tried(selection),
+        tried=tried(problem, selection, held),
         records=records,
         base=dataset.damper,
         recalibrated=damper_of(dataset.damper, selection.recalibrated.fit, [RECALIBRATE], {}),
@@ -260,21 +260,30 @@ def damper_of(damper: Damper, fit: Fit, names: Sequence[str], known: dict[str, C
     return replace(found, sources=dict(damper.sources) | origin)
 
 
-def tried(selection: Selection) -> list[Tried]:
-    """All candidates of all rounds."""
+def tried(problem: Problem, selection: Selection, held: Sequence[int]) -> list[Tried]:
+    """All candidates of all rounds; intervals by resampling the held-out records."""
+    picks = np.asarray(held)
+
+    def logs(option: Option) -> Array:
+        return np.asarray(problem.counts[picks] * np.log(np.maximum(LEAST_MISFIT, option.fit.misfit[picks])))
+
     found = []
     current = selection.start
+    # The same whole for every resample; where hardly anything is to be explained, what would be worth a cause.
+    whole = max(float(np.maximum(logs(selection.start), 0.0).sum()), WORTH * selection.count)
+    explainable = np.full(len(picks), whole / len(picks))
     for n, options in enumerate(selection.rounds, start=1):
-        explainable = max(selection.start.score, 1e-9)
         for k, option in enumerate(options):
-            gain = float((current.score - option.score) / explainable)
-            width = float(np.sqrt(2.0 * selection.limit) / explainable)
+            rows = np.column_stack([logs(current) - logs(option), explainable])
+            gain = float(rows[:, 0].sum() / whole)
             won = k == 0 and option.names[-1] in selection.chosen
-            reason = "improves the held-out records most" if won else "improves them less than the chosen one" if k else (
-                "improves the held-out records by no more than noise and numerics would")  # fmt: skip
-            found.append(
-                Tried(n, option.names[-1], gain, (gain - width, gain + width), "chosen" if won else "rejected", reason)
-            )
+            if won:
+                reason = "improves the held-out records most"
+            elif k > 0:
+                reason = "improves them less than the chosen one"
+            else:
+                reason = "improves the held-out records by no more than noise and numerics would"
+            found.append(Tried(n, option.names[-1], gain, bootstrap(rows), "chosen" if won else "rejected", reason))
         current = options[0]
     return found
 
