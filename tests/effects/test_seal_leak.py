@@ -33,6 +33,6 @@ def test_the_film_leaves_from_the_reserve_first_then_from_v1() -> None:
 
 def test_force_falls_over_the_measurement(sa8: Damper) -> None:
     block = harmonic_block(0.524)
-    result = simulate(sa8.with_(leak_film=1.5e-5), block.stroke, block.velocity)
+    result = simulate(sa8.with_(leak_film=1.5e-5), block.stroke, block.velocity, block.time)
     works = np.diff(result.work[block.marks])
     assert works[-1] < 0.8 * works[0]

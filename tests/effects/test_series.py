@@ -13,7 +13,7 @@ D = 2000.0  # [N s/m] of the dashpot
 ELEMENTS = [
     ({"C_mount": 5e-6, "tau_mount": 0.0}, 0.0),
     ({"C_mount": 5e-6, "tau_mount": 0.004}, 0.004),
-    ({"C_fluid": 5e-6}, 0.0),
+    ({"C_fluid": 5e-6, "C_fluid_co": 5e-6}, 0.0),
 ]
 
 
@@ -30,7 +30,7 @@ def test_harmonic_force_has_the_amplitude_and_phase_of_the_impedance(
     assert abs(found / exact - 1) < 0.01
 
 
-@pytest.mark.parametrize("element", [{"C_mount": 1e-12}, {"C_fluid": 1e-12}])
+@pytest.mark.parametrize("element", [{"C_mount": 1e-12}, {"C_fluid": 1e-12, "C_fluid_co": 1e-12}])
 def test_a_stiff_element_changes_nothing(sa8: Damper, element: dict[str, Any]) -> None:
     block = harmonic_block(0.524, dt=2e-4, rest=5.0)
     plain = simulate(sa8, block.stroke, block.velocity).force
@@ -38,14 +38,14 @@ def test_a_stiff_element_changes_nothing(sa8: Damper, element: dict[str, Any]) -
     assert np.sqrt(np.mean((stiff - plain) ** 2)) < 0.005 * np.sqrt(np.mean(plain**2))
 
 
-@pytest.mark.parametrize("element", [{"C_mount": 1e-5}, {"C_fluid": 1e-5}])
+@pytest.mark.parametrize("element", [{"C_mount": 1e-5}, {"C_fluid": 1e-5, "C_fluid_co": 1e-5}])
 def test_slow_motion_does_not_show_it(dashpot: Damper, element: dict[str, Any]) -> None:
     t, z, v = oscillations(0.005, 0.02, 2, 0.05)
     force = simulate(dashpot.with_(**element), z, v, t).force
     assert np.abs(force - D * v)[20:].max() < 0.01 * D * 0.005
 
 
-@pytest.mark.parametrize("element", [{"C_mount": 1e-6}, {"C_mount": 1e-5}, {"C_fluid": 1e-5}])
+@pytest.mark.parametrize("element", [{"C_mount": 1e-6}, {"C_mount": 1e-5}, {"C_fluid": 1e-5, "C_fluid_co": 1e-5, "V_air": 1e-6}])
 def test_the_loop_is_the_dissipated_work(sa8: Damper, element: dict[str, Any]) -> None:
     block = harmonic_block(0.524, dt=5e-4, rest=5.0)
     result = simulate(sa8.with_(**element), block.stroke, block.velocity, block.time)
@@ -55,7 +55,7 @@ def test_the_loop_is_the_dissipated_work(sa8: Damper, element: dict[str, Any]) -
         assert result.work[b] - result.work[a] == pytest.approx(loop, rel=0.01)
 
 
-@pytest.mark.parametrize("element", [{"C_mount": 1e-6}, {"C_mount": 2e-5}, {"C_fluid": 2e-5}])
+@pytest.mark.parametrize("element", [{"C_mount": 1e-6}, {"C_mount": 2e-5}, {"C_fluid": 2e-5, "C_fluid_co": 2e-5, "V_air": 1e-6}])
 def test_stable_in_steps_of_1_ms_and_in_64_samples(sa8: Damper, element: dict[str, Any]) -> None:
     damper = sa8.with_(**element)
     for velocity in (0.05, 0.524, 1.572):

@@ -90,30 +90,31 @@ def candidates(problem: Problem) -> list[Candidate]:
     return found
 
 
-def starts(candidate: Candidate) -> list[dict[str, float]]:
-    """Points from which to begin: strengths over their range, both signs, each with several other values."""
-    values = []
-    for f in candidate.free:
-        if f.name not in candidate.strength:
-            # A length or time below and above the usual one
-            near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
-            values.append(sorted({min(max(x, f.low), f.high) for x in near}))
-        else:
-            values.append([f.start + sign * share * side for share in SHARES for sign, side in
-                           ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0])  # fmt: skip
-    acting = [i for i, f in enumerate(candidate.free) if f.name in candidate.strength]
-    found = []
-    for i in acting:
-        lists = [v if k == i or k not in acting else [candidate.free[k].start] for k, v in enumerate(values)]
-        names = [f.name for f in candidate.free]
-        found += [dict(zip(names, point, strict=True)) for point in itertools.product(*lists)]
-    return found
+def grid(candidate: Candidate, f: Free) -> list[float]:
+    """Values from which to begin: a strength over its range with both signs, a length or time about its usual value."""
+    if f.name not in candidate.strength:
+        near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
+        return sorted({min(max(x, f.low), f.high) for x in near})
+    sides = [(sign, side) for sign, side in ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0]
+    return [f.start + sign * share * side for share in SHARES for sign, side in sides]
 
 
 def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float], cases: Sequence[int]) -> tuple[Free, ...]:
-    """The candidate's parameters from the point that explains the cases best."""
-    points = starts(candidate)
+    """The candidate's parameters from the point that explains the cases best; one strength after another joins."""
     rows = problem.rows(cases)
-    scores = [float(r[rows] @ r[rows]) for r in problem.residuals([{**fixed, **point} for point in points])]
-    best = points[int(np.argmin(scores))]
+    grids = {f.name: grid(candidate, f) for f in candidate.free}
+    shapes = [f.name for f in candidate.free if f.name not in candidate.strength]
+    best, low = {f.name: f.start for f in candidate.free}, np.inf
+    left = list(candidate.strength)
+    while left:
+        # Lengths and times are sought with the first strength only.
+        others = itertools.product(*(grids[name] for name in shapes)) if len(left) == len(candidate.strength) else [()]
+        some = [dict(zip(shapes, other, strict=False)) for other in others]
+        points = [best | {name: x} | shape for name in left for x in grids[name] for shape in some]
+        scores = [float(r[rows] @ r[rows]) for r in problem.residuals([{**fixed, **point} for point in points])]
+        if min(scores) >= low:
+            break
+        point, low = points[int(np.argmin(scores))], min(scores)
+        left = [name for name in left if point[name] == best[name]]
+        best = point
     return tuple(Free(f.name, best[f.name], f.low, f.high) for f in candidate.free)

@@ -1,9 +1,12 @@
-"""Compressible oil: an oil column in series with the valves, a Maxwell element on the fluid force.
+"""Compressible oil with trapped air: an oil column in series with the valves, a Maxwell element on the fluid force.
 
-The force obeys dF/dt = (v - u(F)) / C_fluid, u being the speed at which the valves make the force F. One implicit Euler
-step is solved exactly, segment by segment of the F-v curve. The flows of the phases still follow the stroke.
+The column gives by x(F) under the force F, and the force obeys dx(F)/dt = v - u(F), u being the speed at which the valves
+make F. Oil and walls give linearly. Trapped air gives as an ideal gas at constant temperature: V_air (1/p_0 - 1/p), which is
+soft at small forces only. Rebound presses on the annulus, compression on the rod's area. One implicit Euler step is
+solved exactly, segment by segment of the F-v curve. The flows of the phases still follow the stroke.
 """
 
+import math
 from dataclasses import dataclass
 
 from twintube import variables
@@ -15,16 +18,24 @@ TITLE = "Compressible oil and late check valves"
 CAUSE = "Oil, dissolved gas and walls give under pressure and check valves close late, so the fluid force lags the velocity."
 ABSENCE = "The measured F-v curve opens to a loop that the model does not have, widest where the acceleration is largest."
 DECIDES = "small amplitudes at the same velocity: a lag grows with the frequency, a mount with the force"
-STRENGTH = ("C_fluid",)
+STRENGTH = ("C_fluid", "C_fluid_co", "V_air")
 NEEDS_TIME = True
+P_ATM = 1e5  # [Pa]
 
 
 @dataclass(slots=True)
 class Parameters(variables.Parameters):
     """Compliance of the oil column."""
 
-    C_fluid: float = var("fluid_lag", "", "m/N", "compliance of the oil in series with the valves", lower=0, upper=2e-5,
-                         source="Maxwell element; Duym 2000, Vehicle System Dynamics 33", default=0.0)  # fmt: skip
+    C_fluid: float = var("fluid_lag", "", "m/N", "compliance of the oil in series with the valves, rebound", lower=0,
+                         upper=2e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
+                         default=0.0)  # fmt: skip
+    C_fluid_co: float = var("fluid_lag", "", "m/N", "the same in compression, which presses on the rod's area", lower=0,
+                            upper=5e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
+                            default=0.0)  # fmt: skip
+    V_air: float = var("fluid_lag", "", "m3", "air trapped in the oil, at ambient pressure", lower=0, upper=5e-6,
+                       source="ideal gas at constant temperature; Manring, Hydraulic Control Systems",
+                       default=0.0)  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -39,29 +50,58 @@ def fluid_lag_parts(p: Parameters, dt: float) -> int:
     return parts_of(dt)
 
 
+def fluid_lag_column(p: Parameters, F: float) -> tuple[float, float, float]:
+    """Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N]."""
+    rod = 0.25 * math.pi * p.D_PR * p.D_PR
+    pressure = P_ATM + (p.F_0 / rod if p.gas_preload > 0 else 0.0)
+    area = 0.25 * math.pi * p.D_li * p.D_li - rod if F >= 0.0 else rod
+    return p.C_fluid if F >= 0.0 else p.C_fluid_co, p.V_air * P_ATM / (pressure * area), pressure * area
+
+
+def fluid_lag_given(p: Parameters, F: float) -> float:
+    """Stroke [m] by which the column gives under the force `F` [N], with its sign."""
+    C, way, F_half = fluid_lag_column(p, F)
+    return C * F + way * F / (abs(F) + F_half)
+
+
 def fluid_lag_series(p: Parameters, s: State, F: float, dt: float) -> float:
     """Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]."""
-    return p.C_fluid * (F - s.F_held) / dt
+    return (fluid_lag_given(p, F) - fluid_lag_given(p, s.F_held)) / dt
 
 
-def fluid_lag_inverse(w: float, ratio: float, velocities: list[float], forces: list[float]) -> float:
-    """The speed u >= 0 [m/s] with u + ratio * force(u) = w on one branch of the F-v curve; `ratio` in m/s/N."""
+def fluid_lag_inverse(
+    p: Parameters, w: float, k: float, side: float, velocities: list[float], forces: list[float], dt: float
+) -> float:
+    """The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
+
+    `side` is 1 in rebound and -1 in compression, `k` the degradation of the branch.
+    """
+    C, way, F_half = fluid_lag_column(p, side)
     i = 0
-    while i < FV_POINTS - 1 and velocities[i] + ratio * forces[i] < w:
+    while i < FV_POINTS - 1 and velocities[i] + (C + way / (k * forces[i] + F_half)) * k * forces[i] / dt < w:
         i += 1
-    high = velocities[i] + ratio * forces[i]
-    if i == 0:
-        return velocities[0] * w / high
-    low = velocities[i - 1] + ratio * forces[i - 1]
-    return velocities[i - 1] + (velocities[i] - velocities[i - 1]) * (w - low) / (high - low)
+    u = 0.0
+    F = 0.0
+    if i > 0:
+        u = velocities[i - 1]
+        F = k * forces[i - 1]
+    slope = (k * forces[i] - F) / (velocities[i] - u)
+    # F = F_i + slope (u' - u_i) put into the equation makes a F^2 + b F - c = 0, of which one root is not negative.
+    rest = F + slope * (w - u)
+    a = 1.0 + slope * C / dt
+    b = a * F_half + slope * way / dt - rest
+    c = max(0.0, rest * F_half)
+    root = math.sqrt(b * b + 4.0 * a * c)
+    found = 2.0 * c / (b + root) if b > 0.0 else (root - b) / (2.0 * a)
+    return max(0.0, w - (C + way / (found + F_half)) * found / dt)
 
 
 def fluid_lag_speed(p: Parameters, s: State, v: float, k_re: float, k_co: float, dt: float) -> float:
     """Speed at the valves [m/s] after a step of `dt` > 0 [s] that ends at the piston velocity `v` [m/s]."""
     w = v - effects_series(p, s, 0.0, dt)
     if w >= 0.0:
-        return fluid_lag_inverse(w, p.C_fluid * k_re / dt, p.v_re, p.F_re)
-    return -fluid_lag_inverse(-w, p.C_fluid * k_co / dt, p.v_co, p.F_co)
+        return fluid_lag_inverse(p, w, k_re, 1.0, p.v_re, p.F_re, dt)
+    return -fluid_lag_inverse(p, -w, k_co, -1.0, p.v_co, p.F_co, dt)
 
 
 def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:

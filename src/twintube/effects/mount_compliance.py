@@ -1,6 +1,6 @@
-"""A rubber mount in series: the piston sees less stroke than the rig measures (Kelvin-Voigt element, no mass between).
+"""A rubber mount in series: the piston sees less stroke than the rig measures (Kelvin-Voigt element before the rod's mass).
 
-Rubber force and damper force are equal: (x + tau_mount dx/dt) / C_mount = F_Fl + F_Fr + F_S - F_S(0), x being the
+The rubber carries damper and rod: (x + tau_mount dx/dt) / C_mount = F_Fl + F_Fr + F_S - F_S(0) + m_rod a, x being the
 deflection. The piston's speed solves this at the end of the step (implicit Euler); the left side falls and the right side
 rises with it, so there is one root. k_degr is that of the step before, which is why steps are divided into short parts.
 """
@@ -29,6 +29,8 @@ class Parameters(variables.Parameters):
                          source="Kelvin-Voigt element; Dixon, The Shock Absorber Handbook", default=0.0)  # fmt: skip
     tau_mount: float = var("mount_compliance", "", "s", "damping of the mount over its stiffness", lower=0, upper=0.02,
                            source="loss factor of rubber about 0.1 to 0.2 at 10 Hz", default=1e-3)  # fmt: skip
+    m_rod: float = var("mount_compliance", "", "kg", "mass of rod and piston behind the mount", lower=0, upper=5,
+                       source="weighed; 1 to 3 kg in a passenger car", default=0.0)  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -39,6 +41,7 @@ class State(Frame):
     v_piston: float = var("mount_compliance", "", "m/s", "velocity of the piston", default=0.0)
     u_valve: float = var("mount_compliance", "", "m/s", "piston speed that the valves see", default=0.0)
     F_mount: float = var("mount_compliance", "", "N", "fluid force in balance with the mount", default=0.0)
+    F_rod: float = var("mount_compliance", "", "N", "force that accelerates the rod", default=0.0)
 
 
 def mount_compliance_parts(p: Parameters, dt: float) -> int:
@@ -49,12 +52,13 @@ def mount_compliance_parts(p: Parameters, dt: float) -> int:
 def mount_compliance_excess(p: Parameters, d: Derived, s: State, z: float, v: float, dt: float, u: float) -> float:
     """Force of the rubber beyond that of the damper [N] if the step ends with the speed `u` [m/s] at the valves."""
     F = valve_force(p, u, s.k_re, s.k_co)
-    rate = v - u - effects_series(p, s, F, dt)
+    speed = u + effects_series(p, s, F, dt)
+    rate = v - speed
     x = s.x_mount + rate * dt
     goal = z - x
     friction = effects_scale_friction(p, v) * stribeck(p, v) * dahl(p, d, s.F_D, goal - s.z)
     gas = d.c_gas * goal + effects_elastic(p, goal) - effects_elastic(p, 0.0)
-    return (x + p.tau_mount * rate) / p.C_mount - F - friction - gas
+    return (x + p.tau_mount * rate) / p.C_mount - F - friction - gas - p.m_rod * (speed - s.v_piston) / dt
 
 
 def mount_compliance_speed(p: Parameters, d: Derived, s: State, z: float, v: float, dt: float) -> float:
@@ -93,20 +97,23 @@ def mount_compliance_motion(p: Parameters, d: Derived, s: State, z: float, v0: f
     if s.elapsed > 0.0:
         s.goal_v0 = s.v_piston
         s.goal_v1 = s.v_piston
+    else:
+        s.v_piston = v0
     if dt > 0.0:
         s.u_valve = mount_compliance_speed(p, d, s, z, v1, dt)
         s.goal_v1 = s.u_valve + effects_series(p, s, valve_force(p, s.u_valve, s.k_re, s.k_co), dt)
         s.x_mount += (v1 - s.goal_v1) * dt
         s.F_mount = valve_force(p, s.u_valve, s.k_re, s.k_co)
+        s.F_rod = p.m_rod * (s.goal_v1 - s.v_piston) / dt
     # An elastic mount cannot push the piston out of the tube.
     s.goal_z = max(1e-6 - d.half_length, min(d.half_length - 1e-6, z - s.x_mount))
 
 
 def mount_compliance_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:
-    """The fluid force that the rubber lets through, and the rubber's own loss."""
+    """The force that the rubber lets through, and the rubber's own loss."""
     if dt <= 0.0 and s.elapsed == 0.0:
         return
-    s.F_fluid = s.F_mount
+    s.F_fluid = s.F_mount + s.F_rod
     if dt <= 0.0:
         return
     rate = v - s.goal_v1

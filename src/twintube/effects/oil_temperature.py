@@ -2,7 +2,7 @@
 
 The damper is one heat store with one way out (lumped capacity, Newton cooling); H is the heat in it beyond that of the
 start: dH/dt = P - H / cooling_time. Viscosity falls exponentially with temperature (Reynolds), and so does the force:
-F_Fl exp(-fade_heat H). Heat capacity and viscosity index act only through their ratio `fade_heat`.
+F_Fl exp(-fade_heat (H + H_start)), H_start being the heat at the start beyond that at the temperature of the F-v curve. Heat capacity and viscosity index act only through their ratio `fade_heat`.
 """
 
 import math
@@ -28,6 +28,8 @@ class Parameters(variables.Parameters):
                            upper=1e-3, source="Reynolds 1886 (viscosity), lumped heat capacity", default=0.0)  # fmt: skip
     cooling_time: float = var("oil_temperature", "", "s", "time constant of the cooling", lower=5, upper=2000,
                               source="Newton's law of cooling, lumped", default=300.0)  # fmt: skip
+    H_start: float = var("oil_temperature", "", "J", "heat at the start beyond that of the F-v curve's temperature",
+                         lower=-2000, upper=2000, source="some kelvins of a rig's room", default=0.0)  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -44,7 +46,7 @@ def oil_temperature_phases(p: Parameters, s: State, way: float, dt: float) -> No
 
 def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
     """Share of the fluid force that is left [1]."""
-    return math.exp(-p.fade_heat * s.heat)
+    return math.exp(-p.fade_heat * (p.H_start + s.heat))
 
 
 def oil_temperature_finish(p: Parameters, s: State, dt: float) -> None:

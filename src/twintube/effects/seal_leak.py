@@ -1,8 +1,12 @@
-"""Oil is lost past the rod seal: a film of constant thickness on the rod, a volume per stroke travelled.
+"""Oil is lost past the rod seal: a film on the rod, at 1 m/s `leak_film` of volume per stroke travelled.
+
+The film grows with the speed to the power leak_power - 1: a film of constant thickness has 1, a leak under constant pressure
+0, the film that viscosity draws out lies between.
 
 It comes from the reserve, where the seal is (oil, then the oil of its foam), then from V1, whose oil gives way to gas.
 """
 
+import math
 from dataclasses import dataclass
 
 from twintube import variables
@@ -14,15 +18,17 @@ CAUSE = "A worn seal lets a film of oil out with every stroke, so that the oil l
 ABSENCE = "The measured damper loses force over the whole measurement, also at low velocity, and does not recover at rest."
 DECIDES = "a rest of ten minutes within a record, and the oil weighed afterwards"
 STRENGTH = ("leak_film",)
-NEEDS_TIME = False
+NEEDS_TIME = True
 
 
 @dataclass(slots=True)
 class Parameters(variables.Parameters):
-    """The film's cross-section."""
+    """The film's cross-section and what it depends on."""
 
-    leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled", lower=0, upper=5e-5,
+    leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled, at 1 m/s", lower=0, upper=5e-5,
                            source="film on the rod; Mueller and Nau, Fluid Sealing Technology", default=0.0)  # fmt: skip
+    leak_power: float = var("seal_leak", "", "1", "the oil lost per time grows with the speed to this power", lower=0, upper=2,
+                            source="1: constant film", default=1.0)  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -35,6 +41,8 @@ class State(Frame):
 def seal_leak_phases(p: Parameters, s: State, way: float, dt: float) -> None:
     """Take the oil for the stroke `way` >= 0 [m]."""
     left = p.leak_film * way
+    if p.leak_power != 1.0 and dt > 0.0:
+        left = p.leak_film * dt * math.pow(way / dt, p.leak_power)
     oil = min(left, s.V3_oil)
     s.V3_oil -= oil
     s.V_lost += oil

@@ -1,7 +1,8 @@
 """Gradual build-up: where the paper's k_degr steps, the real one approaches its new value over a length of stroke.
 
-Gas and oil do not part at a sharp level: d k / d|z| = (k_degr - k) / build_up within one direction, solved exactly over
-the stroke. At reversal it starts at the new direction's own value, as other valves take over.
+Gas and oil do not part at a sharp level. While the driving chamber's gas is about to run out, at a depth g below `build_up`, the
+force has already risen by early_share (1 - g / build_up)^2 of the coming step, which is known from the last time. Of the
+step itself (1 - early_share) exp(-x / build_up) is missing at the stroke x after the gas has run out.
 """
 
 import math
@@ -25,35 +26,75 @@ class Parameters(variables.Parameters):
 
     build_up: float = var("smooth_transition", "", "m", "stroke over which k_degr builds up", lower=0, upper=0.03,
                           source="first-order relaxation over the stroke", default=0.0)  # fmt: skip
+    early_share: float = var("smooth_transition", "", "1", "share of the rise that comes before the gas has run out", lower=0,
+                       upper=1, source="mixing layer about the level", default=0.0)  # fmt: skip
 
 
 @dataclass(slots=True)
 class State(Frame):
-    """The relaxed factor and its direction."""
+    """What the present direction has seen."""
 
-    k_relaxed: float = var("smooth_transition", "k_degr", "1", "k_degr after the relaxation", default=1.0)
-    k_side: float = var("smooth_transition", "", "1", "direction that it belongs to: 1, -1, 0 before the start", default=0.0)
+    k_side: float = var("smooth_transition", "", "1", "direction: 1, -1, 0 before the start", default=0.0)
+    k_mixed: float = var("smooth_transition", "k_degr", "1", "latest k_degr with gas in the driving chamber", default=1.0)
+    k_full_re: float = var("smooth_transition", "k_degr", "1", "latest k_degr in rebound without gas in V1", default=1.0)
+    k_full_co: float = var("smooth_transition", "k_degr", "1", "latest k_degr in compression without gas in V2", default=1.0)
+    x_free: float = var("smooth_transition", "", "m", "stroke since the driving chamber's gas has run out", default=0.0)
+
+
+def smooth_transition_depth(p: Parameters, s: State, side: float) -> float:
+    """Depth [m] of the gas in the driving chamber."""
+    rod = p.D_PR * p.D_PR
+    tube = p.D_li * p.D_li
+    return s.V1_gas / (0.25 * math.pi * (tube - rod)) if side > 0.0 else s.V2_gas / (0.25 * math.pi * tube)
+
+
+def smooth_transition_turn(p: Parameters, s: State, side: float, k: float) -> None:
+    """Begin a direction at its own value `k`; where its chamber has no gas there is no step ahead."""
+    s.k_side = side
+    s.k_mixed = k
+    s.x_free = 0.0 if smooth_transition_depth(p, s, side) > 0.0 else 1e3 * p.build_up
 
 
 def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz: float) -> None:
-    """Relax the mean over the step, `f.k_mean`, and the value at its end."""
+    """Change the mean over the step, `f.k_mean`, and the value at its end."""
     settled = s.k_degr
-    if dz != 0.0:
-        side = 1.0 if dz > 0.0 else -1.0
-        if side != s.k_side:
-            s.k_relaxed = f.k_mean
-            s.k_side = side
-        way = abs(dz) / p.build_up
-        gap = s.k_relaxed - f.k_mean
-        s.k_relaxed = f.k_mean + gap * math.exp(-way)
-        f.k_mean += gap * (1.0 - math.exp(-way)) / way if way > 1e-9 else gap
+    side = 1.0 if dz > 0.0 else -1.0 if dz < 0.0 else s.k_side
+    if side != s.k_side:
+        smooth_transition_turn(p, s, side, f.k_mean)
+        if v * side > 0.0 and settled > f.k_mean:
+            s.x_free = 0.0  # the gas has run out in this very step
+    depth = smooth_transition_depth(p, s, side)
+    if depth > 0.0:
+        full = s.k_full_re if side > 0.0 else s.k_full_co
+        near = max(0.0, 1.0 - depth / p.build_up)
+        rise = max(0.0, full - f.k_mean) * p.early_share * near * near
+        s.k_mixed = f.k_mean
+        s.x_free = 0.0
+        f.k_mean += rise
         s.k_degr = f.k_mean
+    elif side != 0.0:
+        k = s.k_full_re if side > 0.0 else s.k_full_co
+        if dz != 0.0:
+            # Where the sample turns the direction, k_degr is the new one's already.
+            k = f.k_mean if s.x_free > 0.0 or v * side <= 0.0 else s.k_degr
+        step = max(0.0, k - s.k_mixed)
+        free = abs(dz)
+        if s.x_free == 0.0 and step > 0.0:
+            # In the step in which the gas runs out the kernel's mean tells where.
+            free *= max(0.0, min(1.0, (f.k_mean - s.k_mixed) / step))
+        missing = step * (1.0 - p.early_share) * math.exp(-s.x_free / p.build_up)
+        way = free / p.build_up
+        if abs(dz) > 0.0:
+            f.k_mean -= missing * (1.0 - math.exp(-way)) * p.build_up / abs(dz)
+        s.x_free += free
+        s.k_degr = k - missing * math.exp(-way)
+        if side > 0.0:
+            s.k_full_re = k
+        else:
+            s.k_full_co = k
+    f.k_degr = s.k_degr
     turned = 1.0 if v > 0.0 else -1.0 if v < 0.0 else s.k_side
     if turned != s.k_side:
         # The kernel has settled k_degr for the new direction.
-        s.k_relaxed = settled
-        s.k_side = turned
+        smooth_transition_turn(p, s, turned, settled)
         s.k_degr = settled
-    elif dz == 0.0:
-        s.k_degr = s.k_relaxed
-    f.k_degr = s.k_relaxed

@@ -1,0 +1,305 @@
+"""Causes that no effect describes, recognised from the measured records alone, without any model.
+
+saturation  the force stays at one limit
+line        an oscillation of one fixed frequency that the excitation does not repeat
+ringing     a resonance: the same frequency stands out of the mean oscillation at all velocities
+backlash    no force over the same length of stroke after each reversal
+"""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import next_fast_len, rfft, rfftfreq
+
+from twintube.arrays import Array
+from twintube.data import Record
+from twintube.identify.objective import Harmonic
+from twintube.identify.oscillations import beginnings, harmonic, segments, smooth_velocity
+from twintube.simulate import InputError
+
+APART = 1.2  # velocities or frequencies at least this factor apart are different ones
+
+SAME_FORCE = 1e-6  # of the limit: forces within it are one value; float32 keeps 6e-8
+AT_LIMIT = 20  # samples at the limit, over all records ...
+PILE = 5.0  # ... and this many times those at any of the values ...
+BELOW = 10  # ... next below it: quantised forces thin out towards their largest, cut ones pile up
+
+FALSE_ALARM = 1e-4  # chance that white noise makes a line in one record; a line needs AGREE records
+AGREE = 3
+PADDING = 4  # bins of the spectrum per independent frequency
+NEIGHBOURS = 32  # independent frequencies over which the background of the spectrum is taken
+SLACK = 2.0  # above the threshold of a known background: that of 32 frequencies scatters, and noise is not quite white
+STRONG = 0.02  # of the strongest line of a record: weaker ones may be its side lobes
+SAME_LINE = 3e-3  # relative; mains keep their frequency within 0.2 Hz of 50
+NYQUIST = 0.4  # of the sampling rate, up to which a frequency is sought
+PHASES = 64  # parts of an oscillation, each with a scatter of its own: force jumps wander
+OUTLIER = 4.0  # scatters at which a sample is cut
+
+LOOP = 1024  # phases of the mean oscillation
+STEP, INSIDE, OUTSIDE = 1.03, 1.05, (1.5, 2.2)  # steps of a resonance's frequency; half width of its band and of those beside
+SEEN = 4.0  # power of a band relative to noise
+STANDS_OUT = 10 ** (6.0 / 10)  # power of a resonance's band relative to the stronger one beside, in the median record
+MANY = 5  # records that must show a resonance
+
+PLAYS = np.geomspace(1e-3, 2e-2, 40)  # lengths of play sought, relative to the range of the stroke
+JUMP = 12.0  # force after the play relative to what varies in it; a compliance reaches 8
+SAME_PLAY = 1.25  # plays within this factor are the same
+
+
+@dataclass(frozen=True)
+class Signature:
+    """What was seen: its name, one sentence about it and the force RMS [N] that it stands for."""
+
+    name: str
+    text: str
+    size: float
+
+
+def signatures(records: Sequence[Record]) -> list[Signature]:
+    """All that is seen in the records of a dataset, at most one of a name."""
+    blocks = []
+    for record in records:
+        try:
+            if record.measurement == "harmonic":
+                blocks.append((record, harmonic(record)))
+        except InputError:  # no full oscillation
+            continue
+    vibration, frequencies = line(records)
+    found = [saturation(records), vibration, ringing([block for _, block in blocks], frequencies), backlash(blocks)]
+    return [one for one in found if one is not None]
+
+
+def saturation(records: Sequence[Record]) -> Signature | None:
+    """The force at one and the same extreme in several records.
+
+    Quantised forces have many samples of equal value, but fewer and fewer towards the largest one; cut forces pile up there.
+    """
+    for sign in (1.0, -1.0):
+        forces = [sign * record.force for record in records]
+        limit = max(float(force.max()) for force in forces)
+        near = SAME_FORCE * abs(limit)
+        at = [force >= limit - near for force in forces]
+        hit = [i for i, some in enumerate(at) if some.any()]
+        values, counts = np.unique(np.concatenate([forces[i] for i in hit]), return_counts=True)
+        below = counts[values < limit - near][-BELOW:]
+        count = sum(int(some.sum()) for some in at)
+        if len(hit) < 2 or not len(below) or count < max(AT_LIMIT, PILE * int(below.max())):
+            continue
+        cut = 0.0  # the force as if it went on rising with the velocity from where it first reaches the limit
+        for i in hit:
+            v = np.abs(smooth_velocity(records[i])[at[i]])
+            cut += float(np.sum((limit * np.maximum(v / max(float(np.quantile(v, 0.05)), 1e-9) - 1.0, 0.0)) ** 2))
+        size = float(np.sqrt(cut / sum(len(forces[i]) for i in hit)))
+        side = "largest" if sign > 0 else "smallest"
+        text = (
+            f"the force stays at its {side} value of {sign * limit:.0f} N in {len(hit)} of {len(records)} records "
+            f"({count} samples): the load cell or its amplifier is at its limit"
+        )
+        return Signature("saturation", text, size)
+    return None
+
+
+@dataclass(frozen=True)
+class Rest:
+    """What does not repeat from oscillation to oscillation, arrays (n,)."""
+
+    time: Array  # [s]
+    force: Array  # [N] less the mean of the oscillations before and after, outliers cut
+    scatter: Array  # [N] its usual size at that phase
+    period: Array  # [s] of the oscillation
+    dt: float  # [s]
+
+    def amplitude(self, frequency: float) -> float:
+        """Amplitude [N] of a line in the force; the differences take 1 - cos(2 pi f T) of it."""
+        gain = 1.0 - np.cos(2 * np.pi * frequency * self.period)
+        turned = np.exp(-2j * np.pi * frequency * self.time)
+        return float(2 * np.abs(np.sum(gain * self.force * turned)) / max(float(np.sum(gain**2)), 1e-9))
+
+
+def unrepeated(record: Record) -> Rest | None:
+    """What is left of a record's oscillations; None where fewer than three follow another."""
+    found: list[tuple[Array, Array, Array, Array]] = []
+    for part in segments(record.time, record.stroke):
+        marks = part[beginnings(record.stroke[part])]
+        rows = []
+        for before, a, b, after in zip(marks, marks[1:], marks[2:], marks[3:], strict=False):
+            t = record.time
+            phase = (t[a:b] - t[a]) / (t[b] - t[a])
+            others = [np.interp(t[i] + phase * (t[j] - t[i]), t, record.force) for i, j in ((before, a), (b, after))]
+            rows.append((t[a:b], record.force[a:b] - (others[0] + others[1]) / 2, phase, np.full(b - a, t[b] - t[a])))
+        if not rows:
+            continue
+        time, force, phase, period = (np.concatenate(column) for column in zip(*rows, strict=True))
+        usual = float(np.median(np.abs(force)))
+        bins = (phase * PHASES).astype(int)
+        scatter = np.full(PHASES, usual)
+        for k in np.unique(bins):
+            scatter[k] = max(float(np.median(np.abs(force[bins == k]))), usual / 2)
+        found.append((time, np.clip(force, -OUTLIER * scatter[bins], OUTLIER * scatter[bins]), scatter[bins], period))
+    if not found:
+        return None
+    columns = [np.concatenate(column) for column in zip(*found, strict=True)]
+    return Rest(*columns, dt=float(np.median(np.diff(record.time)))) if columns[2].min() > 0 else None
+
+
+def peaks(rest: Rest) -> Array:
+    """Frequencies [Hz] and powers (n, 2) of the lines of one record, the strongest first.
+
+    The power of white noise relative to its mean is distributed exponentially: the largest of n exceeds ln(n / p) with the
+    probability p.
+    """
+    grid = np.arange(rest.time[0], rest.time[-1], rest.dt)
+    white = np.interp(grid, rest.time, rest.force / rest.scatter)
+    gaps = np.flatnonzero(np.diff(rest.time) > 10 * rest.dt)
+    for i in gaps:
+        white[(grid > rest.time[i]) & (grid < rest.time[i + 1])] = 0.0
+    size = next_fast_len(PADDING * len(grid))
+    power, f = np.abs(rfft(white, size)) ** 2, rfftfreq(size, rest.dt)
+    block = PADDING * NEIGHBOURS
+    rows = power[: len(power) // block * block].reshape(-1, block)
+    ratio = (rows / np.maximum(np.median(rows, axis=1, keepdims=True) / np.log(2), 1e-300)).ravel()
+    f = f[: len(ratio)]
+    used = (f > 3 / rest.period.min()) & (f < NYQUIST / rest.dt)
+    ratio = np.where(used, ratio, 0.0)
+    least = max(SLACK * np.log(max(2, used.sum()) / FALSE_ALARM), STRONG * float(ratio.max(initial=0.0)))
+    top = np.flatnonzero(ratio > least)
+    top = top[np.argsort(-ratio[top])]
+    return np.column_stack([f[top], ratio[top]])
+
+
+def line(records: Sequence[Record]) -> tuple[Signature | None, list[float]]:
+    """An oscillation of one frequency in several records of different excitation, and the frequencies [Hz] found.
+
+    White noise passes for a line in less than FALSE_ALARM of the records, and then not at one frequency in AGREE of them.
+    """
+    rests = [rest for rest in map(unrepeated, records) if rest is not None]
+    tops = [peaks(rest) for rest in rests]
+    found: list[tuple[float, float, int]] = []
+    while any(len(top) for top in tops):
+        f = max((top[0] for top in tops if len(top)), key=lambda row: float(row[1]))[0]
+        with_it = [i for i, top in enumerate(tops) if len(top) and np.any(np.abs(top[:, 0] / f - 1) < SAME_LINE)]
+        periods = [float(rests[i].period.min()) for i in with_it]
+        could = [r for r in rests if 3 / r.period.min() < f < NYQUIST / r.dt]
+        if len(with_it) >= max(AGREE, len(could) / 4) and max(periods) > APART * min(periods):
+            own = [tops[i][np.argmax(np.abs(tops[i][:, 0] / f - 1) < SAME_LINE), 0] for i in with_it]
+            sizes = [rests[i].amplitude(float(x)) for i, x in zip(with_it, own, strict=True)]
+            found.append((float(np.median(own)), float(np.median(sizes)), len(with_it)))
+        # A line's side lobes are no lines of their own.
+        tops = [top[np.abs(top[:, 0] - f) > max(1.0, 5 * SAME_LINE * f)] for top in tops]
+    if not found:
+        return None, []
+    found = sorted(found, key=lambda one: -one[1])[:4]
+    told = ", ".join(f"{f:.2f} Hz ({a:.0f} N)" for f, a, _ in found)
+    mains = next((m for m in (50, 60) if abs(found[0][0] / m - 1) < 2 * SAME_LINE), None)
+    guess = f"hum of the {mains} Hz mains" if mains else "hum or a vibration of the machine"
+    text = (
+        f"the force swings at {told} in {max(n for *_, n in found)} of {len(records)} records "
+        f"whatever the excitation: {guess}"
+    )
+    return Signature("line", text, float(np.sqrt(sum(a**2 for _, a, _ in found) / 2))), [f for f, *_ in found]
+
+
+def ringing(blocks: Sequence[Harmonic], lines: Sequence[float] = ()) -> Signature | None:
+    """One frequency, none of `lines` [Hz], that stands out of the mean oscillation at all velocities.
+
+    Jumps and kinks of the force have spectra that fall smoothly with the frequency, or are shaped by the number of the
+    harmonic. A resonance amplifies the harmonics near one frequency, whichever number they have.
+    """
+    spectra = []
+    for block in blocks:
+        t, marks = block.time, block.marks
+        if len(marks) < 4:
+            continue
+        phase = np.arange(LOOP) / LOOP
+        loops = np.array([np.interp(t[a] + phase * (t[b] - t[a]), t, block.force) for a, b in itertools.pairwise(marks)])
+        lines_of = rfft(loops, axis=1) * 2 / LOOP
+        number = np.arange(1, int(min(LOOP, float(np.median(np.diff(marks)))) * NYQUIST))
+        mean, noise = lines_of.mean(axis=0)[number], lines_of.var(axis=0)[number] / (len(loops) - 1)
+        # A jump's amplitudes fall with the number of the harmonic.
+        spectra.append((number / float(np.median(np.diff(t[marks]))), np.abs(mean) * number, noise * number**2, number))
+    if len(spectra) < MANY:
+        return None
+    top = max(float(f[-1]) for f, *_ in spectra)
+    best = (0.0, 0.0, 0.0, 0)
+    for middle in np.exp(np.arange(np.log(5.0), np.log(top / OUTSIDE[1]), np.log(STEP))):
+        excess, sizes, speeds = [], [], []
+        for f, amplitude, noise, number in spectra:
+            ranges = [(1 / INSIDE, INSIDE), (1 / OUTSIDE[1], 1 / OUTSIDE[0]), OUTSIDE]
+            bands = [(f > a * middle) & (f < b * middle) for a, b in ranges]
+            if not all(band.any() for band in bands) or f[0] > middle / 3:
+                continue
+            powers = [float(np.mean(amplitude[band] ** 2)) for band in bands]
+            if max(powers) > SEEN * max(float(np.mean(noise[band])) for band in bands):
+                excess.append(powers[0] / max(powers[1:]))
+                sizes.append(float(np.sum((amplitude[bands[0]] / number[bands[0]]) ** 2) / 2))
+                speeds.append(float(f[0]))
+        known = any(abs(middle / f - 1) < 2 * (INSIDE - 1) for f in lines)
+        if len(excess) >= MANY and max(speeds) > APART**2 * min(speeds) and not known and np.median(excess) > best[0]:
+            shown = sum(x > STANDS_OUT for x in excess)
+            best = (float(np.median(excess)), float(middle), float(np.sqrt(np.mean(sizes))), shown)
+    if best[0] < STANDS_OUT:
+        return None
+    text = (
+        f"the force rings at about {best[1]:.0f} Hz in {best[3]} records, the same at all velocities "
+        f"({best[2]:.0f} N RMS): the rig or the mounting of the load cell has a resonance"
+    )
+    return Signature("ringing", text, best[2])
+
+
+def play(block: Harmonic) -> tuple[float, float, float]:
+    """Length of play [m] that fits a record best, force of the jump after it relative to what varies in it, force RMS [N]."""
+    sides: dict[float, list[Array]] = {1.0: [], -1.0: []}
+    span = float(np.ptp(block.stroke[block.marks[0] : block.marks[-1]]))
+    for (a, b), sign in itertools.product(itertools.pairwise(block.marks), sides):
+        turn = a + int(np.argmax(sign * block.stroke[a:b]))
+        rows = slice(turn, turn + (b - a) // 4)
+        sides[sign].append(np.column_stack([sign * (block.stroke[turn] - block.stroke[rows]), block.force[rows]]))
+    both = [np.concatenate(some) for some in sides.values()]
+    best = (0.0, 0.0, 0.0)
+    for length in PLAYS * span:
+        # Just after the reversal the stroke hardly moves and friction still turns.
+        inner = [means(side, np.linspace(0.2, 0.9, 4) * length) for side in both]
+        outer = [means(side, np.array([1.25, 1.6]) * length) for side in both]
+        jump = float(outer[0][0] - outer[1][0])
+        varies = float(np.std(np.concatenate(inner)))
+        if np.isfinite(jump) and varies > 0 and abs(jump) / varies > best[1]:
+            # A sine is within the length after two reversals for this share of the time.
+            share = np.arccos(np.clip(1 - 2 * length / span, -1, 1)) / np.pi
+            best = (float(length), abs(jump) / varies, abs(jump) / 2 * float(np.sqrt(share)))
+    return best
+
+
+def means(side: Array, edges: Array) -> Array:
+    """Mean force (n - 1,) [N] between edges (n,) [m] of the stroke since the reversal; NaN where there are few samples."""
+    inside: list[NDArray[np.bool_]] = [(side[:, 0] >= a) & (side[:, 0] < b) for a, b in itertools.pairwise(edges)]
+    return np.array([side[some, 1].mean() if some.sum() >= 3 else np.nan for some in inside])
+
+
+def backlash(blocks: Sequence[tuple[Record, Harmonic]]) -> Signature | None:
+    """The same force after both reversals, over the same length of stroke at all velocities of the intact damper.
+
+    A damper without enough oil has dead strokes too, so only records with gas preload decide. A compliance or air in the oil
+    makes the force rise soon and slowly instead of late and at once.
+    """
+    intact = [block for _, block in blocks if block.gas_preload]
+    if len(intact) < AGREE:
+        return None
+    plays = [play(block) for block in intact]
+    clear = [one for one in plays if one[1] > JUMP]
+    if not clear:
+        return None
+    length = float(np.median([one[0] for one in clear]))
+    same = [one for one in clear if 1 / SAME_PLAY < one[0] / length < SAME_PLAY]
+    if len(same) < max(AGREE, 0.6 * len(intact)):
+        return None
+    size = float(np.sqrt(np.mean([one[2] ** 2 for one in same])))
+    text = (
+        f"after each reversal the force stays the same over {1e3 * length:.2f} mm of stroke and then jumps, in {len(same)} of "
+        f"{len(intact)} records of the intact damper: the joint of the rod or of the housing has play"
+    )
+    return Signature("backlash", text, size)
+
+
