@@ -99,8 +99,10 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
     return [f.start + sign * share * side for share in SHARES for sign, side in sides]
 
 
-def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float], cases: Sequence[int]) -> tuple[Free, ...]:
-    """The candidate's parameters from the point that explains the cases best; one strength after another joins."""
+def best_start(
+    problem: Problem, candidate: Candidate, fixed: Mapping[str, float], cases: Sequence[int]
+) -> tuple[float, dict[str, float]]:
+    """The point that explains the cases best, and their sum of squares there; one strength after another joins."""
     rows = problem.rows(cases)
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength]
@@ -117,4 +119,4 @@ def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float
         point, low = points[int(np.argmin(scores))], min(scores)
         left = [name for name in left if point[name] == best[name]]
         best = point
-    return tuple(Free(f.name, best[f.name], f.low, f.high) for f in candidate.free)
+    return float(low), best

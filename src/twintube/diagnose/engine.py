@@ -15,15 +15,24 @@ from twintube.diagnose.faults import Fault, read, scaled, unit_error
 from twintube.diagnose.fit import LEAST_MISFIT, Fit, Problem
 from twintube.diagnose.prepare import Case, prepare
 from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Tried
-from twintube.diagnose.select import CLOSE, RECALIBRATE, WORTH, Option, Selection, Selector, bootstrap
+from twintube.diagnose.select import (
+    CLOSE,
+    RECALIBRATE,
+    RIGHT,
+    WORTH,
+    Option,
+    Selection,
+    Selector,
+    bootstrap,
+    removed,
+)
 from twintube.diagnose.where import describe, maps
 from twintube.parameters import Damper
 from twintube.simulate import InputError
 
 SAME_SPEED = 1.05  # velocities within 5 % are one
 HELD_OUT = (3, 2)  # every third velocity from the third on, never the highest
-EXPLAINED = 0.5  # least share of the explainable log-misfit that causes must explain to be named
-RIGHT = 0.1  # log-misfit per sample up to which nothing is missing: 5 % above the noise
+EXPLAINED = 0.5  # least share of the explainable squared error that causes must explain to be named
 LEVEL = 1.96  # standard deviations of a 95 % interval
 
 
@@ -121,7 +130,7 @@ def answer(
     """The verdict and everything that it rests on."""
     chosen = [name for name in selection.chosen if name != RECALIBRATE]
     n = selection.count
-    explained = share(selection.start, selection.final, n)
+    explained = removed(selection.start.score, selection.final.score, n)
     faults = [name for name in chosen if selector.candidates[name].fault]
     close = rivals(selection) if chosen else []
     right = selection.final.score / n <= RIGHT
@@ -147,7 +156,8 @@ def answer(
         sentence=text,
         causes=causes,
         alternatives=[
-            Alternative(o.names[-1], share(selection.start, o, n), apart(selector.candidates[o.names[-1]])) for o in close
+            Alternative(o.names[-1], removed(selection.start.score, o.score, n), apart(selector.candidates[o.names[-1]]))
+            for o in close
         ],
         errors={kind: errors(records, kind) for kind in ("fit", "heldout")},
         where=describe(residuals),
@@ -160,12 +170,6 @@ def answer(
         extended=extended,
         next_measurements=[apart(selector.candidates[o.names[-1]]) for o in close],
     )
-
-
-def share(start: Option, option: Option, count: int) -> float:
-    """Share of the explainable log-misfit that an option explains."""
-    explainable = max(start.score, 1e-9)
-    return float(np.clip((start.score - max(option.score, 0.0)) / explainable, -1.0, 1.0)) if start.score > 0 else 0.0
 
 
 def rivals(selection: Selection) -> list[Option]:

@@ -5,7 +5,7 @@ the normal tail: 2 r d - d^2 with r normal is largest where d^2 = c. With k cand
 c = Q^-1(ALARM / k)^2. Each record has a variance of its own, so the misfit is the log-likelihood sum n log(mean square).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +17,9 @@ from twintube.diagnose.fit import Fit, Free, Problem
 
 ALARM = 0.01  # of a cause where there is none, by noise
 WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: below it the model's numerics decide
-NEXT = 0.35  # least share of what is left that a further cause must explain: less is the first one's formulation
+NEXT = 0.5  # least share of what is left that a further cause must explain: less is the first one's formulation
+RIGHT = 0.2  # log-misfit per sample up to which nothing is missing: 10 % above the noise
+FURTHER = 4  # candidates for a further cause that are fitted: those that explain most by their starts alone
 ROUNDS = 3
 RECALIBRATE = "recalibrate"
 CLOSE = 0.03  # of the explainable misfit: candidates that differ by less are not told apart
@@ -71,20 +73,25 @@ class Selector:
             name: Free(name, min(max(values.get(name, f.start), f.low), f.high), f.low, f.high) for name, f in found.items()
         }
 
-    def extended(self, current: Option, name: str) -> Option:
-        """The current model with one more cause, from its best start."""
-        values = dict(current.fit.values)
+    def beginning(self, current: Option, name: str) -> tuple[float, dict[str, float]]:
+        """Where a further cause begins, and the sum of squares there."""
+        if name == RECALIBRATE:
+            return 0.0, {}
+        return best_start(self.problem, self.candidates[name], current.fit.values, self.fitted)
+
+    def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
+        """The current model with one more cause, from its best start where no other is given."""
+        if begin is None:
+            begin = self.beginning(current, name)[1]
         names = [*current.names, name]
-        if name != RECALIBRATE:
-            values |= {f.name: f.start for f in best_start(self.problem, self.candidates[name], values, self.fitted)}
-        return self.option(names, list(self.free(names, values).values()))
+        return self.option(names, list(self.free(names, {**current.fit.values, **begin}).values()))
 
     def worth(self, before: float, after: float, first: bool) -> bool:
         """Whether an improvement of the held-out misfit is more than noise, numerics and formulation make."""
         gained = before - after
         if gained <= self.limit or gained <= WORTH * self.count:
             return False
-        return first or gained >= NEXT * max(before, 0.0)
+        return first or removed(before, after, self.count) >= NEXT
 
     def run(self, progress: Callable[[str], None]) -> Selection:
         """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
@@ -93,16 +100,24 @@ class Selector:
         recalibrated = self.extended(start, RECALIBRATE)
         current, rounds = start, []
         for n in range(ROUNDS):
-            names = [name for name in (RECALIBRATE, *self.candidates) if name not in current.names]
+            begins = {}
+            for name in (RECALIBRATE, *self.candidates):
+                if name not in current.names:
+                    progress(f"round {n + 1}: start of {name}")
+                    begins[name] = self.beginning(current, name)
+            names = sorted(begins, key=lambda name: begins[name][0])
             options = []
-            for name in names:
+            for name in names if n == 0 else names[: FURTHER + 1]:
                 progress(f"round {n + 1}: {name}")
-                options.append(recalibrated if name == RECALIBRATE and n == 0 else self.extended(current, name))
+                first = name == RECALIBRATE and n == 0
+                options.append(recalibrated if first else self.extended(current, name, begins[name][1]))
             options.sort(key=lambda o: o.score)
             rounds.append(options)
             if not self.worth(current.score, options[0].score, n == 0):
                 break
             current = options[0]
+            if current.score <= RIGHT * self.count:
+                break
         current = self.pruned(current, progress)
         return Selection(
             start, rounds, list(current.names), current, recalibrated, self.count, self.limit
@@ -121,6 +136,13 @@ class Selector:
                 return current
             current = best
         return current
+
+
+def removed(before: float, after: float, count: int) -> float:
+    """Share of the explainable squared error that goes away between two scores of `count` samples (geometric mean)."""
+    if before <= 0.0:
+        return 0.0
+    return float((1.0 - np.exp((max(after, 0.0) - before) / count)) / (1.0 - np.exp(-before / count)))
 
 
 def bootstrap(values: Array, seed: int = 1, level: float = 0.95) -> tuple[float, float]:

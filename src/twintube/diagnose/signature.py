@@ -39,7 +39,11 @@ PHASES = 64  # parts of an oscillation, each with a scatter of its own: force ju
 OUTLIER = 4.0  # scatters at which a sample is cut
 
 LOOP = 1024  # phases of the mean oscillation
-STEP, INSIDE, OUTSIDE = 1.03, 1.05, (1.5, 2.2)  # steps of a resonance's frequency; half width of its band and of those beside
+STEP, INSIDE, OUTSIDE = (
+    1.03,
+    1.05,
+    (1.5, 2.2),
+)  # steps of a resonance's frequency; half width of its band and of those beside
 SEEN = 4.0  # power of a band relative to noise
 STANDS_OUT = 10 ** (6.0 / 10)  # power of a resonance's band relative to the stronger one beside, in the median record
 MANY = 5  # records that must show a resonance
@@ -301,5 +305,3 @@ def backlash(blocks: Sequence[tuple[Record, Harmonic]]) -> Signature | None:
         f"{len(intact)} records of the intact damper: the joint of the rod or of the housing has play"
     )
     return Signature("backlash", text, size)
-
-

@@ -2,7 +2,8 @@
 
 The damper is one heat store with one way out (lumped capacity, Newton cooling); H is the heat in it beyond that of the
 start: dH/dt = P - H / cooling_time. Viscosity falls exponentially with temperature (Reynolds), and so does the force:
-F_Fl exp(-fade_heat (H + H_start)), H_start being the heat at the start beyond that at the temperature of the F-v curve. Heat capacity and viscosity index act only through their ratio `fade_heat`.
+F_Fl exp(-fade_heat (H + H_start)), H_start being the heat at the start beyond that at the temperature of the F-v curve.
+Heat capacity and viscosity index act only through their ratio `fade_heat`.
 """
 
 import math

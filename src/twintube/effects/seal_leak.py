@@ -27,7 +27,7 @@ class Parameters(variables.Parameters):
 
     leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled, at 1 m/s", lower=0, upper=5e-5,
                            source="film on the rod; Mueller and Nau, Fluid Sealing Technology", default=0.0)  # fmt: skip
-    leak_power: float = var("seal_leak", "", "1", "the oil lost per time grows with the speed to this power", lower=0, upper=2,
+    leak_power: float = var("seal_leak", "", "1", "oil lost per time goes with the speed to this power", lower=0, upper=2,
                             source="1: constant film", default=1.0)  # fmt: skip
 
 

@@ -1,8 +1,8 @@
 """Gradual build-up: where the paper's k_degr steps, the real one approaches its new value over a length of stroke.
 
-Gas and oil do not part at a sharp level. While the driving chamber's gas is about to run out, at a depth g below `build_up`, the
-force has already risen by early_share (1 - g / build_up)^2 of the coming step, which is known from the last time. Of the
-step itself (1 - early_share) exp(-x / build_up) is missing at the stroke x after the gas has run out.
+Gas and oil do not part at a sharp level. While the driving chamber's gas is about to run out, at a depth g below `build_up`,
+the force has already risen by early_share (1 - g / build_up)^2 of the coming step, which is known from the last time. Of
+the step itself (1 - early_share) exp(-x / build_up) is missing at the stroke x after the gas has run out.
 """
 
 import math
@@ -18,6 +18,7 @@ ABSENCE = "The model's force steps where the measured one rises gradually: a res
 DECIDES = "the same velocity with half the amplitude: the build-up is a length of stroke, not a time"
 STRENGTH = ("build_up",)
 NEEDS_TIME = False
+FAR = 1e3
 
 
 @dataclass(slots=True)
@@ -26,8 +27,8 @@ class Parameters(variables.Parameters):
 
     build_up: float = var("smooth_transition", "", "m", "stroke over which k_degr builds up", lower=0, upper=0.03,
                           source="first-order relaxation over the stroke", default=0.0)  # fmt: skip
-    early_share: float = var("smooth_transition", "", "1", "share of the rise that comes before the gas has run out", lower=0,
-                       upper=1, source="mixing layer about the level", default=0.0)  # fmt: skip
+    early_share: float = var("smooth_transition", "", "1", "share of the rise before the gas has run out", lower=0, upper=1,
+                       source="mixing layer about the level", default=0.0)  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -52,7 +53,7 @@ def smooth_transition_turn(p: Parameters, s: State, side: float, k: float) -> No
     """Begin a direction at its own value `k`; where its chamber has no gas there is no step ahead."""
     s.k_side = side
     s.k_mixed = k
-    s.x_free = 0.0 if smooth_transition_depth(p, s, side) > 0.0 else 1e3 * p.build_up
+    s.x_free = 0.0 if smooth_transition_depth(p, s, side) > 0.0 else FAR * p.build_up
 
 
 def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz: float) -> None:
@@ -61,8 +62,6 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
     side = 1.0 if dz > 0.0 else -1.0 if dz < 0.0 else s.k_side
     if side != s.k_side:
         smooth_transition_turn(p, s, side, f.k_mean)
-        if v * side > 0.0 and settled > f.k_mean:
-            s.x_free = 0.0  # the gas has run out in this very step
     depth = smooth_transition_depth(p, s, side)
     if depth > 0.0:
         full = s.k_full_re if side > 0.0 else s.k_full_co
