@@ -1,0 +1,135 @@
+"""Hit rate of the diagnosis on datasets in which `blind_trials` hides something."""
+
+import os
+import time
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from multiprocessing import get_context
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from tqdm import tqdm
+
+from blind_trials.hidden import EFFECTS, FAULTS, OUTSIDE
+from blind_trials.trials import trial, write
+from twintube.data import DataError
+from twintube.diagnose.engine import diagnose, known_gain
+
+PAIRS = ("valve_wear+gas_spring", "oil_temperature+end_stop", "oil_level_error+valve_wear", "side_load_friction+fluid_lag")
+KINDS = (*EFFECTS, *FAULTS, "recalibrate", "none", *PAIRS, *OUTSIDE)
+FIRST_SEED = 100
+STRENGTHS = (0.0625, 0.125, 0.25, 0.5, 1.0)  # of the typical strength, for the detection limit
+FOUND_IN = 0.9
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one dataset was taken for; gains are of the held-out error, NaN where no cause is hidden."""
+
+    kind: str
+    seed: int
+    strength: float
+    verdict: str
+    named: tuple[str, ...]
+    alternatives: tuple[str, ...]
+    gain: float
+    true_gain: float
+    seconds: float
+
+    @property
+    def answer(self) -> str:
+        """The column of the confusion matrix."""
+        return "+".join(sorted(self.named)) if self.named else self.verdict
+
+    @property
+    def right(self) -> bool:
+        """Whether the verdict is the hidden one; an ambiguous answer is not."""
+        if self.kind in OUTSIDE:
+            return self.verdict == "unexplained"
+        if self.kind in ("none", "recalibrate"):
+            return self.verdict == self.kind
+        wanted = "measurement_fault" if self.kind in FAULTS else "cause"
+        return self.verdict == wanted and set(self.named) == set(self.kind.split("+"))
+
+    @property
+    def found(self) -> bool:
+        """Whether the hidden effect is the first that is named."""
+        return self.verdict in ("cause", "measurement_fault") and self.named[:1] == (self.kind,)
+
+
+def outcome(kind: str, seed: int, strength: float | None) -> Outcome:
+    """Hide, diagnose, compare. A dataset that the data door refuses for its unit or its sign is a fault that was found."""
+    with TemporaryDirectory() as folder:
+        hidden = trial(kind, seed, strength=strength)
+        write(hidden, folder)
+        start = time.perf_counter()
+        try:
+            found = diagnose(folder)
+        except DataError as error:
+            refused = kind == "unit_error" and "unit" in str(error)
+            verdict, named = ("measurement_fault", (kind,)) if refused else ("refused", ())
+            return Outcome(kind, seed, hidden.strength, verdict, named, (), np.nan, np.nan, time.perf_counter() - start)
+        seconds = time.perf_counter() - start
+        effects = [part for part in kind.split("+") if part in EFFECTS]
+        return Outcome(
+            kind, seed, hidden.strength, found.verdict, tuple(cause.effect for cause in found.causes),
+            tuple(other.effect for other in found.alternatives),
+            found.causes[0].gain.heldout if found.causes else np.nan,
+            known_gain(folder, effects) if effects else np.nan, seconds,
+        )  # fmt: skip
+
+
+def outcomes(jobs: list[tuple[str, int, float | None]]) -> Iterator[Outcome]:
+    """All jobs, shared out to processes, with a progress bar."""
+    # Forked threads of numba's and numpy's would hang.
+    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
+        waiting = [pool.submit(outcome, *job) for job in jobs]
+        for done in tqdm(as_completed(waiting), total=len(jobs), unit="dataset"):
+            yield done.result()
+
+
+def share(some: list[bool]) -> float:
+    """Share of what is true [1]."""
+    return float(np.mean(some)) if some else float("nan")
+
+
+def bench_diagnosis(seeds: int) -> dict[str, Any]:
+    """The confusion matrix over all kinds, `seeds` datasets of each with strengths 0.5 to 1.5, and the shares of the contract."""
+    found = sorted(
+        outcomes([(kind, FIRST_SEED + n, None) for n in range(seeds) for kind in KINDS]), key=lambda o: (o.kind, o.seed)
+    )
+    matrix = {kind: dict(Counter(o.answer for o in found if o.kind == kind).most_common()) for kind in KINDS}
+    inside = [o for o in found if o.kind not in OUTSIDE]
+    gains = [(o.gain, o.true_gain) for o in found if np.isfinite(o.true_gain) and o.true_gain > 0]
+    return {
+        "seconds": float(np.mean([o.seconds for o in found])),
+        "correct_share": share([o.right for o in inside]),
+        "correct_or_ambiguous_share": share(
+            [o.right or (o.verdict == "ambiguous" and {*o.kind.split("+")} <= {*o.named, *o.alternatives}) for o in inside]
+        ),
+        "false_alarm_share": share([o.verdict != "none" for o in found if o.kind == "none"]),
+        "outside_named_share": share([o.verdict != "unexplained" for o in found if o.kind in OUTSIDE]),
+        "gain_over_true_structure": float(np.median([max(g if np.isfinite(g) else 0.0, 0.0) / t for g, t in gains])),
+        "matrix": matrix,
+        "outcomes": [asdict(o) for o in found],
+    }
+
+
+def bench_detection(seeds: int) -> dict[str, Any]:
+    """The smallest of STRENGTHS at which each effect is named first in 9 of 10 datasets; NaN where it never is."""
+    jobs = [(kind, FIRST_SEED + n, s) for s in STRENGTHS for kind in EFFECTS for n in range(seeds)]
+    found = list(outcomes(jobs))
+    rates = {
+        kind: {str(s): share([o.found for o in found if o.kind == kind and o.strength == s]) for s in STRENGTHS}
+        for kind in EFFECTS
+    }
+    limit = {
+        kind: min(
+            (s for s in STRENGTHS if all(rates[kind][str(x)] >= FOUND_IN for x in STRENGTHS if x >= s)), default=float("nan")
+        )
+        for kind in EFFECTS
+    }
+    return {"detection_limit": limit, "found_share": rates, "outcomes": [asdict(o) for o in found]}

@@ -1,0 +1,236 @@
+"""The verdict and everything that it rests on."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from twintube import effects
+from twintube.arrays import Array
+from twintube.data import LoadedDataset
+from twintube.diagnose.candidates import BASE, Candidate
+from twintube.diagnose.fit import LEAST_MISFIT, Fit, Problem
+from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Tried
+from twintube.diagnose.select import CLOSE, RECALIBRATE, RIGHT, WORTH, Option, Selection, Selector, bootstrap, removed
+from twintube.diagnose.signature import Signature
+from twintube.diagnose.where import describe, maps
+from twintube.parameters import Damper
+
+EXPLAINED = 0.5  # least share of the explainable squared error that causes must explain to be named
+LEVEL = 1.96  # standard deviations of a 95 % interval
+
+
+def answer(
+    dataset: LoadedDataset,
+    problem: Problem,
+    selector: Selector,
+    selection: Selection,
+    held: Sequence[int],
+    seen: Sequence[Signature],
+) -> Diagnosis:
+    """The diagnosis from what was selected and from the signatures `seen` in the records."""
+    close = rivals(selection)
+    records = results(problem, selection, held)
+    outside = [one for one in seen if one.size > taken_away(records)]
+    verdict = "unexplained" if outside else judged(selection, selector, close)
+    n = selection.count
+    effective = [name for name in selection.chosen if name != RECALIBRATE]
+    named = effective if verdict in ("cause", "ambiguous", "measurement_fault") else []
+    close = close if verdict == "ambiguous" else []
+    causes = [cause(problem, selector, selection, name, records) for name in named]
+    kept = selection.chosen if named or verdict == "recalibrate" else []
+    residuals = maps(records)
+    where = [describe(residuals, left=True)] if verdict == "unexplained" else []
+    return Diagnosis(
+        title=dataset.title,
+        verdict=verdict,
+        sentence=sentence(verdict, causes, close, outside),
+        causes=causes,
+        alternatives=[
+            Alternative(o.names[-1], removed(selection.start.score, o.score, n), apart(selector.candidates[o.names[-1]]))
+            for o in close
+        ],
+        errors={kind: errors(records, kind) for kind in ("fit", "heldout")},
+        where=describe(residuals),
+        signature="; ".join([one.text for one in seen] + where),
+        maps=residuals,
+        tried=tried(problem, selection, held),
+        records=records,
+        base=dataset.damper,
+        recalibrated=damper_of(dataset.damper, selection.recalibrated.fit, [RECALIBRATE], {}),
+        extended=damper_of(dataset.damper, selection.final.fit, kept, selector.candidates),
+        next_measurements=[apart(selector.candidates[o.names[-1]]) for o in close],
+    )
+
+
+def judged(selection: Selection, selector: Selector, close: Sequence[Option]) -> str:
+    """The verdict as far as the candidates tell it."""
+    explained = removed(selection.start.score, selection.final.score, selection.count)
+    right = selection.final.score <= RIGHT * selection.count
+    chosen = [name for name in selection.chosen if name != RECALIBRATE]
+    if not selection.chosen:
+        return "none" if right else "unexplained"
+    if explained < EXPLAINED and not right:
+        return "unexplained"
+    if not chosen:
+        return "recalibrate"
+    if selector.candidates[chosen[0]].fault:
+        return "measurement_fault"
+    return "ambiguous" if close else "cause"
+
+
+def taken_away(records: Sequence[RecordResult]) -> float:
+    """Force RMS [N] by which the extended model differs from the base one."""
+    return float(np.sqrt(np.mean(np.concatenate([(r.extended - r.base)[1:] ** 2 for r in records]))))
+
+
+def rivals(selection: Selection) -> list[Option]:
+    """Options of the first round that are as good as the chosen one."""
+    best, *others = selection.rounds[0]
+    if best.names[-1] == RECALIBRATE or not selection.chosen:
+        return []
+    margin = max(selection.limit, CLOSE * max(selection.start.score - best.score, 0.0))
+    return [o for o in others if o.score - best.score <= margin and o.names[-1] != RECALIBRATE][:3]
+
+
+def apart(candidate: Candidate) -> str:
+    """What would tell a candidate from its look-alikes."""
+    return f"{candidate.title}: {candidate.decides}"
+
+
+def results(problem: Problem, selection: Selection, held: Sequence[int]) -> list[RecordResult]:
+    """Every record with its simulations, read with the zero and the delay that were found."""
+    final = selection.final.fit.values
+    measured = problem.target(final)
+    base = selection.start.fit
+    found = []
+    for i, case in enumerate(problem.cases):
+        part = slice(int(problem.starts[i]), int(problem.starts[i + 1]))
+        forces = (base.forces[part], selection.recalibrated.fit.forces[part], selection.final.fit.forces[part])
+        found.append(RecordResult(case, "heldout" if i in held else "fit", measured[part], *forces))
+    return found
+
+
+def errors(records: Sequence[RecordResult], kind: str) -> dict[str, Errors]:
+    """Force and work errors over the records of a split."""
+    some = [r for r in records if r.split == kind]
+    found = {}
+    for name in ("base", "recalibrated", "extended"):
+        squares = np.concatenate([((getattr(r, name) - r.measured)[1:]) ** 2 for r in some])
+        works = np.array([float(np.sum((getattr(r, name) - r.measured)[1:] * np.diff(r.case.stroke))) for r in some])
+        turns = np.array([max(1, len(np.unique(r.case.cycle[r.case.cycle >= 0]))) for r in some])
+        found[name] = Errors(float(np.sqrt(squares.mean())), float(np.sqrt(np.mean((works / turns) ** 2))))
+    noise = np.concatenate([r.case.noise[1:] ** 2 for r in some])
+    found["noise_floor"] = Errors(float(np.sqrt(noise.mean())), 0.0)
+    return found
+
+
+def gain_of(problem: Problem, start: Fit, end: Fit, held: Sequence[int]) -> float:
+    """Share of the explainable squared error of the held-out records that goes away from one fit to another [1]."""
+    gone = whole = 0.0
+    for i in held:
+        part = slice(int(problem.starts[i]) + 1, int(problem.starts[i + 1]))
+        noise = float(np.sum(problem.cases[i].noise[1:] ** 2))
+        before, after = (float(np.sum((fit.forces - problem.target(fit.values))[part] ** 2)) for fit in (start, end))
+        gone += before - max(after, noise)
+        whole += max(before - noise, 1e-9)
+    return gone / whole
+
+
+def gains(records: Sequence[RecordResult], kind: str) -> Array:
+    """Squared error that goes away and that is explainable (r, 2) [N2] per record of a split."""
+    rows = []
+    for r in records:
+        if r.split == kind:
+            base, extended = (float(np.sum((getattr(r, name) - r.measured)[1:] ** 2)) for name in ("base", "extended"))
+            noise = float(np.sum(r.case.noise[1:] ** 2))
+            rows.append((base - max(extended, noise), max(base - noise, 1e-9)))
+    return np.array(rows)
+
+
+def cause(problem: Problem, selector: Selector, selection: Selection, name: str, records: Sequence[RecordResult]) -> Cause:
+    """One chosen cause with its parameters and the gain of the whole model."""
+    candidate = selector.candidates[name]
+    fit = selection.final.fit
+    parameters = {}
+    for f in candidate.free:
+        at = [g.name for g in fit.free].index(f.name)
+        spread = LEVEL * float(np.sqrt(max(0.0, fit.covariance[at, at])))
+        value = fit.values[f.name]
+        parameters[f.name] = Found(value, max(f.low, value - spread), min(f.high, value + spread), candidate.units[f.name])
+    fitted, held = gains(records, "fit"), gains(records, "heldout")
+    return Cause(
+        name, candidate.title, candidate.cause, parameters,
+        Gain(
+            fit=float(fitted[:, 0].sum() / fitted[:, 1].sum()),
+            heldout=float(held[:, 0].sum() / held[:, 1].sum()),
+            heldout_interval=bootstrap(held),
+            worst_record=worst(held),
+        ),
+    )  # fmt: skip
+
+
+def worst(held: Array) -> float:
+    """Gain of the record that gains least, of those that hold at least 1 % of the explainable error."""
+    some = held[held[:, 1] >= 0.01 * held[:, 1].sum()]
+    return float((some[:, 0] / some[:, 1]).min())
+
+
+def damper_of(damper: Damper, fit: Fit, names: Sequence[str], known: dict[str, Candidate]) -> Damper:
+    """The parameter set with what was found: recalibrated parameters and effects, not the faults of the measurement."""
+    changes = {name: fit.values[name] for name in BASE if RECALIBRATE in names and name in fit.values}
+    for name in names:
+        if name in known and not known[name].fault:
+            changes |= {f.name: fit.values[f.name] for f in known[name].free}
+    origin = {name: "found by diagnosis" for name in names if name != RECALIBRATE and name in effects.EFFECTS}
+    origin |= {group: "recalibrated by diagnosis" for group in ("degradation", "foam", "cavitation") if RECALIBRATE in names}
+    found = damper.with_(**changes) if changes else damper
+    return replace(found, sources=dict(damper.sources) | origin)
+
+
+def tried(problem: Problem, selection: Selection, held: Sequence[int]) -> list[Tried]:
+    """All candidates of all rounds; intervals by resampling the held-out records."""
+    picks = np.asarray(held)
+
+    def logs(option: Option) -> Array:
+        return np.asarray(problem.counts[picks] * np.log(np.maximum(LEAST_MISFIT, option.fit.misfit[picks])))
+
+    found = []
+    current = selection.start
+    # The same whole for every resample; where hardly anything is to be explained, what would be worth a cause.
+    whole = max(float(np.maximum(logs(selection.start), 0.0).sum()), WORTH * selection.count)
+    explainable = np.full(len(picks), whole / len(picks))
+    for n, options in enumerate(selection.rounds, start=1):
+        for k, option in enumerate(options):
+            rows = np.column_stack([logs(current) - logs(option), explainable])
+            gain = float(rows[:, 0].sum() / whole)
+            won = k == 0 and option.names[-1] in selection.chosen
+            if won:
+                reason = "improves the held-out records most"
+            elif k > 0:
+                reason = "improves them less than the chosen one"
+            else:
+                reason = "improves the held-out records by no more than noise and numerics would"
+            found.append(Tried(n, option.names[-1], gain, bootstrap(rows), "chosen" if won else "rejected", reason))
+        current = options[0]
+    return found
+
+
+def sentence(verdict: str, causes: Sequence[Cause], close: Sequence[Option], outside: Sequence[Signature]) -> str:
+    """The verdict in one sentence."""
+    if outside:
+        return f"No known cause explains the records: {outside[0].text}."
+    if verdict == "none":
+        return "Nothing is missing: the simulation agrees with the held-out records within their noise."
+    if verdict == "recalibrate":
+        return "No effect is missing: other values of the degradation parameters explain the records."
+    if verdict == "unexplained":
+        return "The simulation is wrong in a way that no known cause explains."
+    what = " and ".join(c.title[0].lower() + c.title[1:] for c in causes)
+    gain = f"{100 * causes[0].gain.heldout:.0f} % of the explainable error on held-out records goes away"
+    if verdict == "ambiguous":
+        others = " or ".join(o.names[-1].replace("_", " ") for o in close)
+        return f"The cause is {what}, or {others}: these records cannot tell them apart ({gain})."
+    if verdict == "measurement_fault":
+        return f"The measurement is faulty: {what} ({gain})."
+    return f"The cause is {what}: {gain}."
