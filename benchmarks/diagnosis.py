@@ -3,7 +3,7 @@
 import os
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from multiprocessing import get_context
@@ -82,7 +82,7 @@ def outcome(kind: str, seed: int, strength: float | None) -> Outcome:
         )  # fmt: skip
 
 
-def outcomes(jobs: list[tuple[str, int, float | None]]) -> Iterator[Outcome]:
+def outcomes(jobs: Sequence[tuple[str, int, float | None]]) -> Iterator[Outcome]:
     """All jobs, shared out to processes, with a progress bar."""
     # Forked threads of numba's and numpy's would hang.
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
@@ -97,7 +97,7 @@ def share(some: list[bool]) -> float:
 
 
 def bench_diagnosis(seeds: int) -> dict[str, Any]:
-    """The confusion matrix over all kinds, `seeds` datasets of each with strengths 0.5 to 1.5, and the shares of the contract."""
+    """The confusion matrix, `seeds` datasets of each kind with strengths 0.5 to 1.5, and the shares of the contract."""
     found = sorted(
         outcomes([(kind, FIRST_SEED + n, None) for n in range(seeds) for kind in KINDS]), key=lambda o: (o.kind, o.seed)
     )

@@ -80,7 +80,6 @@ def advance_whole(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
 def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
     """The kernel's step with the effects around it."""
     work = s.work
-    fluid = s.F_fluid
     friction = s.F_friction
     gas = s.F_gas
     s.goal_z = z
@@ -105,14 +104,12 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     s.F_friction *= effects_scale_friction(p, v)
     s.F_gas += effects_elastic(p, s.z)
     # As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end.
-    mean = 0.5 * (fluid_force(p, s.goal_v0) + F_1) * f.k_mean * effects_scale_fluid(p, s, dz)
-    s.W_step = mean * dz
+    s.k_mean = f.k_mean * effects_scale_fluid(p, s, dz)
+    s.F_mean = 0.5 * (fluid_force(p, s.goal_v0) + F_1) * s.k_mean
+    s.W_step = s.F_mean * dz
     effects_force(p, s, v1, dz, dt)
     s.W_step += 0.5 * (friction + s.F_friction) * dz
-    if s.F_fluid != F_1 * s.k_degr:
-        # A force with a memory does not jump within the step.
-        mean = 0.5 * (fluid + s.F_fluid)
-    s.impulse += (mean + 0.5 * (friction + s.F_friction + gas + s.F_gas)) * dt
+    s.impulse += (s.F_mean + 0.5 * (friction + s.F_friction + gas + s.F_gas)) * dt
     s.work = work + s.W_step
     s.elapsed += dt
     effects_finish(p, s, dt)

@@ -44,7 +44,7 @@ def test_the_model_is_at_the_noise_where_nothing_is_hidden(nothing: Trial) -> No
     data = dataset(nothing)
     problem = Problem(data.damper, prepare(data))
     offset = Free("force_offset", 0.0, -50.0, 50.0)
-    fit = problem.fit([offset], {}, range(len(problem.cases)))
+    fit = problem.fit([offset], {})
     assert np.median(fit.misfit) < 1.5
     assert fit.misfit.max() < 4.0
 
@@ -53,7 +53,7 @@ def test_fit_recovers_a_parameter(nothing: Trial) -> None:
     data = dataset(nothing)
     problem = Problem(data.damper, prepare(data))
     free = [Free("X_Co2", 0.85, 0.0, 1.0), Free("force_offset", 0.0, -50.0, 50.0)]
-    fit = problem.fit(free, {}, range(len(problem.cases)))
+    fit = problem.fit(free, {})
     assert fit.values["X_Co2"] == pytest.approx(data.damper.parameters.X_Co2, abs=0.01)
 
 

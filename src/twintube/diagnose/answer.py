@@ -1,6 +1,6 @@
 """The verdict and everything that it rests on."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +9,7 @@ from twintube import effects
 from twintube.arrays import Array
 from twintube.data import LoadedDataset
 from twintube.diagnose.candidates import BASE, Candidate
-from twintube.diagnose.fit import LEAST_MISFIT, Fit, Problem
+from twintube.diagnose.fit import Fit, Problem
 from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Tried
 from twintube.diagnose.select import CLOSE, RECALIBRATE, RIGHT, WORTH, Option, Selection, Selector, bootstrap, removed
 from twintube.diagnose.signature import Signature
@@ -21,23 +21,25 @@ LEVEL = 1.96  # standard deviations of a 95 % interval
 
 
 def answer(
-    dataset: LoadedDataset,
-    problem: Problem,
-    selector: Selector,
-    selection: Selection,
-    held: Sequence[int],
-    seen: Sequence[Signature],
+    dataset: LoadedDataset, problem: Problem, selector: Selector, selection: Selection, seen: Sequence[Signature]
 ) -> Diagnosis:
     """The diagnosis from what was selected and from the signatures `seen` in the records."""
     close = rivals(selection)
-    records = results(problem, selection, held)
+    options = (selection.start, selection.recalibrated, selection.final)
+    refitted = [selector.refitted(option) for option in options]
+    extended = refitted[-1]
+    fitted = simulated(selector.whole, "fit", [fit.values for fit in refitted])
+    held = predictions(selector, options)
+    predicted = {r.case.name for r in held}
+    order = [case.name for case in problem.cases]
+    records = sorted([*held, *(r for r in fitted if r.case.name not in predicted)], key=lambda r: order.index(r.case.name))
     outside = [one for one in seen if one.size > taken_away(records)]
     verdict = "unexplained" if outside else judged(selection, selector, close)
     n = selection.count
     effective = [name for name in selection.chosen if name != RECALIBRATE]
     named = effective if verdict in ("cause", "ambiguous", "measurement_fault") else []
     close = close if verdict == "ambiguous" else []
-    causes = [cause(problem, selector, selection, name, records) for name in named]
+    causes = [cause(selector.candidates[name], extended, gains(fitted), gains(held)) for name in named]
     kept = selection.chosen if named or verdict == "recalibrate" else []
     residuals = maps(records)
     where = [describe(residuals, left=True)] if verdict == "unexplained" else []
@@ -50,15 +52,15 @@ def answer(
             Alternative(o.names[-1], removed(selection.start.score, o.score, n), apart(selector.candidates[o.names[-1]]))
             for o in close
         ],
-        errors={kind: errors(records, kind) for kind in ("fit", "heldout")},
+        errors={"fit": errors(fitted), "heldout": errors(held)},
         where=describe(residuals),
         signature="; ".join([one.text for one in seen] + where),
         maps=residuals,
-        tried=tried(problem, selection, held),
+        tried=tried(selector, selection),
         records=records,
         base=dataset.damper,
-        recalibrated=damper_of(dataset.damper, selection.recalibrated.fit, [RECALIBRATE], {}),
-        extended=damper_of(dataset.damper, selection.final.fit, kept, selector.candidates),
+        recalibrated=damper_of(dataset.damper, refitted[1], [RECALIBRATE], {}),
+        extended=damper_of(dataset.damper, extended, kept, selector.candidates),
         next_measurements=[apart(selector.candidates[o.names[-1]]) for o in close],
     )
 
@@ -98,22 +100,24 @@ def apart(candidate: Candidate) -> str:
     return f"{candidate.title}: {candidate.decides}"
 
 
-def results(problem: Problem, selection: Selection, held: Sequence[int]) -> list[RecordResult]:
-    """Every record with its simulations, read with the zero and the delay that were found."""
-    final = selection.final.fit.values
-    measured = problem.target(final)
-    base = selection.start.fit
+def simulated(problem: Problem, split: str, models: Sequence[Mapping[str, float]]) -> list[RecordResult]:
+    """The records with their base, recalibrated and extended simulation, read with the last one's zero and delay."""
+    measured = problem.target(models[-1])
+    forces = [problem.forces(values) for values in models]
     found = []
-    for i, case in enumerate(problem.cases):
-        part = slice(int(problem.starts[i]), int(problem.starts[i + 1]))
-        forces = (base.forces[part], selection.recalibrated.fit.forces[part], selection.final.fit.forces[part])
-        found.append(RecordResult(case, "heldout" if i in held else "fit", measured[part], *forces))
+    for case, a, b in zip(problem.cases, problem.starts[:-1], problem.starts[1:], strict=True):
+        found.append(RecordResult(case, split, measured[a:b], *(force[a:b] for force in forces)))
     return found
 
 
-def errors(records: Sequence[RecordResult], kind: str) -> dict[str, Errors]:
-    """Force and work errors over the records of a split."""
-    some = [r for r in records if r.split == kind]
+def predictions(selector: Selector, options: Sequence[Option]) -> list[RecordResult]:
+    """The records that a fold holds out, simulated by base, recalibrated and extended model that do not know them."""
+    several = enumerate(selector.folds)
+    return [r for k, fold in several for r in simulated(fold.held, "heldout", [o.fits[k].values for o in options])]
+
+
+def errors(some: Sequence[RecordResult]) -> dict[str, Errors]:
+    """Force and work errors over some records."""
     found = {}
     for name in ("base", "recalibrated", "extended"):
         squares = np.concatenate([((getattr(r, name) - r.measured)[1:]) ** 2 for r in some])
@@ -125,42 +129,26 @@ def errors(records: Sequence[RecordResult], kind: str) -> dict[str, Errors]:
     return found
 
 
-def gain_of(problem: Problem, start: Fit, end: Fit, held: Sequence[int]) -> float:
-    """Share of the explainable squared error of the held-out records that goes away from one fit to another [1]."""
-    gone = whole = 0.0
-    for i in held:
-        part = slice(int(problem.starts[i]) + 1, int(problem.starts[i + 1]))
-        noise = float(np.sum(problem.cases[i].noise[1:] ** 2))
-        before, after = (float(np.sum((fit.forces - problem.target(fit.values))[part] ** 2)) for fit in (start, end))
-        gone += before - max(after, noise)
-        whole += max(before - noise, 1e-9)
-    return gone / whole
-
-
-def gains(records: Sequence[RecordResult], kind: str) -> Array:
-    """Squared error that goes away and that is explainable (r, 2) [N2] per record of a split."""
+def gains(records: Sequence[RecordResult]) -> Array:
+    """Squared error that goes away and that is explainable (r, 2) [N2] per record."""
     rows = []
     for r in records:
-        if r.split == kind:
-            base, extended = (float(np.sum((getattr(r, name) - r.measured)[1:] ** 2)) for name in ("base", "extended"))
-            noise = float(np.sum(r.case.noise[1:] ** 2))
-            rows.append((base - max(extended, noise), max(base - noise, 1e-9)))
+        base, extended = (float(np.sum((force - r.measured)[1:] ** 2)) for force in (r.base, r.extended))
+        noise = float(np.sum(r.case.noise[1:] ** 2))
+        rows.append((base - max(extended, noise), max(base - noise, 1e-9)))
     return np.array(rows)
 
 
-def cause(problem: Problem, selector: Selector, selection: Selection, name: str, records: Sequence[RecordResult]) -> Cause:
-    """One chosen cause with its parameters and the gain of the whole model."""
-    candidate = selector.candidates[name]
-    fit = selection.final.fit
+def cause(candidate: Candidate, fit: Fit, fitted: Array, held: Array) -> Cause:
+    """One chosen cause with its parameters and the gain (r, 2) of the whole model on fitted and held-out records."""
     parameters = {}
     for f in candidate.free:
         at = [g.name for g in fit.free].index(f.name)
         spread = LEVEL * float(np.sqrt(max(0.0, fit.covariance[at, at])))
         value = fit.values[f.name]
         parameters[f.name] = Found(value, max(f.low, value - spread), min(f.high, value + spread), candidate.units[f.name])
-    fitted, held = gains(records, "fit"), gains(records, "heldout")
     return Cause(
-        name, candidate.title, candidate.cause, parameters,
+        candidate.name, candidate.title, candidate.cause, parameters,
         Gain(
             fit=float(fitted[:, 0].sum() / fitted[:, 1].sum()),
             heldout=float(held[:, 0].sum() / held[:, 1].sum()),
@@ -188,21 +176,17 @@ def damper_of(damper: Damper, fit: Fit, names: Sequence[str], known: dict[str, C
     return replace(found, sources=dict(damper.sources) | origin)
 
 
-def tried(problem: Problem, selection: Selection, held: Sequence[int]) -> list[Tried]:
+def tried(selector: Selector, selection: Selection) -> list[Tried]:
     """All candidates of all rounds; intervals by resampling the held-out records."""
-    picks = np.asarray(held)
-
-    def logs(option: Option) -> Array:
-        return np.asarray(problem.counts[picks] * np.log(np.maximum(LEAST_MISFIT, option.fit.misfit[picks])))
-
     found = []
     current = selection.start
+    first = selector.logs(current.misfit)
     # The same whole for every resample; where hardly anything is to be explained, what would be worth a cause.
-    whole = max(float(np.maximum(logs(selection.start), 0.0).sum()), WORTH * selection.count)
-    explainable = np.full(len(picks), whole / len(picks))
+    whole = max(float(np.maximum(first, 0.0).sum()), WORTH * selection.count)
+    explainable = np.full(len(first), whole / len(first))
     for n, options in enumerate(selection.rounds, start=1):
         for k, option in enumerate(options):
-            rows = np.column_stack([logs(current) - logs(option), explainable])
+            rows = np.column_stack([selector.logs(current.misfit) - selector.logs(option.misfit), explainable])
             gain = float(rows[:, 0].sum() / whole)
             won = k == 0 and option.names[-1] in selection.chosen
             if won:

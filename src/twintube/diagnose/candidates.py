@@ -1,7 +1,7 @@
 """What may be the cause: the effects, found in their folder, and the faults of the measurement."""
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -99,11 +99,8 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
     return [f.start + sign * share * side for share in SHARES for sign, side in sides]
 
 
-def best_start(
-    problem: Problem, candidate: Candidate, fixed: Mapping[str, float], cases: Sequence[int]
-) -> tuple[float, dict[str, float]]:
+def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float]) -> tuple[float, dict[str, float]]:
     """The point that explains the cases best, and their sum of squares there; one strength after another joins."""
-    rows = problem.rows(cases)
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength]
     best, low = {f.name: f.start for f in candidate.free}, np.inf
@@ -113,7 +110,7 @@ def best_start(
         others = itertools.product(*(grids[name] for name in shapes)) if len(left) == len(candidate.strength) else [()]
         some = [dict(zip(shapes, other, strict=False)) for other in others]
         points = [best | {name: x} | shape for name in left for x in grids[name] for shape in some]
-        scores = [float(r[rows] @ r[rows]) for r in problem.residuals([{**fixed, **point} for point in points])]
+        scores = [float(r @ r) for r in problem.residuals([{**fixed, **point} for point in points])]
         if min(scores) >= low:
             break
         point, low = points[int(np.argmin(scores))], min(scores)

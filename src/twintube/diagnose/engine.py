@@ -8,18 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.diagnose.answer import answer, gain_of
-from twintube.diagnose.candidates import candidates, nuisances
+from twintube.diagnose.answer import answer, gains, predictions, worst
+from twintube.diagnose.candidates import candidates
 from twintube.diagnose.faults import Fault, read, scaled, unit_error
 from twintube.diagnose.fit import Problem
 from twintube.diagnose.prepare import Case, prepare
-from twintube.diagnose.result import Cause, Diagnosis, Gain
-from twintube.diagnose.select import Selector, bootstrap
+from twintube.diagnose.result import Cause, Diagnosis, Found, Gain
+from twintube.diagnose.select import Fold, Selector, bootstrap
 from twintube.diagnose.signature import signatures
 from twintube.simulate import InputError
 
 SAME_SPEED = 1.05  # velocities within 5 % are one
-HELD_OUT = (3, 2)  # every third velocity from the third on, never the highest
 
 
 def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
@@ -30,37 +29,50 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     began = time.monotonic()
     dataset, fault = read(path)
     cases = prepare(dataset)
-    fitted, held, remarks = split(dataset.title, cases)
+    folds, remarks = split(dataset.title, cases)
     problem = recorded = Problem(dataset.damper, cases)
     wrong, problem = unit_error(problem)
     if fault is not None:
         recorded = recorded.with_cases([scaled(case, fault.factor, 1.0) for case in cases])
-    selector = Selector(problem, candidates(problem), fitted, held)
+    selector = made(problem, folds)
     selection = selector.run(progress)
-    seen = signatures(dataset.records)
-    found = answer(dataset, problem, selector, selection, held, seen)
+    progress("all records")
+    found = answer(dataset, problem, selector, selection, signatures(dataset.records))
     for one in (wrong, fault):
         if one is not None:
-            found = faulty(found, one, repaired(recorded, problem, fitted, held))
+            found = faulty(found, one, repaired(recorded, problem))
     return replace(found, remarks=[*remarks, *found.remarks], seconds=time.monotonic() - began)
+
+
+def made(problem: Problem, folds: Sequence[tuple[list[int], list[int]]]) -> Selector:
+    """The selector for the numbers of the records to fit and to judge on."""
+    several = []
+    for fitted, held in folds:
+        fit, judge = (problem.with_cases([problem.cases[i] for i in some]) for some in (fitted, held))
+        several.append(Fold(fit, judge))
+    # With one fold the held-out records are never fitted, with several every record is held out of one.
+    whole = several[0].fitted if len(several) == 1 else problem
+    return Selector(whole, candidates(problem), several)
 
 
 def known_gain(path: str | Path, causes: Sequence[str]) -> float:
     """Share of the explainable held-out error that goes away with the given causes, whatever a diagnosis would choose."""
     dataset, _ = read(path)
     cases = prepare(dataset)
-    fitted, held, _ = split(dataset.title, cases)
     problem = Problem(dataset.damper, cases)
-    selector = Selector(problem, candidates(problem), fitted, held)
-    start = option = selector.option((), nuisances(problem))
-    problem.balance(start.fit.misfit)
+    selector = made(problem, split(dataset.title, cases)[0])
+    start = option = selector.bare()
     for name in causes:
         option = selector.extended(option, name)
-    return gain_of(problem, start.fit, option.fit, held)
+    gone = gains(predictions(selector, (start, start, option)))
+    return float(gone[:, 0].sum() / gone[:, 1].sum())
 
 
-def repaired(recorded: Problem, problem: Problem, fitted: Sequence[int], held: Sequence[int]) -> Gain:
-    """What putting a fault right gains for the base model: errors relative to the force, as units and signs differ."""
+def repaired(recorded: Problem, problem: Problem) -> Gain:
+    """What putting a fault right gains for the base model: errors relative to the force, as units and signs differ.
+
+    Nothing is fitted, so that every record is a held-out one.
+    """
 
     def shares(p: Problem) -> Array:
         forces = p.forces({})
@@ -75,13 +87,8 @@ def repaired(recorded: Problem, problem: Problem, fitted: Sequence[int], held: S
     before, after = shares(recorded), shares(problem)
     gone = before[:, 0] - np.maximum(after[:, 0], after[:, 1])
     rows = np.column_stack([gone, np.maximum(before[:, 0] - after[:, 1], 1e-9)])
-    some, other = rows[list(fitted)], rows[list(held)]
-    return Gain(
-        fit=float(some[:, 0].sum() / some[:, 1].sum()),
-        heldout=float(other[:, 0].sum() / other[:, 1].sum()),
-        heldout_interval=bootstrap(other),
-        worst_record=worst(other),
-    )
+    whole = float(rows[:, 0].sum() / rows[:, 1].sum())
+    return Gain(whole, whole, bootstrap(rows), worst(rows))
 
 
 def faulty(found: Diagnosis, fault: Fault, gain: Gain) -> Diagnosis:
@@ -99,8 +106,11 @@ def faulty(found: Diagnosis, fault: Fault, gain: Gain) -> Diagnosis:
     )
 
 
-def split(title: str, cases: Sequence[Case]) -> tuple[list[int], list[int], list[str]]:
-    """The numbers of the fitted and of the held-out cases, whole velocities apart, and what was decided here."""
+def split(title: str, cases: Sequence[Case]) -> tuple[list[tuple[list[int], list[int]]], list[str]]:
+    """The numbers of the cases to fit and to judge on, fold by fold, and what was decided here.
+
+    Where the dataset says nothing every other velocity is held out, then the others. A quasi-static record is always fitted.
+    """
     if len(cases) < 2:
         raise InputError(f"{title}: {len(cases)} record, at least two are needed: one to fit, one to judge on")
     if any(case.split for case in cases):
@@ -108,18 +118,15 @@ def split(title: str, cases: Sequence[Case]) -> tuple[list[int], list[int], list
         fitted = [i for i in range(len(cases)) if i not in held]
         if not fitted or not held:
             raise InputError(f"{title}: {len(held)} of {len(cases)} records are held out, some must be and some must not")
-        return fitted, held, []
+        return [(fitted, held)], []
     speeds: list[float] = []
     for v in sorted(case.top_speed for case in cases if case.measurement != "quasi-static"):
         if not speeds or v > SAME_SPEED * speeds[-1]:
             speeds.append(v)
     if len(speeds) < 2:
         raise InputError(f"{title}: all records have one velocity; split them in dataset.toml (split = 'heldout')")
-    every, first = HELD_OUT
-    out = [v for i, v in enumerate(speeds[:-1]) if i % every == min(first, len(speeds) - 2)]
-    held = [
-        i for i, case in enumerate(cases)
-        if case.measurement != "quasi-static" and any(v <= case.top_speed <= SAME_SPEED * v for v in out)
-    ]  # fmt: skip
-    told = ", ".join(f"{v:.3g}" for v in out)
-    return [i for i in range(len(cases)) if i not in held], held, [f"held out: the records at {told} m/s"]
+    place = {i: int(np.searchsorted(speeds, case.top_speed, side="right")) for i, case in enumerate(cases)
+             if case.measurement != "quasi-static"}  # fmt: skip
+    halves = [[i for i, number in place.items() if number % 2 == half] for half in (0, 1)]
+    folds = [([i for i in range(len(cases)) if i not in held], held) for held in halves]
+    return folds, ["every record is predicted from those of other velocities: every second velocity is held out in turn"]

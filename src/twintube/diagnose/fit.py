@@ -1,5 +1,6 @@
 """The model against all cases at once: residuals for any parameters of damper and measurement, and their least squares."""
 
+import itertools
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -7,7 +8,6 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from twintube import compiled, effects
@@ -23,7 +23,6 @@ NUMERICS = 3e-3  # of a record's peak force: what sampling and the time step of 
 STEP = 1e-3  # of a parameter's range: step of a derivative
 PRIOR = 0.5  # of a parameter's range: standard deviation of a weak pull to its start, which keeps idle ones in place
 ITERATIONS = 12
-LEAST_MISFIT = 0.5  # below the noise: no record gains from being fitted better than that
 PARTS = 3  # steps of the model per interval
 
 
@@ -48,7 +47,6 @@ class Fit:
 
     free: tuple[Free, ...]
     values: dict[str, float]  # of all free parameters
-    forces: Array  # (n,) predicted mean forces [N] of all cases
     misfit: Array  # (r,) mean squared weighted error per case
     covariance: Array  # (k, k), robust against errors that a record's samples share
 
@@ -65,11 +63,13 @@ class Problem:
         self.t, self.z, self.v = (np.concatenate([getattr(c, n) for c in cases]) for n in ("time", "stroke", "velocity"))
         self.measured = np.concatenate([c.measured() for c in cases])
         self.sigma = np.concatenate([np.hypot(c.noise, NUMERICS * c.peak) for c in cases])
-        # The first sample of a record has no interval before it.
-        self.weight = 1 / self.sigma
-        self.weight[self.starts[:-1]] = 0.0
+        # The first sample of a record has no interval before it, that of a stretch one that is mostly rest.
+        stretch = np.concatenate([c.stretch for c in cases])
+        used = np.diff(stretch, prepend=-1) == 0
+        used[self.starts[:-1]] = False
+        self.weight = np.where(used, 1 / self.sigma, 0.0)
         self.share = np.ones(len(self.z))
-        self.counts = np.diff(self.starts) - 1
+        self.counts = np.add.reduceat(used.astype(np.int64), self.starts[:-1])
         self.threads = ThreadPoolExecutor(os.cpu_count())
         self.known = {item.name for item in fields(effects.Parameters)}
 
@@ -107,10 +107,6 @@ class Problem:
         """Balanced errors of several parameter sets, shared out to threads."""
         return list(self.threads.map(self.shared, many))
 
-    def rows(self, cases: Sequence[int]) -> NDArray[np.int64]:
-        """The samples of some cases."""
-        return np.concatenate([np.arange(self.starts[i], self.starts[i + 1]) for i in cases])
-
     def balance(self, misfit: Array) -> None:
         """Let every record count alike in what follows: `misfit` (r,) is its mean squared weighted error.
 
@@ -123,17 +119,9 @@ class Problem:
         found: Array = np.add.reduceat(residual**2, self.starts[:-1]) / self.counts
         return found
 
-    def score(self, misfit: Array, cases: Sequence[int]) -> float:
-        """Twice the negative log-likelihood of some cases, each with a variance of its own not below its noise's."""
-        picks = np.asarray(cases)
-        return float(self.counts[picks] @ np.log(np.maximum(LEAST_MISFIT, misfit[picks])))
-
-    def fit(
-        self, free: Sequence[Free], fixed: Mapping[str, float], cases: Sequence[int], iterations: int = ITERATIONS
-    ) -> Fit:
-        """Least squares over some cases for the free parameters, from their starts."""
+    def fit(self, free: Sequence[Free], fixed: Mapping[str, float], iterations: int = ITERATIONS) -> Fit:
+        """Least squares for the free parameters, from their starts."""
         free = tuple(free)
-        picks = self.rows(cases)
         start = np.array([f.start for f in free])
         width = np.array([f.width for f in free])
         low = np.array([f.low for f in free])
@@ -145,34 +133,32 @@ class Problem:
         scaled = np.array([1e-6 if f.name in MEASUREMENT else 1.0 for f in free])  # no pull on the measurement
 
         def errors(u: Array) -> Array:
-            return np.concatenate([self.shared(values(u))[picks], scaled * (u - u0) / PRIOR])
+            return np.concatenate([self.shared(values(u)), scaled * (u - u0) / PRIOR])
 
         def slopes(u: Array) -> Array:
             steps = np.where(u + STEP <= 1.0, STEP, -STEP)
             found = self.residuals([values(u), *(values(u + e) for e in np.diag(steps))])
-            J = np.array([(other - found[0])[picks] / step for other, step in zip(found[1:], steps, strict=True)]).T
+            J = np.array([(other - found[0]) / step for other, step in zip(found[1:], steps, strict=True)]).T
             return np.vstack([J, np.diag(scaled / PRIOR)])
 
         if free:
             found = least_squares(errors, u0, jac=slopes, bounds=(0.0, 1.0), max_nfev=iterations, x_scale=1.0)
             u = found.x
             J = slopes(u)
-            covariance = self.robust(J, errors(u), cases) * np.outer(width, width)
+            covariance = self.robust(J, errors(u)) * np.outer(width, width)
         else:
             u, covariance = u0, np.zeros((0, 0))
         best = values(u)
-        return Fit(free, best, self.forces(best), self.misfits(self.residual(best)), covariance)
+        return Fit(free, best, self.misfits(self.residual(best)), covariance)
 
-    def robust(self, J: Array, errors: Array, cases: Sequence[int]) -> Array:
+    def robust(self, J: Array, errors: Array) -> Array:
         """Covariance (k, k) of the parameters from the scatter of the records' pulls (sandwich)."""
         k = J.shape[1]
         inverse = np.linalg.pinv(J.T @ J)
         middle = np.zeros((k, k))
-        at = 0
-        for i in cases:
-            n = self.starts[i + 1] - self.starts[i]
-            g = J[at : at + n].T @ errors[at : at + n]
+        for a, b in itertools.pairwise(self.starts):
+            g = J[a:b].T @ errors[a:b]
             middle += np.outer(g, g)
-            at += n
-        records = max(2, len(cases))
+        at = self.starts[-1]
+        records = max(2, len(self.cases))
         return np.asarray(inverse @ (middle * records / (records - 1) + J[at:].T @ J[at:]) @ inverse)

@@ -16,9 +16,10 @@ from twintube.diagnose.candidates import Candidate, base, best_start, nuisances
 from twintube.diagnose.fit import Fit, Free, Problem
 
 ALARM = 0.01  # of a cause where there is none, by noise
+LEAST_MISFIT = 0.5  # below the noise: no record gains from being fitted better than that
 WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: below it the model's numerics decide
 NEXT = 0.5  # least share of what is left that a further cause must explain: less is the first one's formulation
-RIGHT = 0.2  # log-misfit per sample up to which nothing is missing: 10 % above the noise
+RIGHT = 0.1  # log-misfit per sample up to which nothing is missing: 5 % above the noise
 FURTHER = 4  # candidates for a further cause that are fitted: those that explain most by their starts alone
 ROUNDS = 3
 RECALIBRATE = "recalibrate"
@@ -26,12 +27,21 @@ CLOSE = 0.03  # of the explainable misfit: candidates that differ by less are no
 
 
 @dataclass(frozen=True)
+class Fold:
+    """Records to fit and records to judge on."""
+
+    fitted: Problem
+    held: Problem
+
+
+@dataclass(frozen=True)
 class Option:
     """A candidate tried in one round, with the model that it makes."""
 
     names: tuple[str, ...]  # of all causes in the model, the new one last
-    fit: Fit
-    score: float  # misfit of the held-out records
+    fits: tuple[Fit, ...]  # one per fold
+    misfit: Array  # (h,) mean squared weighted error of the held-out records, fold after fold
+    score: float  # twice the negative log-likelihood of the held-out records
 
 
 @dataclass(frozen=True)
@@ -48,43 +58,63 @@ class Selection:
 
 
 class Selector:
-    """Fits and compares models; `held` and `fitted` are the cases' numbers."""
+    """Fits and compares models; `whole` holds the records that the final model is fitted to."""
 
-    def __init__(
-        self, problem: Problem, candidates: Sequence[Candidate], fitted: Sequence[int], held: Sequence[int]
-    ) -> None:
-        self.problem, self.fitted, self.held = problem, list(fitted), list(held)
+    def __init__(self, whole: Problem, candidates: Sequence[Candidate], folds: Sequence[Fold]) -> None:
+        self.whole, self.folds = whole, list(folds)
         self.candidates = {c.name: c for c in candidates}
         self.limit = float(norm.isf(ALARM / (len(candidates) + 1))) ** 2
-        self.count = len(problem.rows(held)) - len(held)
+        self.counts = np.concatenate([fold.held.counts for fold in folds])
+        self.count = int(self.counts.sum())
 
-    def option(self, names: Sequence[str], free: Sequence[Free], iterations: int = 12) -> Option:
-        """The model with some causes, fitted."""
-        fit = self.problem.fit(free, {}, self.fitted, iterations)
-        return Option(tuple(names), fit, self.problem.score(fit.misfit, self.held))
+    def logs(self, misfit: Array) -> Array:
+        """Twice the negative log-likelihood (h,) of each held-out record, with a variance not below its noise's."""
+        return np.asarray(self.counts * np.log(np.maximum(LEAST_MISFIT, misfit)))
 
-    def free(self, names: Sequence[str], values: dict[str, float]) -> dict[str, Free]:
-        """The free parameters of a model by name, from the values where they are known."""
-        found = {f.name: f for f in nuisances(self.problem)}
+    def option(self, names: Sequence[str], frees: Sequence[Sequence[Free]], iterations: int = 12) -> Option:
+        """The model with some causes, fitted in every fold from the starts given for it."""
+        fits = tuple(fold.fitted.fit(free, {}, iterations) for fold, free in zip(self.folds, frees, strict=True))
+        held = [fold.held.misfits(fold.held.residual(fit.values)) for fold, fit in zip(self.folds, fits, strict=True)]
+        misfit = np.concatenate(held)
+        return Option(tuple(names), fits, misfit, float(self.logs(misfit).sum()))
+
+    def bare(self) -> Option:
+        """The model with nothing but the nuisances; balances the records for what follows."""
+        found = self.option((), [nuisances(self.whole)] * len(self.folds))
+        for fold, fit in zip(self.folds, found.fits, strict=True):
+            fold.fitted.balance(fit.misfit)
+        return found
+
+    def free(self, names: Sequence[str], values: Mapping[str, float]) -> list[Free]:
+        """The free parameters of a model, from the values where they are known."""
+        found = {f.name: f for f in nuisances(self.whole)}
         for name in names:
-            wanted = base(self.problem) if name == RECALIBRATE else self.candidates[name].free
+            wanted = base(self.whole) if name == RECALIBRATE else self.candidates[name].free
             found |= {f.name: f for f in wanted}
-        return {
-            name: Free(name, min(max(values.get(name, f.start), f.low), f.high), f.low, f.high) for name, f in found.items()
-        }
+        return [Free(name, min(max(values.get(name, f.start), f.low), f.high), f.low, f.high) for name, f in found.items()]
 
-    def beginning(self, current: Option, name: str) -> tuple[float, dict[str, float]]:
-        """Where a further cause begins, and the sum of squares there."""
+    def beginning(self, current: Option, name: str) -> tuple[float, list[dict[str, float]]]:
+        """Where a further cause begins in every fold, and the sum of squares there."""
         if name == RECALIBRATE:
-            return 0.0, {}
-        return best_start(self.problem, self.candidates[name], current.fit.values, self.fitted)
+            return 0.0, [{} for _ in self.folds]
+        found = [
+            best_start(fold.fitted, self.candidates[name], fit.values)
+            for fold, fit in zip(self.folds, current.fits, strict=True)
+        ]
+        return sum(low for low, _ in found), [point for _, point in found]
 
-    def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
+    def extended(self, current: Option, name: str, begin: Sequence[Mapping[str, float]] | None = None) -> Option:
         """The current model with one more cause, from its best start where no other is given."""
-        if begin is None:
-            begin = self.beginning(current, name)[1]
+        points = self.beginning(current, name)[1] if begin is None else begin
         names = [*current.names, name]
-        return self.option(names, list(self.free(names, {**current.fit.values, **begin}).values()))
+        frees = [self.free(names, {**fit.values, **point}) for fit, point in zip(current.fits, points, strict=True)]
+        return self.option(names, frees)
+
+    def refitted(self, option: Option) -> Fit:
+        """The same model fitted to the whole, from the better of the folds' optima."""
+        starts = [self.free(option.names, fit.values) for fit in option.fits]
+        costs = [float(np.sum(self.whole.shared(fit.values) ** 2)) for fit in option.fits]
+        return self.whole.fit(starts[int(np.argmin(costs))], {})
 
     def worth(self, before: float, after: float, first: bool) -> bool:
         """Whether an improvement of the held-out misfit is more than noise, numerics and formulation make."""
@@ -95,8 +125,7 @@ class Selector:
 
     def run(self, progress: Callable[[str], None]) -> Selection:
         """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
-        start = self.option((), nuisances(self.problem))
-        self.problem.balance(start.fit.misfit)
+        start = self.bare()
         recalibrated = self.extended(start, RECALIBRATE)
         current, rounds = start, []
         for n in range(ROUNDS):
@@ -130,7 +159,7 @@ class Selector:
             for name in current.names:
                 progress(f"without {name}")
                 rest = [other for other in current.names if other != name]
-                without.append(self.option(rest, list(self.free(rest, current.fit.values).values())))
+                without.append(self.option(rest, [self.free(rest, fit.values) for fit in current.fits]))
             best = min(without, key=lambda o: o.score)
             if self.worth(best.score, current.score, first=True):
                 return current

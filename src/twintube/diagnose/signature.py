@@ -34,18 +34,16 @@ NEIGHBOURS = 32  # independent frequencies over which the background of the spec
 SLACK = 2.0  # above the threshold of a known background: that of 32 frequencies scatters, and noise is not quite white
 STRONG = 0.02  # of the strongest line of a record: weaker ones may be its side lobes
 SAME_LINE = 3e-3  # relative; mains keep their frequency within 0.2 Hz of 50
-NYQUIST = 0.4  # of the sampling rate, up to which a frequency is sought
+NYQUIST = 0.48  # of the sampling rate, up to which a frequency is sought
 PHASES = 64  # parts of an oscillation, each with a scatter of its own: force jumps wander
 OUTLIER = 4.0  # scatters at which a sample is cut
 
 LOOP = 1024  # phases of the mean oscillation
-STEP, INSIDE, OUTSIDE = (
-    1.03,
-    1.05,
-    (1.5, 2.2),
-)  # steps of a resonance's frequency; half width of its band and of those beside
+STEP = 1.03  # from one frequency sought for a resonance to the next
+INSIDE, OUTSIDE = 1.05, (1.5, 2.2)  # its band reaches to these factors, those beside it lie between these
 SEEN = 4.0  # power of a band relative to noise
 STANDS_OUT = 10 ** (6.0 / 10)  # power of a resonance's band relative to the stronger one beside, in the median record
+LOWEST = 5.0  # [Hz]
 MANY = 5  # records that must show a resonance
 
 PLAYS = np.geomspace(1e-3, 2e-2, 40)  # lengths of play sought, relative to the range of the stroke
@@ -87,10 +85,9 @@ def saturation(records: Sequence[Record]) -> Signature | None:
         near = SAME_FORCE * abs(limit)
         at = [force >= limit - near for force in forces]
         hit = [i for i, some in enumerate(at) if some.any()]
-        values, counts = np.unique(np.concatenate([forces[i] for i in hit]), return_counts=True)
-        below = counts[values < limit - near][-BELOW:]
-        count = sum(int(some.sum()) for some in at)
-        if len(hit) < 2 or not len(below) or count < max(AT_LIMIT, PILE * int(below.max())):
+        depths = (limit - np.concatenate([forces[i] for i in hit])) // max(near, 1e-12)
+        count, *below = np.unique(depths, return_counts=True)[1][: BELOW + 1].tolist()
+        if len(hit) < 2 or not below or count < max(AT_LIMIT, PILE * max(below)):
             continue
         cut = 0.0  # the force as if it went on rising with the velocity from where it first reaches the limit
         for i in hit:
@@ -145,8 +142,8 @@ def unrepeated(record: Record) -> Rest | None:
         found.append((time, np.clip(force, -OUTLIER * scatter[bins], OUTLIER * scatter[bins]), scatter[bins], period))
     if not found:
         return None
-    columns = [np.concatenate(column) for column in zip(*found, strict=True)]
-    return Rest(*columns, dt=float(np.median(np.diff(record.time)))) if columns[2].min() > 0 else None
+    time, force, scatter, period = (np.concatenate(column) for column in zip(*found, strict=True))
+    return Rest(time, force, scatter, period, float(np.median(np.diff(record.time)))) if scatter.min() > 0 else None
 
 
 def peaks(rest: Rest) -> Array:
@@ -212,49 +209,58 @@ def ringing(blocks: Sequence[Harmonic], lines: Sequence[float] = ()) -> Signatur
     Jumps and kinks of the force have spectra that fall smoothly with the frequency, or are shaped by the number of the
     harmonic. A resonance amplifies the harmonics near one frequency, whichever number they have.
     """
-    spectra = []
-    for block in blocks:
-        t, marks = block.time, block.marks
-        if len(marks) < 4:
-            continue
-        phase = np.arange(LOOP) / LOOP
-        loops = np.array([np.interp(t[a] + phase * (t[b] - t[a]), t, block.force) for a, b in itertools.pairwise(marks)])
-        lines_of = rfft(loops, axis=1) * 2 / LOOP
-        number = np.arange(1, int(min(LOOP, float(np.median(np.diff(marks)))) * NYQUIST))
-        mean, noise = lines_of.mean(axis=0)[number], lines_of.var(axis=0)[number] / (len(loops) - 1)
-        # A jump's amplitudes fall with the number of the harmonic.
-        spectra.append((number / float(np.median(np.diff(t[marks]))), np.abs(mean) * number, noise * number**2, number))
-    if len(spectra) < MANY:
-        return None
-    top = max(float(f[-1]) for f, *_ in spectra)
-    best = (0.0, 0.0, 0.0, 0)
-    for middle in np.exp(np.arange(np.log(5.0), np.log(top / OUTSIDE[1]), np.log(STEP))):
-        excess, sizes, speeds = [], [], []
-        for f, amplitude, noise, number in spectra:
-            ranges = [(1 / INSIDE, INSIDE), (1 / OUTSIDE[1], 1 / OUTSIDE[0]), OUTSIDE]
-            bands = [(f > a * middle) & (f < b * middle) for a, b in ranges]
-            if not all(band.any() for band in bands) or f[0] > middle / 3:
-                continue
-            powers = [float(np.mean(amplitude[band] ** 2)) for band in bands]
-            if max(powers) > SEEN * max(float(np.mean(noise[band])) for band in bands):
-                excess.append(powers[0] / max(powers[1:]))
-                sizes.append(float(np.sum((amplitude[bands[0]] / number[bands[0]]) ** 2) / 2))
-                speeds.append(float(f[0]))
-        known = any(abs(middle / f - 1) < 2 * (INSIDE - 1) for f in lines)
-        if len(excess) >= MANY and max(speeds) > APART**2 * min(speeds) and not known and np.median(excess) > best[0]:
-            shown = sum(x > STANDS_OUT for x in excess)
-            best = (float(np.median(excess)), float(middle), float(np.sqrt(np.mean(sizes))), shown)
-    if best[0] < STANDS_OUT:
+    spectra = [spectrum(block) for block in blocks if len(block.marks) > 3]
+    top = max((float(f[-1]) for f, *_ in spectra), default=0.0)
+    found = []
+    for middle in np.exp(np.arange(np.log(LOWEST), np.log(max(LOWEST, top / OUTSIDE[1])), np.log(STEP))):
+        if not any(abs(middle / f - 1) < 2 * (INSIDE - 1) for f in lines):
+            found.append((*resonance(spectra, float(middle)), float(middle)))
+    excess, count, size, frequency = max(found, default=(0.0, 0, 0.0, 0.0))
+    if excess < STANDS_OUT:
         return None
     text = (
-        f"the force rings at about {best[1]:.0f} Hz in {best[3]} records, the same at all velocities "
-        f"({best[2]:.0f} N RMS): the rig or the mounting of the load cell has a resonance"
+        f"the force rings at about {frequency:.0f} Hz in {count} records, the same at all velocities "
+        f"({size:.0f} N RMS): the rig or the mounting of the load cell has a resonance"
     )
-    return Signature("ringing", text, best[2])
+    return Signature("ringing", text, size)
+
+
+def spectrum(block: Harmonic) -> tuple[Array, Array, Array]:
+    """Frequencies [Hz], amplitudes of the mean oscillation and their noise (standard deviation) [N], of its harmonics (n,)."""
+    t, marks = block.time, block.marks
+    phase = np.arange(LOOP) / LOOP
+    loops = [np.interp(t[a] + phase * (t[b] - t[a]), t, block.force) for a, b in itertools.pairwise(marks)]
+    harmonics = rfft(np.array(loops), axis=1) * 2 / LOOP
+    number = np.arange(1, int(min(LOOP, float(np.median(np.diff(marks)))) * NYQUIST))
+    noise = np.sqrt(harmonics.var(axis=0) / (len(loops) - 1))
+    return number / float(np.median(np.diff(t[marks]))), np.abs(harmonics.mean(axis=0))[number], noise[number]
+
+
+def resonance(spectra: Sequence[tuple[Array, Array, Array]], middle: float) -> tuple[float, int, float]:
+    """How far the band around a frequency [Hz] stands out of the median record, in how many it does, force RMS [N].
+
+    Zeros where fewer than MANY records of different velocities can show it.
+    """
+    excess, sizes, speeds = [], [], []
+    for f, amplitude, noise in spectra:
+        bands = [
+            (f > a * middle) & (f < b * middle) for a, b in ((1 / INSIDE, INSIDE), (1 / OUTSIDE[1], 1 / OUTSIDE[0]), OUTSIDE)
+        ]
+        if not all(band.any() for band in bands) or f[0] > middle / 3:
+            continue
+        # The amplitudes of a jump fall with the number of the harmonic.
+        powers, noises = ([float(np.mean((x[band] * f[band]) ** 2)) for band in bands] for x in (amplitude, noise))
+        if max(powers) > SEEN * max(noises):
+            excess.append(powers[0] / max(powers[1:]))
+            sizes.append(float(np.sum(amplitude[bands[0]] ** 2)) / 2)
+            speeds.append(float(f[0]))
+    if len(excess) < MANY or max(speeds) < APART * min(speeds):
+        return 0.0, 0, 0.0
+    return float(np.median(excess)), int(np.sum(np.array(excess) > STANDS_OUT)), float(np.sqrt(np.mean(sizes)))
 
 
 def play(block: Harmonic) -> tuple[float, float, float]:
-    """Length of play [m] that fits a record best, force of the jump after it relative to what varies in it, force RMS [N]."""
+    """Play [m] that fits a record best, force of the jump after it relative to what varies in it, force RMS [N]."""
     sides: dict[float, list[Array]] = {1.0: [], -1.0: []}
     span = float(np.ptp(block.stroke[block.marks[0] : block.marks[-1]]))
     for (a, b), sign in itertools.product(itertools.pairwise(block.marks), sides):
@@ -301,7 +307,7 @@ def backlash(blocks: Sequence[tuple[Record, Harmonic]]) -> Signature | None:
         return None
     size = float(np.sqrt(np.mean([one[2] ** 2 for one in same])))
     text = (
-        f"after each reversal the force stays the same over {1e3 * length:.2f} mm of stroke and then jumps, in {len(same)} of "
-        f"{len(intact)} records of the intact damper: the joint of the rod or of the housing has play"
+        f"after each reversal the force stays the same over {1e3 * length:.2f} mm of stroke and then jumps, in {len(same)} "
+        f"of {len(intact)} records of the intact damper: the joint of the rod or of the housing has play"
     )
     return Signature("backlash", text, size)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from twintube import variables
 from twintube.effects import effects_series
 from twintube.frame import Frame, parts_of, valve_force
+from twintube.kernel.forces import fluid_force
 from twintube.variables import FV_POINTS, var
 
 TITLE = "Compressible oil and late check valves"
@@ -109,9 +110,13 @@ def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> 
     if dt <= 0.0:
         if s.elapsed > 0.0:
             s.F_fluid = s.F_held
+            s.F_mean = s.F_held
         return
     u = fluid_lag_speed(p, s, s.goal_v1, s.k_re, s.k_co, dt)
     s.F_fluid = valve_force(p, u, s.k_re, s.k_co)
+    # The valves see what the column does not give; k_degr may have jumped in between.
+    through = 0.5 * (s.goal_v0 + s.goal_v1) - (fluid_lag_given(p, s.F_fluid) - fluid_lag_given(p, s.F_held)) / dt
+    s.F_mean = fluid_force(p, through) * (s.k_mean if through * dz > 0.0 else s.k_re if through > 0.0 else s.k_co)
     s.W_step = s.F_fluid * (dz - (s.goal_v1 - u) * dt)
 
 

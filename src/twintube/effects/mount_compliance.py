@@ -114,6 +114,7 @@ def mount_compliance_force(p: Parameters, s: State, v: float, dz: float, dt: flo
     if dt <= 0.0 and s.elapsed == 0.0:
         return
     s.F_fluid = s.F_mount + s.F_rod
+    s.F_mean += s.F_rod
     if dt <= 0.0:
         return
     rate = v - s.goal_v1
