@@ -35,3 +35,20 @@ def test_a_step_without_time_changes_nothing(dashpot: Damper) -> None:
     before = (s.F_fluid, s.work)
     model.advance(p, d, s, f, 0.003, 0.1, 0.1, 0.0)
     assert (s.F_fluid, s.work) == before
+
+
+def test_trapped_air_is_a_dead_stroke_that_pressure_closes(dashpot: Damper) -> None:
+    """An isothermal gas of V_air at ambient pressure, on the annulus: the stroke given is V_air/A (1 - p_atm/p)."""
+    damper = dashpot.with_(V_air=1e-6, gas_preload=0, oil_level=1.0)
+    p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    z = given = 0.0
+    for _ in range(400):
+        z += 0.1 * 1e-4
+        model.advance(p, d, s, f, z, 0.1, 0.1, 1e-4)
+        # What the valves pass is the force over the dashpot's constant.
+        given += (0.1 - s.F_fluid / 2000.0) * 1e-4
+    assert s.F_fluid == pytest.approx(200.0, rel=0.01)
+    pressure = 1e5 + s.F_fluid / d.A_1
+    assert given == pytest.approx(1e-6 / d.A_1 * (1 - 1e5 / pressure), rel=0.01)

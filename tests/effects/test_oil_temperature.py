@@ -35,3 +35,11 @@ def test_rest_recovers() -> None:
     assert forces[2] == pytest.approx(neutral, rel=1e-9)
     # What is gone after one time constant of the cooling is 1 - 1/e of the heat.
     assert math.log(forces[1] / neutral) / math.log(forces[0] / neutral) == pytest.approx(math.exp(-59.9 / 60), rel=0.01)
+
+
+def test_a_warm_start_thins_the_oil_from_the_beginning() -> None:
+    block = harmonic_block(0.262)
+    base = load("SA8")
+    plain = simulate(base, block.stroke, block.velocity)
+    warm = simulate(base.with_(fade_heat=1e-4, H_start=500.0, cooling_time=5.0), block.stroke, block.velocity, block.time)
+    assert warm.F_fluid[0] == pytest.approx(plain.F_fluid[0] * math.exp(-0.05))

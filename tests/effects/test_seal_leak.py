@@ -36,3 +36,17 @@ def test_force_falls_over_the_measurement(sa8: Damper) -> None:
     result = simulate(sa8.with_(leak_film=1.5e-5), block.stroke, block.velocity, block.time)
     works = np.diff(result.work[block.marks])
     assert works[-1] < 0.8 * works[0]
+
+
+@pytest.mark.parametrize("power", [0.0, 0.5, 1.0, 2.0])
+def test_the_loss_per_time_goes_with_a_power_of_the_speed(power: float) -> None:
+    p = load("SA8").with_(leak_film=1e-6, leak_power=power).parameters
+    lost = []
+    for speed in (0.1, 0.4):
+        d, s, f = blank(Derived), blank(State), blank(Flow)
+        model.set_up(p, d)
+        model.start(p, d, s, 0.0)
+        for i in range(1, 51):
+            model.advance(p, d, s, f, speed * 1e-3 * i, speed, speed, 1e-3)
+        lost.append(s.V_lost)
+    assert lost[1] / lost[0] == pytest.approx(4.0**power, rel=1e-9)

@@ -15,6 +15,7 @@ ELEMENTS = [
     ({"C_mount": 5e-6, "tau_mount": 0.004}, 0.004),
     ({"C_fluid": 5e-6, "C_fluid_co": 5e-6}, 0.0),
 ]
+MASS = 3.0  # [kg]
 
 
 @pytest.mark.parametrize(("element", "tau"), ELEMENTS)
@@ -65,3 +66,14 @@ def test_stable_in_steps_of_1_ms_and_in_64_samples(sa8: Damper, element: dict[st
             times, z, v = oscillations(velocity, 0.045, 2, dt)
             error = simulate(damper, z, v, times).force - np.interp(times, t, fine)
             assert np.sqrt(np.mean(error**2)) < 0.1 * np.sqrt(np.mean(fine**2)), (velocity, dt)
+
+
+@pytest.mark.parametrize("omega", [5.0, 60.0])
+def test_the_rod_s_mass_lies_between_rubber_and_valves(dashpot: Damper, omega: float) -> None:
+    t, z, v = oscillations(0.02 * omega, 0.02, 6, 5e-4)
+    force = simulate(dashpot.with_(C_mount=5e-6, tau_mount=0.002, m_rod=MASS), z, v, t).force
+    last = t > t[-1] * 4 / 6
+    found = 2 * np.mean(force[last] * np.exp(-1j * omega * t[last]))
+    rubber = 1j * omega * 5e-6 / (1 + 1j * omega * 0.002)
+    exact = 0.02 * omega / (1 / (D + 1j * omega * MASS) + rubber)
+    assert abs(found / exact - 1) < 0.01

@@ -48,3 +48,19 @@ def test_k_stays_between_its_values(sa8: Damper) -> None:
     result = simulate(sa8.with_(build_up=0.03), block.stroke, block.velocity)
     assert result.k_degr.min() >= 0.0
     assert result.k_degr.max() <= 1.0
+
+
+def test_part_of_the_rise_comes_before_the_gas_has_run_out() -> None:
+    p = load("SA7").with_(oil_level=0.35, gas_preload=0, build_up=0.01, early_share=0.5).parameters
+    d, s, f = blank(Derived), blank(State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    edge = s.V1_gas / d.A_1
+    found = []
+    for i in range(1, 2001):
+        model.advance(p, d, s, f, (edge + 0.03) * i / 2000, 0.04, 0.04, 0.0)
+        found.append((s.z - edge, f.k_degr, s.k_degr))
+    for x, k, mean in found[1:]:
+        exact = 0.5 * max(0.0, 1 + x / 0.01) ** 2 if x < 0 else 1 - 0.5 * math.exp(-x / 0.01)
+        assert k == pytest.approx(exact, abs=0.01)
+        assert mean == pytest.approx(k, abs=0.01)

@@ -23,6 +23,7 @@ NUMERICS = 3e-3  # of a record's peak force: what sampling and the time step of 
 STEP = 1e-3  # of a parameter's range: step of a derivative
 PRIOR = 0.5  # of a parameter's range: standard deviation of a weak pull to its start, which keeps idle ones in place
 ITERATIONS = 12
+ENOUGH = 1e-4  # relative change of the cost or the parameters at which a fit ends; a cause must change the cost by percents
 PARTS = 3  # steps of the model per interval
 
 
@@ -142,7 +143,9 @@ class Problem:
             return np.vstack([J, np.diag(scaled / PRIOR)])
 
         if free:
-            found = least_squares(errors, u0, jac=slopes, bounds=(0.0, 1.0), max_nfev=iterations, x_scale=1.0)
+            found = least_squares(
+                errors, u0, jac=slopes, bounds=(0.0, 1.0), max_nfev=iterations, x_scale=1.0, ftol=ENOUGH, xtol=ENOUGH
+            )
             u = found.x
             J = slopes(u)
             covariance = self.robust(J, errors(u)) * np.outer(width, width)

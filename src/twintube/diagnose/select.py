@@ -19,9 +19,12 @@ ALARM = 0.01  # of a cause where there is none, by noise
 LEAST_MISFIT = 0.5  # below the noise: no record gains from being fitted better than that
 WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: below it the model's numerics decide
 NEXT = 0.5  # least share of what is left that a further cause must explain: less is the first one's formulation
+BESIDE = 0.1  # least share of the whole misfit that a further cause must explain
 RIGHT = 0.1  # log-misfit per sample up to which nothing is missing: 5 % above the noise
-FURTHER = 4  # candidates for a further cause that are fitted: those that explain most by their starts alone
+FIRST, FURTHER = 9, 4  # candidates for the first and a further cause that are fitted: those with the best starts
 ROUNDS = 3
+FEW = 2  # held-out records up to which one may decide alone
+ACTS = 1e-4  # of its range: a strength below it is neutral
 RECALIBRATE = "recalibrate"
 CLOSE = 0.03  # of the explainable misfit: candidates that differ by less are not told apart
 
@@ -116,12 +119,30 @@ class Selector:
         costs = [float(np.sum(self.whole.shared(fit.values) ** 2)) for fit in option.fits]
         return self.whole.fit(starts[int(np.argmin(costs))], {})
 
-    def worth(self, before: float, after: float, first: bool) -> bool:
-        """Whether an improvement of the held-out misfit is more than noise, numerics and formulation make."""
-        gained = before - after
+    def worth(self, before: Option, after: Option, whole: float | None = None) -> bool:
+        """Whether an improvement of the held-out misfit is more than noise, numerics and formulation make.
+
+        `whole` is the misfit without any cause, for a cause beside others.
+        """
+        by_record = self.logs(before.misfit) - self.logs(after.misfit)
+        gained = float(by_record.sum())
         if gained <= self.limit or gained <= WORTH * self.count:
             return False
-        return first or removed(before, after, self.count) >= NEXT
+        if len(by_record) > FEW and gained - float(by_record.max()) <= self.limit:
+            return False  # one record alone decides
+        return whole is None or (removed(before.score, after.score, self.count) >= NEXT and gained >= BESIDE * whole)
+
+    def acts(self, option: Option) -> bool:
+        """Whether the new cause of an option is off its neutral value in every fold."""
+        name = option.names[-1]
+        if name == RECALIBRATE:
+            return True
+        candidate = self.candidates[name]
+        strengths = [f for f in candidate.free if f.name in candidate.strength]
+        neutral = {f.name: f.start for f in strengths}
+        return all(
+            any(abs(fit.values[f.name] - neutral[f.name]) > ACTS * f.width for f in strengths) for fit in option.fits
+        )
 
     def run(self, progress: Callable[[str], None]) -> Selection:
         """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
@@ -136,13 +157,13 @@ class Selector:
                     begins[name] = self.beginning(current, name)
             names = sorted(begins, key=lambda name: begins[name][0])
             options = []
-            for name in names if n == 0 else names[: FURTHER + 1]:
+            for name in names[: 1 + (FIRST if n == 0 else FURTHER)]:
                 progress(f"round {n + 1}: {name}")
                 first = name == RECALIBRATE and n == 0
                 options.append(recalibrated if first else self.extended(current, name, begins[name][1]))
-            options.sort(key=lambda o: o.score)
+            options.sort(key=lambda o: (not self.acts(o), o.score))
             rounds.append(options)
-            if not self.worth(current.score, options[0].score, n == 0):
+            if not self.acts(options[0]) or not self.worth(current, options[0], start.score if n else None):
                 break
             current = options[0]
             if current.score <= RIGHT * self.count:
@@ -161,7 +182,7 @@ class Selector:
                 rest = [other for other in current.names if other != name]
                 without.append(self.option(rest, [self.free(rest, fit.values) for fit in current.fits]))
             best = min(without, key=lambda o: o.score)
-            if self.worth(best.score, current.score, first=True):
+            if self.worth(best, current):
                 return current
             current = best
         return current

@@ -9,6 +9,7 @@ backlash    no force over the same length of stroke after each reversal
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,17 +30,23 @@ BELOW = 10  # ... next below it: quantised forces thin out towards their largest
 
 FALSE_ALARM = 1e-4  # chance that white noise makes a line in one record; a line needs AGREE records
 AGREE = 3
+SHARE = 1 / 3  # of the records whose sampling and excitation let a line be seen, that must show it
+SIDE = 0.1  # of the frequency of a line, up to which others are its side lobes
 PADDING = 4  # bins of the spectrum per independent frequency
-NEIGHBOURS = 32  # independent frequencies over which the background of the spectrum is taken
-SLACK = 2.0  # above the threshold of a known background: that of 32 frequencies scatters, and noise is not quite white
+NEIGHBOURS = 64  # independent frequencies over which the background of the spectrum is taken
+SLACK = 2.0  # above the threshold of a known background: that of few frequencies scatters, and noise is not quite white
 STRONG = 0.02  # of the strongest line of a record: weaker ones may be its side lobes
-SAME_LINE = 3e-3  # relative; mains keep their frequency within 0.2 Hz of 50
+SAME_LINE = 2e-3  # relative; mains keep their frequency within 0.1 Hz of 50
+MAINS = (50, 60)  # [Hz]
 NYQUIST = 0.48  # of the sampling rate, up to which a frequency is sought
 PHASES = 64  # parts of an oscillation, each with a scatter of its own: force jumps wander
 OUTLIER = 4.0  # scatters at which a sample is cut
+LEAST_TURNS = 5  # oscillations of one period
+FADE = 3.0  # of these, in which a force fades
 
 LOOP = 1024  # phases of the mean oscillation
 STEP = 1.03  # from one frequency sought for a resonance to the next
+NEAR = 0.2  # of the frequency, in which the middle of the resonance is sought
 INSIDE, OUTSIDE = 1.05, (1.5, 2.2)  # its band reaches to these factors, those beside it lie between these
 SEEN = 4.0  # power of a band relative to noise
 STANDS_OUT = 10 ** (6.0 / 10)  # power of a resonance's band relative to the stronger one beside, in the median record
@@ -47,7 +54,10 @@ LOWEST = 5.0  # [Hz]
 MANY = 5  # records that must show a resonance
 
 PLAYS = np.geomspace(1e-3, 2e-2, 40)  # lengths of play sought, relative to the range of the stroke
-JUMP = 12.0  # force after the play relative to what varies in it; a compliance reaches 8
+AFTER, LATER = (1.25, 1.6), (2.0, 2.5)  # stretches behind the play, relative to it ...
+AT_ONCE = 0.6  # ... and least force of the first relative to the second: a spring that hardens has less
+EVEN = 1e-3  # of the largest force: the least that a force is taken to vary
+JUMP = 20.0  # force after the play relative to what varies in it: hardly 15 by chance, more than 30 of a play
 SAME_PLAY = 1.25  # plays within this factor are the same
 
 
@@ -108,42 +118,56 @@ class Rest:
     """What does not repeat from oscillation to oscillation, arrays (n,)."""
 
     time: Array  # [s]
-    force: Array  # [N] less the mean of the oscillations before and after, outliers cut
+    force: Array  # [N] less what repeats, outliers cut
     scatter: Array  # [N] its usual size at that phase
-    period: Array  # [s] of the oscillation
+    every: Array  # (m,) [s] times of the whole record
+    turns: list[list[tuple[int, int]]]  # begin and end in `every` of the oscillations of each stretch
+    period: float  # [s] of the shortest oscillation
     dt: float  # [s]
 
     def amplitude(self, frequency: float) -> float:
-        """Amplitude [N] of a line in the force; the differences take 1 - cos(2 pi f T) of it."""
-        gain = 1.0 - np.cos(2 * np.pi * frequency * self.period)
-        turned = np.exp(-2j * np.pi * frequency * self.time)
-        return float(2 * np.abs(np.sum(gain * self.force * turned)) / max(float(np.sum(gain**2)), 1e-9))
+        """Amplitude [N] of a line in the force: that of a swing of 1 N which loses the same with what repeats."""
+        swing = np.exp(2j * np.pi * frequency * self.every)
+        probe = np.concatenate([less_repeated(self.every, swing, turns) for turns in self.turns])
+        return 2 * float(np.abs(np.vdot(probe, self.force)) / np.vdot(probe, probe).real)
+
+
+def less_repeated(t: Array, force: NDArray[Any], turns: Sequence[tuple[int, int]]) -> NDArray[Any]:
+    """The force [N] of oscillations (n,), less a constant, a trend and a fade of it at each phase."""
+    grid = np.linspace(0.0, 1.0, int(np.median(np.diff(turns))) + 1)
+    number = np.arange(len(turns))
+    shapes = np.column_stack([np.ones(len(turns)), number, np.exp(-number / FADE)])
+    loops = np.array([np.interp(t[a] + grid * (t[b] - t[a]), t, force) for a, b in turns])
+    repeated = shapes @ (np.linalg.pinv(shapes) @ loops)
+    pairs = zip(turns, repeated, strict=True)
+    return np.concatenate([force[a:b] - np.interp((t[a:b] - t[a]) / (t[b] - t[a]), grid, row) for (a, b), row in pairs])
 
 
 def unrepeated(record: Record) -> Rest | None:
-    """What is left of a record's oscillations; None where fewer than three follow another."""
-    found: list[tuple[Array, Array, Array, Array]] = []
+    """What is left of a record's oscillations; None where there are too few of one period.
+
+    White noise stays white in it but for the harmonics of the excitation.
+    """
+    t, found, stretches = record.time, [], []
     for part in segments(record.time, record.stroke):
-        marks = part[beginnings(record.stroke[part])]
-        rows = []
-        for before, a, b, after in zip(marks, marks[1:], marks[2:], marks[3:], strict=False):
-            t = record.time
-            phase = (t[a:b] - t[a]) / (t[b] - t[a])
-            others = [np.interp(t[i] + phase * (t[j] - t[i]), t, record.force) for i, j in ((before, a), (b, after))]
-            rows.append((t[a:b], record.force[a:b] - (others[0] + others[1]) / 2, phase, np.full(b - a, t[b] - t[a])))
-        if not rows:
+        marks = part[beginnings(record.stroke[part])].tolist()
+        usual = np.median(np.diff(t[marks])) if len(marks) > 1 else 0.0
+        turns = [(a, b) for a, b in itertools.pairwise(marks) if usual / APART < t[b] - t[a] < usual * APART]
+        if len(turns) < LEAST_TURNS:
             continue
-        time, force, phase, period = (np.concatenate(column) for column in zip(*rows, strict=True))
-        usual = float(np.median(np.abs(force)))
-        bins = (phase * PHASES).astype(int)
-        scatter = np.full(PHASES, usual)
-        for k in np.unique(bins):
-            scatter[k] = max(float(np.median(np.abs(force[bins == k]))), usual / 2)
-        found.append((time, np.clip(force, -OUTLIER * scatter[bins], OUTLIER * scatter[bins]), scatter[bins], period))
+        force = less_repeated(t, record.force, turns)
+        bins = np.concatenate([(PHASES * (t[a:b] - t[a]) / (t[b] - t[a])).astype(int) for a, b in turns])
+        size = np.abs(force)
+        medians = np.array([np.median(size[bins == k]) if np.any(bins == k) else 0.0 for k in range(PHASES)])
+        scatter = np.maximum(medians, np.median(size) / 2)[bins]
+        time = np.concatenate([t[a:b] for a, b in turns])
+        found.append((time, np.clip(force, -OUTLIER * scatter, OUTLIER * scatter), scatter))
+        stretches.append(turns)
     if not found:
         return None
-    time, force, scatter, period = (np.concatenate(column) for column in zip(*found, strict=True))
-    return Rest(time, force, scatter, period, float(np.median(np.diff(record.time)))) if scatter.min() > 0 else None
+    time, force, scatter = (np.concatenate(column) for column in zip(*found, strict=True))
+    period = float(min(t[b] - t[a] for turns in stretches for a, b in turns))
+    return Rest(time, force, scatter, t, stretches, period, float(np.median(np.diff(t)))) if scatter.min() > 0 else None
 
 
 def peaks(rest: Rest) -> Array:
@@ -163,7 +187,7 @@ def peaks(rest: Rest) -> Array:
     rows = power[: len(power) // block * block].reshape(-1, block)
     ratio = (rows / np.maximum(np.median(rows, axis=1, keepdims=True) / np.log(2), 1e-300)).ravel()
     f = f[: len(ratio)]
-    used = (f > 3 / rest.period.min()) & (f < NYQUIST / rest.dt)
+    used = (f > 3 / rest.period) & (f < NYQUIST / rest.dt)
     ratio = np.where(used, ratio, 0.0)
     least = max(SLACK * np.log(max(2, used.sum()) / FALSE_ALARM), STRONG * float(ratio.max(initial=0.0)))
     top = np.flatnonzero(ratio > least)
@@ -182,25 +206,33 @@ def line(records: Sequence[Record]) -> tuple[Signature | None, list[float]]:
     while any(len(top) for top in tops):
         f = max((top[0] for top in tops if len(top)), key=lambda row: float(row[1]))[0]
         with_it = [i for i, top in enumerate(tops) if len(top) and np.any(np.abs(top[:, 0] / f - 1) < SAME_LINE)]
-        periods = [float(rests[i].period.min()) for i in with_it]
-        could = [r for r in rests if 3 / r.period.min() < f < NYQUIST / r.dt]
-        if len(with_it) >= max(AGREE, len(could) / 4) and max(periods) > APART * min(periods):
+        periods = [rests[i].period for i in with_it]
+        could = [r for r in rests if 3 / r.period < f < NYQUIST / r.dt]
+        if len(with_it) >= max(AGREE, SHARE * len(could)) and max(periods) > APART * min(periods):
             own = [tops[i][np.argmax(np.abs(tops[i][:, 0] / f - 1) < SAME_LINE), 0] for i in with_it]
             sizes = [rests[i].amplitude(float(x)) for i, x in zip(with_it, own, strict=True)]
             found.append((float(np.median(own)), float(np.median(sizes)), len(with_it)))
         # A line's side lobes are no lines of their own.
-        tops = [top[np.abs(top[:, 0] - f) > max(1.0, 5 * SAME_LINE * f)] for top in tops]
+        tops = [top[np.abs(top[:, 0] / f - 1) > SIDE] for top in tops]
     if not found:
         return None, []
     found = sorted(found, key=lambda one: -one[1])[:4]
-    told = ", ".join(f"{f:.2f} Hz ({a:.0f} N)" for f, a, _ in found)
-    mains = next((m for m in (50, 60) if abs(found[0][0] / m - 1) < 2 * SAME_LINE), None)
-    guess = f"hum of the {mains} Hz mains" if mains else "hum or a vibration of the machine"
+    told = ", ".join(f"{f:.2f} Hz ({a:.3g} N)" for f, a, _ in found)
+    rate = float(np.median([1 / rest.dt for rest in rests]))
+    guess = next((f"hum of the {m} Hz mains" for m in MAINS if same(found[0][0], m)), "hum or a vibration of the machine")
+    for m in MAINS:
+        if m > rate / 2 and same(found[0][0], abs(m - rate * round(m / rate))):
+            guess = f"hum of the {m} Hz mains, as seen by sampling at {rate:.0f} Hz"
     text = (
         f"the force swings at {told} in {max(n for *_, n in found)} of {len(records)} records "
         f"whatever the excitation: {guess}"
     )
     return Signature("line", text, float(np.sqrt(sum(a**2 for _, a, _ in found) / 2))), [f for f, *_ in found]
+
+
+def same(f: float, other: float) -> bool:
+    """Whether two frequencies are one as far as mains and sampling keep theirs."""
+    return abs(f - other) < 2 * SAME_LINE * other
 
 
 def ringing(blocks: Sequence[Harmonic], lines: Sequence[float] = ()) -> Signature | None:
@@ -215,9 +247,14 @@ def ringing(blocks: Sequence[Harmonic], lines: Sequence[float] = ()) -> Signatur
     for middle in np.exp(np.arange(np.log(LOWEST), np.log(max(LOWEST, top / OUTSIDE[1])), np.log(STEP))):
         if not any(abs(middle / f - 1) < 2 * (INSIDE - 1) for f in lines):
             found.append((*resonance(spectra, float(middle)), float(middle)))
-    excess, count, size, frequency = max(found, default=(0.0, 0, 0.0, 0.0))
+    excess, count, size, middle = max(found, default=(0.0, 0, 0.0, 0.0))
     if excess < STANDS_OUT:
         return None
+    # The band that stands out most is not always in the middle of the resonance.
+    near = [
+        (f[some], amplitude[some] * f[some]) for f, amplitude, _ in spectra if (some := np.abs(f / middle - 1) < NEAR).any()
+    ]
+    frequency = float(np.median([f[np.argmax(weighted)] for f, weighted in near]))
     text = (
         f"the force rings at about {frequency:.0f} Hz in {count} records, the same at all velocities "
         f"({size:.0f} N RMS): the rig or the mounting of the load cell has a resonance"
@@ -226,7 +263,7 @@ def ringing(blocks: Sequence[Harmonic], lines: Sequence[float] = ()) -> Signatur
 
 
 def spectrum(block: Harmonic) -> tuple[Array, Array, Array]:
-    """Frequencies [Hz], amplitudes of the mean oscillation and their noise (standard deviation) [N], of its harmonics (n,)."""
+    """Frequencies [Hz], amplitudes and their noise [N] of the harmonics (n,) of the mean oscillation."""
     t, marks = block.time, block.marks
     phase = np.arange(LOOP) / LOOP
     loops = [np.interp(t[a] + phase * (t[b] - t[a]), t, block.force) for a, b in itertools.pairwise(marks)]
@@ -268,17 +305,19 @@ def play(block: Harmonic) -> tuple[float, float, float]:
         rows = slice(turn, turn + (b - a) // 4)
         sides[sign].append(np.column_stack([sign * (block.stroke[turn] - block.stroke[rows]), block.force[rows]]))
     both = [np.concatenate(some) for some in sides.values()]
+    least = EVEN * float(np.abs(both[0][:, 1]).max())
     best = (0.0, 0.0, 0.0)
     for length in PLAYS * span:
         # Just after the reversal the stroke hardly moves and friction still turns.
         inner = [means(side, np.linspace(0.2, 0.9, 4) * length) for side in both]
-        outer = [means(side, np.array([1.25, 1.6]) * length) for side in both]
-        jump = float(outer[0][0] - outer[1][0])
-        varies = float(np.std(np.concatenate(inner)))
-        if np.isfinite(jump) and varies > 0 and abs(jump) / varies > best[1]:
+        jump, later = (
+            abs(float(np.subtract(*(means(side, np.array(some) * length)[0] for side in both)))) for some in (AFTER, LATER)
+        )
+        varies = max(float(np.std(np.concatenate(inner))), least)
+        if jump > AT_ONCE * later and jump / varies > best[1]:
             # A sine is within the length after two reversals for this share of the time.
             share = np.arccos(np.clip(1 - 2 * length / span, -1, 1)) / np.pi
-            best = (float(length), abs(jump) / varies, abs(jump) / 2 * float(np.sqrt(share)))
+            best = (float(length), jump / varies, jump / 2 * float(np.sqrt(share)))
     return best
 
 
@@ -302,12 +341,12 @@ def backlash(blocks: Sequence[tuple[Record, Harmonic]]) -> Signature | None:
     if not clear:
         return None
     length = float(np.median([one[0] for one in clear]))
-    same = [one for one in clear if 1 / SAME_PLAY < one[0] / length < SAME_PLAY]
-    if len(same) < max(AGREE, 0.6 * len(intact)):
+    alike = [one for one in clear if 1 / SAME_PLAY < one[0] / length < SAME_PLAY]
+    if len(alike) < max(AGREE, 0.6 * len(intact)):
         return None
-    size = float(np.sqrt(np.mean([one[2] ** 2 for one in same])))
+    size = float(np.sqrt(np.mean([one[2] ** 2 for one in alike])))
     text = (
-        f"after each reversal the force stays the same over {1e3 * length:.2f} mm of stroke and then jumps, in {len(same)} "
+        f"after each reversal the force stays the same over {1e3 * length:.2f} mm of stroke and then jumps, in {len(alike)} "
         f"of {len(intact)} records of the intact damper: the joint of the rod or of the housing has play"
     )
     return Signature("backlash", text, size)

@@ -62,19 +62,21 @@ def mount_compliance_excess(p: Parameters, d: Derived, s: State, z: float, v: fl
 
 
 def mount_compliance_speed(p: Parameters, d: Derived, s: State, z: float, v: float, dt: float) -> float:
-    """The speed [m/s] at the valves for which rubber and damper agree: bracketed, then regula falsi (Illinois)."""
-    low = 0.0
+    """The speed [m/s] at the valves for which rubber and damper agree: bracketed about the last one, then regula falsi."""
+    low = s.u_valve
     r_low = mount_compliance_excess(p, d, s, z, v, dt, low)
     if r_low == 0.0:
-        return 0.0
-    side = 1.0 if r_low > 0.0 else -1.0
-    high = side * max(abs(v), 0.01)
+        return low
+    # The excess falls with the speed.
+    way = (1.0 if r_low > 0.0 else -1.0) * max(0.05 * abs(v - low), 1e-3)
+    high = low + way
     r_high = mount_compliance_excess(p, d, s, z, v, dt, high)
     n = 0
-    while r_high * side > 0.0 and n < 60:
+    while r_high * r_low > 0.0 and n < 60:
         low = high
         r_low = r_high
-        high *= 2.0
+        way *= 3.0
+        high += way
         r_high = mount_compliance_excess(p, d, s, z, v, dt, high)
         n += 1
     n = 0

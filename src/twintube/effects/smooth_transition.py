@@ -70,12 +70,11 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
         s.k_mixed = f.k_mean
         s.x_free = 0.0
         f.k_mean += rise
-        s.k_degr = f.k_mean
+        f.k_degr = f.k_mean
     elif side != 0.0:
         k = s.k_full_re if side > 0.0 else s.k_full_co
         if dz != 0.0:
-            # Where the sample turns the direction, k_degr is the new one's already.
-            k = f.k_mean if s.x_free > 0.0 or v * side <= 0.0 else s.k_degr
+            k = f.k_mean if s.x_free > 0.0 else f.k_degr
         step = max(0.0, k - s.k_mixed)
         free = abs(dz)
         if s.x_free == 0.0 and step > 0.0:
@@ -84,14 +83,15 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
         missing = step * (1.0 - p.early_share) * math.exp(-s.x_free / p.build_up)
         way = free / p.build_up
         if abs(dz) > 0.0:
-            f.k_mean -= missing * (1.0 - math.exp(-way)) * p.build_up / abs(dz)
+            early = (1.0 - free / abs(dz)) * step * p.early_share
+            f.k_mean = max(0.0, f.k_mean + early - missing * (1.0 - math.exp(-way)) * p.build_up / abs(dz))
         s.x_free += free
-        s.k_degr = k - missing * math.exp(-way)
+        f.k_degr = k - missing * math.exp(-way)
         if side > 0.0:
             s.k_full_re = k
         else:
             s.k_full_co = k
-    f.k_degr = s.k_degr
+    s.k_degr = f.k_mean if dz != 0.0 else f.k_degr
     turned = 1.0 if v > 0.0 else -1.0 if v < 0.0 else s.k_side
     if turned != s.k_side:
         # The kernel has settled k_degr for the new direction.
