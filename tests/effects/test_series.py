@@ -46,7 +46,9 @@ def test_slow_motion_does_not_show_it(dashpot: Damper, element: dict[str, Any]) 
     assert np.abs(force - D * v)[20:].max() < 0.01 * D * 0.005
 
 
-@pytest.mark.parametrize("element", [{"C_mount": 1e-6}, {"C_mount": 1e-5}, {"C_fluid": 1e-5, "C_fluid_co": 1e-5, "V_air": 1e-6}])
+@pytest.mark.parametrize(
+    "element", [{"C_mount": 1e-6}, {"C_mount": 1e-5}, {"C_fluid": 1e-5, "C_fluid_co": 1e-5, "V_air": 1e-6}]
+)
 def test_the_loop_is_the_dissipated_work(sa8: Damper, element: dict[str, Any]) -> None:
     block = harmonic_block(0.524, dt=5e-4, rest=5.0)
     result = simulate(sa8.with_(**element), block.stroke, block.velocity, block.time)
@@ -56,7 +58,9 @@ def test_the_loop_is_the_dissipated_work(sa8: Damper, element: dict[str, Any]) -
         assert result.work[b] - result.work[a] == pytest.approx(loop, rel=0.01)
 
 
-@pytest.mark.parametrize("element", [{"C_mount": 1e-6}, {"C_mount": 2e-5}, {"C_fluid": 2e-5, "C_fluid_co": 2e-5, "V_air": 1e-6}])
+@pytest.mark.parametrize(
+    "element", [{"C_mount": 1e-6}, {"C_mount": 2e-5}, {"C_fluid": 2e-5, "C_fluid_co": 2e-5, "V_air": 1e-6}]
+)
 def test_stable_in_steps_of_1_ms_and_in_64_samples(sa8: Damper, element: dict[str, Any]) -> None:
     damper = sa8.with_(**element)
     for velocity in (0.05, 0.524, 1.572):

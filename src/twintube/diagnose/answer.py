@@ -17,6 +17,7 @@ from twintube.diagnose.where import describe, maps
 from twintube.parameters import Damper
 
 EXPLAINED = 0.5  # least share of the explainable squared error that causes must explain to be named
+SHOWS = 0.3  # of the base model's error: a signature that stands for less is only mentioned
 LEVEL = 1.96  # standard deviations of a 95 % interval
 
 
@@ -33,7 +34,7 @@ def answer(
     predicted = {r.case.name for r in held}
     order = [case.name for case in problem.cases]
     records = sorted([*held, *(r for r in fitted if r.case.name not in predicted)], key=lambda r: order.index(r.case.name))
-    outside = [one for one in seen if one.size > taken_away(records)]
+    outside = [one for one in seen if one.size > SHOWS * rms(held)]
     verdict = "unexplained" if outside else judged(selection, selector, close)
     n = selection.count
     effective = [name for name in selection.chosen if name != RECALIBRATE]
@@ -81,9 +82,9 @@ def judged(selection: Selection, selector: Selector, close: Sequence[Option]) ->
     return "ambiguous" if close else "cause"
 
 
-def taken_away(records: Sequence[RecordResult]) -> float:
-    """Force RMS [N] by which the extended model differs from the base one."""
-    return float(np.sqrt(np.mean(np.concatenate([(r.extended - r.base)[1:] ** 2 for r in records]))))
+def rms(records: Sequence[RecordResult]) -> float:
+    """Force error of the base model [N]."""
+    return float(np.sqrt(np.mean(np.concatenate([(r.base - r.measured)[1:] ** 2 for r in records]))))
 
 
 def rivals(selection: Selection) -> list[Option]:

@@ -140,9 +140,7 @@ class Selector:
         candidate = self.candidates[name]
         strengths = [f for f in candidate.free if f.name in candidate.strength]
         neutral = {f.name: f.start for f in strengths}
-        return all(
-            any(abs(fit.values[f.name] - neutral[f.name]) > ACTS * f.width for f in strengths) for fit in option.fits
-        )
+        return all(any(abs(fit.values[f.name] - neutral[f.name]) > ACTS * f.width for f in strengths) for fit in option.fits)
 
     def run(self, progress: Callable[[str], None]) -> Selection:
         """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
