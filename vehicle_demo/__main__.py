@@ -3,6 +3,7 @@
 import json
 import tempfile
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,22 +11,37 @@ import typer
 from tqdm import tqdm
 
 import build_fmu
-from twintube import road
+from twintube import effects, road
 from twintube.drive import CORNERS, axle
 from twintube.parameters import Damper, ParameterError, load
 from twintube.quarter_car import Car, static_load
+from twintube.variables import fmi_name
 from vehicle_demo.damper_fmu import FmuError
 from vehicle_demo.measures import measures
 from vehicle_demo.ride import Case, Ride, heights, ride
 
 SPEEDS = (30.0, 50.0)  # [km/h]
+FIGURES = ("dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share")
+WIDTHS = (5, 7, 6, 9, 7, 6, 6, 10, 9)  # of the table's columns
 LEVELS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
 
 
-def cases() -> list[Case]:
-    """Intact, all oil levels without preload, and the scalar-factor damper of variant 1, at both speeds."""
+def strengths(damper: Damper) -> tuple[str, ...]:
+    """The FMU's names of the strengths of the damper's effects."""
+    table = {item.name: item for item in fields(effects.Parameters)}
+    return tuple(fmi_name(table[name]) for name in effects.neutral(damper.parameters))
+
+
+def cases(off: tuple[str, ...]) -> list[Case]:
+    """Intact, all oil levels without preload, and the scalar-factor damper of variant 1, at both speeds.
+
+    Where the damper has effects, also the same without them, their strengths `off`.
+    """
     found = []
     for speed in SPEEDS:
+        if off:
+            found.append(Case(speed, 1.0, 1, off=off))
+            found += [Case(speed, level, 0, off=off) for level in LEVELS]
         found.append(Case(speed, 1.0, 1))
         found += [Case(speed, level, 0) for level in LEVELS]
         found += [Case(speed, level, 0, scalar=True) for level in LEVELS]
@@ -42,9 +58,8 @@ def run(fmu: Path, car: Car, case: Case, seconds: float, dt: float, seed: int) -
     return ride(fmu, car, case, heights(case, seconds, dt, seed), dt)
 
 
-def run_all(fmu: Path, car: Car, seconds: float, dt: float, seed: int) -> list[Ride]:
-    """All cases on all cores, in the order of `cases`."""
-    todo = cases()
+def run_all(fmu: Path, car: Car, todo: list[Case], seconds: float, dt: float, seed: int) -> list[Ride]:
+    """All cases on all cores, in their order."""
     with ProcessPoolExecutor() as pool:
         futures = {pool.submit(run, fmu, car, case, seconds, dt, seed): i for i, case in enumerate(todo)}
         done = {}
@@ -61,17 +76,21 @@ def summary(damper: Damper, car: Car, rides: list[Ride], seconds: float, dt: flo
     speeds = []
     for speed in SPEEDS:
         of_speed = [r for r in rides if r.case.speed_kmh == speed]
-        full = [measures(r, static) for r in of_speed if not r.case.scalar]
+        full = [measures(r, static) for r in of_speed if not r.case.scalar and not r.case.off]
+        plain = {(r.case.oil_level, r.case.gas_preload): measures(r, static) for r in of_speed if r.case.off}
+        for entry in full:
+            if plain:
+                other = plain[entry["oil_level"], entry["gas_preload"]]
+                entry["without_effects"] = {name: other[name] for name in FIGURES}
         scalar = {r.case.oil_level: measures(r, static) for r in of_speed if r.case.scalar}
         for entry in full[1:]:
             other = scalar[entry["oil_level"]]
-            entry["scalar_factor"] = {
-                k: other[k] for k in ("dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share")
-            }
+            entry["scalar_factor"] = {name: other[name] for name in FIGURES}
         speeds.append({"speed_kmh": speed, "intact": full[0], "oil_levels": full[1:]})
     return {
         "damper": damper.name,
         "axle": axle(damper),
+        "effects": list(effects.active(damper.parameters)),
         "assumed": dict(damper.assumed) | {"vehicle": "a corner of a car of the Passat B8 class, see twintube.quarter_car"},
         "road": {
             "class": "D",
@@ -89,15 +108,19 @@ def summary(damper: Damper, car: Car, rides: list[Ride], seconds: float, dt: flo
 
 def table(result: dict[str, Any]) -> str:
     """The figures for the terminal."""
-    lines = [f"{'km/h':>5} {'oil':>7} {'DLC':>6} {'scalar':>7} {'RMS N':>6} {'min N':>6} {'no contact':>10} {'damper J':>9}"]
+    plain = "no effect" if result["effects"] else ""
+    head = ("km/h", "oil", "DLC", plain, "scalar", "RMS N", "min N", "no contact", "damper J")
+    lines = [" ".join(f"{name:>{width}}" for name, width in zip(head, WIDTHS, strict=True))]
     for block in result["speeds"]:
         for entry in [block["intact"], *block["oil_levels"]]:
             name = "intact" if entry["gas_preload"] else f"{entry['oil_level']:.0%}"
             scalar = f"{entry['scalar_factor']['dlc']:.3f}" if "scalar_factor" in entry else ""
-            lines.append(
-                f"{block['speed_kmh']:5.0f} {name:>7} {entry['dlc']:6.3f} {scalar:>7} {entry['wheel_load_rms_N']:6.0f} "
-                f"{entry['min_wheel_load_N']:6.0f} {entry['contact_loss_share']:10.2%} {entry['damping_work_J']:9.0f}"
-            )
+            plain = f"{entry['without_effects']['dlc']:.3f}" if "without_effects" in entry else ""
+            cells = (
+                f"{block['speed_kmh']:.0f}", name, f"{entry['dlc']:.3f}", plain, scalar, f"{entry['wheel_load_rms_N']:.0f}",
+                f"{entry['min_wheel_load_N']:.0f}", f"{entry['contact_loss_share']:.2%}", f"{entry['damping_work_J']:.0f}",
+            )  # fmt: skip
+            lines.append(" ".join(f"{cell:>{width}}" for cell, width in zip(cells, WIDTHS, strict=True)))
     return "\n".join(lines)
 
 
@@ -112,7 +135,10 @@ def main(
     step_ms: Annotated[float, typer.Option(help="Communication step [ms].", min=0.05, max=1.0)] = 1.0,
     seed: Annotated[int, typer.Option(help="Seed of the road.")] = 1,
 ) -> None:
-    """Drive a quarter car over a class D road with the damper FMU, from intact to 30 % oil."""
+    """Drive a quarter car over a class D road with the damper FMU, from intact to 30 % oil.
+
+    A damper with effects, such as the extended.toml of a diagnosis, is driven without them too, which shows what they do.
+    """
     from vehicle_demo.pictures import draw
 
     try:
@@ -121,7 +147,7 @@ def main(
         output.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory() as folder:
             fmu = build_fmu.build(chosen, Path(folder))
-            rides = run_all(fmu, car, seconds, step_ms * 1e-3, seed)
+            rides = run_all(fmu, car, cases(strengths(chosen)), seconds, step_ms * 1e-3, seed)
         result = summary(chosen, car, rides, seconds, step_ms * 1e-3, seed)
         pictures = draw(output, chosen, rides, result)
         part = output / "summary.json.part"

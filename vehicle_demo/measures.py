@@ -33,7 +33,7 @@ def measures(ride: Ride, static: float) -> dict[str, Any]:
         "contact_losses": int(np.count_nonzero(lost[1:] & ~lost[:-1])),
         "largest_stroke_mm": float(np.abs(ride.stroke).max() * 1e3),
     }
-    if case.scalar:
+    if case.scalar or case.off:
         return found
     found["damping_work_J"] = float(ride.work[-1])
     development = []

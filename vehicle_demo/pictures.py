@@ -40,7 +40,7 @@ def name_of(ride: Ride) -> str:
 
 def chosen(rides: list[Ride], speed: float) -> list[tuple[Ride, str]]:
     """The rides that line plots show, with their colours."""
-    full = [r for r in rides if r.case.speed_kmh == speed and not r.case.scalar]
+    full = [r for r in rides if r.case.speed_kmh == speed and not r.case.scalar and not r.case.off]
     found = [r for r in full if r.case.gas_preload] + [r for r in full if r.case.oil_level in SHOWN]
     return list(zip(found, COLOURS, strict=False))
 
@@ -109,6 +109,11 @@ def dlc(folder: Path, name: str, result: dict[str, Any]) -> Path:
             mfc="white",
             label=f"{speed}, scalar factor (variant 1)",
         )
+        if result["effects"]:
+            plain = [e["without_effects"]["dlc"] for e in block["oil_levels"]]
+            ax.plot(
+                levels, plain, "^--", color=colour, mfc="white", label=f"{speed}, without {' and '.join(result['effects'])}"
+            )
         ax.axhline(block["intact"]["dlc"], color=colour, lw=0.8, ls="--", label=f"{speed}, intact")
     ax.set_xlabel("oil level [%], gas preload lost")
     ax.set_ylabel("dynamic load coefficient [1]")

@@ -23,12 +23,17 @@ EVERY = 20  # steps between two records of the volumes
 
 @dataclass(frozen=True)
 class Case:
-    """What is driven: `scalar` replaces the degradation model by the paper's variant 1, the oil level as a factor."""
+    """What is driven.
+
+    `scalar` replaces the degradation model by the paper's variant 1, the oil level as a factor; `off` are parameters of the
+    FMU that are set to 0: the strengths of effects, for the damper without them.
+    """
 
     speed_kmh: float
     oil_level: float
     gas_preload: int
     scalar: bool = False
+    off: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -67,7 +72,7 @@ def ride(fmu: Path, car: Car, case: Case, height: Array, dt: float) -> Ride:
     stroke, velocity, force, load = (np.empty(n) for _ in range(4))
     work, volumes = np.empty(len(range(0, n, EVERY))), np.empty((len(range(0, n, EVERY)), len(VOLUMES)))
     level, preload = (1.0, 0) if case.scalar else (case.oil_level, case.gas_preload)
-    with DamperFmu(fmu, oil_level=level, gas_preload=preload) as damper:
+    with DamperFmu(fmu, oil_level=level, gas_preload=preload, **dict.fromkeys(case.off, 0.0)) as damper:
         precondition(damper)
         started = damper.outputs()["work"]
         m = blank(Motion)

@@ -7,7 +7,10 @@ from pathlib import Path
 
 from typer.testing import CliRunner
 
-from vehicle_demo.__main__ import app
+import build_fmu
+from twintube.parameters import load
+from vehicle_demo.__main__ import app, cases, corner, strengths
+from vehicle_demo.ride import Case, heights, ride
 
 ROOT = Path(__file__).parents[2]
 
@@ -41,3 +44,19 @@ def test_demo_answers_bad_input_with_one_line(tmp_path: Path) -> None:
     run = CliRunner().invoke(app, ["--output", str(tmp_path / "file" / "x")])
     assert run.exit_code == 2
     assert run.stderr.count("\n") == 1
+
+
+def test_a_damper_with_effects_is_driven_without_them_too(tmp_path: Path) -> None:
+    plain, worn = load("SA8"), load("SA8").with_(wear_re=-0.3, wear_co=-0.3)
+    off = strengths(worn)
+    assert strengths(plain) == ()
+    assert sum(case.off == off for case in cases(off)) == 18
+    case = Case(50.0, 1.0, 1)
+    height = heights(case, 10.0, 1e-3, seed=1)
+    (tmp_path / "b").mkdir()
+    fmu, extended = build_fmu.build(plain, tmp_path), build_fmu.build(worn, tmp_path / "b")
+    car = corner(plain)
+    base = ride(fmu, car, case, height, 1e-3)
+    without = ride(extended, car, Case(50.0, 1.0, 1, off=off), height, 1e-3)
+    assert (without.wheel_load == base.wheel_load).all()
+    assert ride(extended, car, case, height, 1e-3).wheel_load.std() > 1.02 * base.wheel_load.std()
