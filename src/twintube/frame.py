@@ -27,6 +27,7 @@ class Frame(State):
     k_re: float = var("frame", "k_degr", "1", "latest k_degr in rebound, all effects", default=1.0)
     k_co: float = var("frame", "k_degr", "1", "latest k_degr in compression, all effects", default=1.0)
     impulse: float = var("frame", "", "N.s", "integral of the damper's force over the time since the start", default=0.0)
+    F_valve: float = var("frame", "F_Fl", "N", "fluid force at the valves at the end of the step", default=0.0)
     F_mean: float = var("frame", "F_Fl", "N", "mean of the fluid force over the time of the step", default=0.0)
     k_mean: float = var("frame", "k_degr", "1", "mean of k_degr over the step, all effects", default=1.0)
     W_step: float = var("frame", "W", "J", "work dissipated in the step", default=0.0)

@@ -107,6 +107,7 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     s.k_mean = f.k_mean * effects_scale_fluid(p, s, dz)
     s.F_mean = 0.5 * (fluid_force(p, s.goal_v0) + F_1) * s.k_mean
     s.W_step = s.F_mean * dz
+    s.F_valve = s.F_fluid
     effects_force(p, s, v1, dz, dt)
     s.W_step += 0.5 * (friction + s.F_friction) * dz
     s.impulse += (s.F_mean + 0.5 * (friction + s.F_friction + gas + s.F_gas)) * dt

@@ -1,4 +1,4 @@
-"""Mount and oil column, the two elements in series with the valves, against the complex impedance of linear ones."""
+"""Mount and oil columns, in series with the valves: the mount against the complex impedance of a linear one."""
 
 from typing import Any
 
@@ -13,7 +13,6 @@ D = 2000.0  # [N s/m] of the dashpot
 ELEMENTS = [
     ({"C_mount": 5e-6, "tau_mount": 0.0}, 0.0),
     ({"C_mount": 5e-6, "tau_mount": 0.004}, 0.004),
-    ({"C_fluid": 5e-6, "C_fluid_co": 5e-6}, 0.0),
 ]
 MASS = 3.0  # [kg]
 

@@ -77,9 +77,9 @@ def judged(selection: Selection, selector: Selector, close: Sequence[Option]) ->
         return "unexplained"
     if not chosen:
         return "recalibrate"
-    if selector.candidates[chosen[0]].fault:
-        return "measurement_fault"
-    return "ambiguous" if close else "cause"
+    if close:
+        return "ambiguous"
+    return "measurement_fault" if selector.candidates[chosen[0]].fault else "cause"
 
 
 def rms(records: Sequence[RecordResult]) -> float:

@@ -30,6 +30,8 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     dataset, fault = read(path)
     cases = prepare(dataset)
     folds, remarks = split(dataset.title, cases)
+    if not any(case.intact for case in cases):
+        remarks.append("no record of the intact damper: what is wrong in every state looks like an effect of the oil loss")
     problem = recorded = Problem(dataset.damper, cases)
     wrong, problem = unit_error(problem)
     if fault is not None:

@@ -17,7 +17,7 @@ names; the interpreter executes its text, `compiled.py` joins it to the kernel.
     scale_friction  (p, v) -> factor                  of the friction force at the velocity v
     elastic         (p, z) -> force [N]               beside the gas force, no work
     series          (p, s, F, dt) -> speed [m/s]      taken up in series with the valves at the fluid force F
-    force           (p, s, v, dz, dt)                 s.F_fluid, s.F_mean, s.W_step where the force has a memory
+    force           (p, s, v, dz, dt)                 s.F_fluid, s.F_valve, s.F_mean, s.W_step of a force with memory
     finish          (p, s, dt)                        what follows from forces and work
 """
 

@@ -1,7 +1,8 @@
-"""Compressible oil with trapped air: an oil column in series with the valves, a Maxwell element on the fluid force.
+"""Compressible oil with trapped air: oil columns in series with the valves, Maxwell elements on the fluid force.
 
-The column gives by x(F) under the force F, and the force obeys dx(F)/dt = v - u(F), u being the speed at which the valves
-make F. Oil and walls give linearly. Trapped air gives as an ideal gas at constant temperature: V_air (1/p_0 - 1/p), which is
+There is one column for each direction; while the pressure of one is still being relieved, that of the other builds up. A
+column gives by x(F) under its force F, which obeys dx(F)/dt = v - u(F), u being the speed at which the valves make F, as
+long as that is positive. Oil and walls give linearly. Trapped air gives as an ideal gas at constant temperature: V_air (1/p_0 - 1/p), which is
 soft at small forces only. Rebound presses on the annulus, compression on the rod's area. One implicit Euler step is
 solved exactly, segment by segment of the F-v curve. The flows of the phases still follow the stroke.
 """
@@ -10,7 +11,6 @@ import math
 from dataclasses import dataclass
 
 from twintube import variables
-from twintube.effects import effects_series
 from twintube.frame import Frame, parts_of, valve_force
 from twintube.kernel.forces import fluid_force
 from twintube.variables import FV_POINTS, var
@@ -41,9 +41,10 @@ class Parameters(variables.Parameters):
 
 @dataclass(slots=True)
 class State(Frame):
-    """The force in the oil column."""
+    """The forces in the oil columns."""
 
-    F_held: float = var("fluid_lag", "F_Fl", "N", "fluid force at the end of the last step", default=0.0)
+    F_held_re: float = var("fluid_lag", "F_Fl", "N", "force of the rebound column at the end of the last step", default=0.0)
+    F_held_co: float = var("fluid_lag", "F_Fl", "N", "force of the compression column, a magnitude", default=0.0)
 
 
 def fluid_lag_parts(p: Parameters, dt: float) -> int:
@@ -66,8 +67,8 @@ def fluid_lag_given(p: Parameters, F: float) -> float:
 
 
 def fluid_lag_series(p: Parameters, s: State, F: float, dt: float) -> float:
-    """Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]."""
-    return (fluid_lag_given(p, F) - fluid_lag_given(p, s.F_held)) / dt
+    """Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]; for an element in series."""
+    return (fluid_lag_given(p, F) - fluid_lag_given(p, s.F_held_re - s.F_held_co)) / dt
 
 
 def fluid_lag_inverse(
@@ -97,29 +98,40 @@ def fluid_lag_inverse(
     return max(0.0, w - (C + way / (found + F_half)) * found / dt)
 
 
-def fluid_lag_speed(p: Parameters, s: State, v: float, k_re: float, k_co: float, dt: float) -> float:
-    """Speed at the valves [m/s] after a step of `dt` > 0 [s] that ends at the piston velocity `v` [m/s]."""
-    w = v - effects_series(p, s, 0.0, dt)
-    if w >= 0.0:
-        return fluid_lag_inverse(p, w, k_re, 1.0, p.v_re, p.F_re, dt)
-    return -fluid_lag_inverse(p, -w, k_co, -1.0, p.v_co, p.F_co, dt)
-
-
 def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:
-    """The fluid force with the memory of the oil column; a step without time leaves it, but for the first."""
+    """The fluid force with the memory of the oil columns; a step without time leaves it, but for the first."""
     if dt <= 0.0:
         if s.elapsed > 0.0:
-            s.F_fluid = s.F_held
-            s.F_mean = s.F_held
+            s.F_fluid = s.F_held_re - s.F_held_co
+            s.F_valve = s.F_fluid
+            s.F_mean = s.F_fluid
         return
-    u = fluid_lag_speed(p, s, s.goal_v1, s.k_re, s.k_co, dt)
-    s.F_fluid = valve_force(p, u, s.k_re, s.k_co)
+    half = 0.5 * (s.goal_v0 + s.goal_v1)
+    before = fluid_lag_given(p, s.F_held_re) / dt
+    w = s.goal_v1 + before
+    u = fluid_lag_inverse(p, w, s.k_re, 1.0, p.v_re, p.F_re, dt) if w > 0.0 else 0.0
+    F = valve_force(p, u, s.k_re, s.k_co)
     # The valves see what the column does not give; k_degr may have jumped in between.
-    through = 0.5 * (s.goal_v0 + s.goal_v1) - (fluid_lag_given(p, s.F_fluid) - fluid_lag_given(p, s.F_held)) / dt
-    s.F_mean = fluid_force(p, through) * (s.k_mean if through * dz > 0.0 else s.k_re if through > 0.0 else s.k_co)
-    s.W_step = s.F_fluid * (dz - (s.goal_v1 - u) * dt)
+    through = max(0.0, half + before - fluid_lag_given(p, F) / dt)
+    s.F_mean = fluid_force(p, through) * (s.k_mean if dz > 0.0 else s.k_re)
+    s.F_fluid = F
+    s.W_step = F * u * dt
+    before = fluid_lag_given(p, -s.F_held_co) / dt
+    w = s.goal_v1 + before
+    u = -fluid_lag_inverse(p, -w, s.k_co, -1.0, p.v_co, p.F_co, dt) if w < 0.0 else 0.0
+    F = valve_force(p, u, s.k_re, s.k_co)
+    through = min(0.0, half + before - fluid_lag_given(p, F) / dt)
+    if through < 0.0:
+        s.F_mean += fluid_force(p, through) * (s.k_mean if dz < 0.0 else s.k_co)
+    s.F_held_re = s.F_fluid
+    s.F_held_co = -F
+    s.F_fluid += F
+    s.F_valve = s.F_fluid
+    s.W_step += F * u * dt
 
 
 def fluid_lag_finish(p: Parameters, s: State, dt: float) -> None:
-    """Remember the force."""
-    s.F_held = s.F_fluid
+    """Remember the force where it is not that of the columns: at the start, or with another element in series."""
+    if s.F_valve != s.F_held_re - s.F_held_co:
+        s.F_held_re = max(0.0, s.F_valve)
+        s.F_held_co = max(0.0, -s.F_valve)

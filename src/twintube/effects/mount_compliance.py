@@ -115,6 +115,7 @@ def mount_compliance_force(p: Parameters, s: State, v: float, dz: float, dt: flo
     """The force that the rubber lets through, and the rubber's own loss."""
     if dt <= 0.0 and s.elapsed == 0.0:
         return
+    s.F_valve = s.F_mount
     s.F_fluid = s.F_mount + s.F_rod
     s.F_mean += s.F_rod
     if dt <= 0.0:
