@@ -97,10 +97,13 @@ def share(some: list[bool]) -> float:
 
 
 def bench_diagnosis(seeds: int) -> dict[str, Any]:
-    """The confusion matrix, `seeds` datasets of each kind with strengths 0.5 to 1.5, and the shares of the contract."""
-    found = sorted(
-        outcomes([(kind, FIRST_SEED + n, None) for n in range(seeds) for kind in KINDS]), key=lambda o: (o.kind, o.seed)
-    )
+    """`seeds` datasets of each kind with strengths 0.5 to 1.5."""
+    return shares(list(outcomes([(kind, FIRST_SEED + n, None) for n in range(seeds) for kind in KINDS])))
+
+
+def shares(found: list[Outcome]) -> dict[str, Any]:
+    """The confusion matrix and the shares of the contract."""
+    found = sorted(found, key=lambda o: (o.kind, o.seed))
     matrix = {kind: dict(Counter(o.answer for o in found if o.kind == kind).most_common()) for kind in KINDS}
     inside = [o for o in found if o.kind not in OUTSIDE]
     gains = [(o.gain, o.true_gain) for o in found if np.isfinite(o.true_gain) and o.true_gain > 0]

@@ -9,6 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from blind_trials.trials import Trial, dataset, trial, write
+from twintube import effects
 from twintube.cli import app
 from twintube.diagnose import Diagnosis, diagnose
 from twintube.diagnose.fit import Free, Problem
@@ -71,6 +72,41 @@ def test_valve_wear_is_found_and_gains_on_held_out_records(tmp_path: Path) -> No
     assert found.errors["heldout"]["extended"].force_rmse_N < found.errors["heldout"]["base"].force_rmse_N
     assert found.extended.parameters.wear_re != 0.0  # type: ignore[attr-defined]
     assert found.extended.sources["valve_wear"] == "found by diagnosis"
+
+
+@pytest.mark.parametrize(
+    ("kind", "named"),
+    [
+        ("mount_compliance", {"mount_compliance"}),
+        pytest.param("fluid_lag", {"fluid_lag"}, marks=pytest.mark.slow),
+        ("oil_level_error+valve_wear", {"oil_level_error", "valve_wear"}),
+    ],
+)
+def test_look_alikes_and_pairs_are_told_apart(kind: str, named: set[str], tmp_path: Path) -> None:
+    found = answered(kind, tmp_path)
+    assert found.verdict == "cause"
+    assert {cause.effect for cause in found.causes} == named
+    assert found.errors["heldout"]["extended"].force_rmse_N < found.errors["heldout"]["base"].force_rmse_N
+    assert set(effects.active(found.extended.parameters)) == named
+
+
+def test_what_no_effect_makes_is_unexplained_and_described(tmp_path: Path) -> None:
+    found = answered("backlash", tmp_path)
+    assert (found.verdict, found.causes) == ("unexplained", [])
+    assert "play" in found.sentence
+    assert found.extended.parameters == load("SA8").parameters
+
+
+def test_what_the_records_cannot_tell_apart_is_ambiguous(tmp_path: Path) -> None:
+    """Without the intact state, which has its preload, a zero of the load cell is the force of a residual pressure."""
+    hidden = trial("force_offset", 2001, blocks=BLOCKS)
+    records = [r for r in hidden.records if not r.gas_preload]
+    found = diagnose(write(replace(hidden, records=records), tmp_path))
+    assert found.verdict == "ambiguous"
+    named = {found.causes[0].effect, *(other.effect for other in found.alternatives)}
+    assert {"gas_spring", "force_offset"} <= named
+    assert found.next_measurements
+    assert any("no record of the intact damper" in remark for remark in found.remarks)
 
 
 def test_zero_of_the_load_cell_is_a_fault_of_the_measurement(tmp_path: Path) -> None:

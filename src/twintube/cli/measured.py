@@ -138,7 +138,7 @@ def diagnose(
 ) -> None:
     """Find what the simulation gets wrong, name the cause and extend the model, judged on held-out records.
 
-    Experimental: how often it is right is stated in docs/diagnosis.md.
+    How often it is right is stated in docs/diagnosis.md.
     """
     from twintube.diagnose import as_json
     from twintube.diagnose import diagnose as run

@@ -1,6 +1,8 @@
 """Diagnosis: where the simulation differs from measured data, why, and what the extended model gains.
 
-prepare.py (records), fit.py (least squares), candidates.py (effects and faults), select.py (which of them), result.py.
+prepare.py (records), faults.py (sign, unit), signature.py (causes outside the catalogue), fit.py (least squares),
+candidates.py (effects and faults), select.py (which of them), answer.py (verdict, gain), where.py (maps), result.py,
+engine.py (all of it).
 """
 
 from twintube.diagnose.engine import diagnose

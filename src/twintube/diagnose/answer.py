@@ -47,7 +47,7 @@ def answer(
     return Diagnosis(
         title=dataset.title,
         verdict=verdict,
-        sentence=sentence(verdict, causes, close, outside),
+        sentence=sentence(verdict, causes, close, outside, removed(selection.start.score, selection.final.score, n)),
         causes=causes,
         alternatives=[
             Alternative(o.names[-1], removed(selection.start.score, o.score, n), apart(selector.candidates[o.names[-1]]))
@@ -102,9 +102,12 @@ def apart(candidate: Candidate) -> str:
 
 
 def simulated(problem: Problem, split: str, models: Sequence[Mapping[str, float]]) -> list[RecordResult]:
-    """The records with their base, recalibrated and extended simulation, read with the last one's zero and delay."""
+    """The records with their base, recalibrated and extended simulation, read with the last one's delay.
+
+    A model with another delay is shifted by what that changes in the measured force, so that its error is its own.
+    """
     measured = problem.target(models[-1])
-    forces = [problem.forces(values) for values in models]
+    forces = [problem.forces(values) + measured - problem.target(values) for values in models]
     found = []
     for case, a, b in zip(problem.cases, problem.starts[:-1], problem.starts[1:], strict=True):
         found.append(RecordResult(case, split, measured[a:b], *(force[a:b] for force in forces)))
@@ -201,8 +204,10 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
     return found
 
 
-def sentence(verdict: str, causes: Sequence[Cause], close: Sequence[Option], outside: Sequence[Signature]) -> str:
-    """The verdict in one sentence."""
+def sentence(
+    verdict: str, causes: Sequence[Cause], close: Sequence[Option], outside: Sequence[Signature], explained: float
+) -> str:
+    """The verdict in one sentence; `explained` is the share of the squared error, in the geometric mean over the records."""
     if outside:
         return f"No known cause explains the records: {outside[0].text}."
     if verdict == "none":
@@ -212,7 +217,7 @@ def sentence(verdict: str, causes: Sequence[Cause], close: Sequence[Option], out
     if verdict == "unexplained":
         return "The simulation is wrong in a way that no known cause explains."
     what = " and ".join(c.title[0].lower() + c.title[1:] for c in causes)
-    gain = f"{100 * causes[0].gain.heldout:.0f} % of the explainable error on held-out records goes away"
+    gain = f"{100 * explained:.0f} % of the explainable squared error of a typical held-out record goes away"
     if verdict == "ambiguous":
         others = " or ".join(o.names[-1].replace("_", " ") for o in close)
         return f"The cause is {what}, or {others}: these records cannot tell them apart ({gain})."

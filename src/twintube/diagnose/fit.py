@@ -24,7 +24,7 @@ STEP = 1e-3  # of a parameter's range: step of a derivative
 PRIOR = 0.5  # of a parameter's range: standard deviation of a weak pull to its start, which keeps idle ones in place
 ITERATIONS = 12
 ENOUGH = 1e-4  # relative change of the cost or the parameters at which a fit ends; a cause must change the cost by percents
-PARTS = 3  # steps of the model per interval
+PARTS = 8  # steps of the model per interval, as effects with a short memory ask for at most: numerics alike in all models
 
 
 @dataclass(frozen=True)

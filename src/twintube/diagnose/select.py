@@ -24,9 +24,9 @@ RIGHT = 0.1  # log-misfit per sample up to which nothing is missing: 5 % above t
 FIRST, FURTHER = 9, 4  # candidates for the first and a further cause that are fitted: those with the best starts
 ROUNDS = 3
 FEW = 2  # held-out records up to which one may decide alone
-ACTS = 1e-4  # of its range: a strength below it is neutral
+ACTS = 1e-3  # of its range: a strength below it is neutral
 RECALIBRATE = "recalibrate"
-CLOSE = 0.03  # of the explainable misfit: candidates that differ by less are not told apart
+CLOSE = 0.01  # of the explainable misfit: candidates that differ by less are not told apart
 
 
 @dataclass(frozen=True)
@@ -166,12 +166,12 @@ class Selector:
             current = options[0]
             if current.score <= RIGHT * self.count:
                 break
-        current = self.pruned(current, progress)
+        current = self.pruned(current, start.score, progress)
         return Selection(
             start, rounds, list(current.names), current, recalibrated, self.count, self.limit
         )  # fmt: skip
 
-    def pruned(self, current: Option, progress: Callable[[str], None]) -> Option:
+    def pruned(self, current: Option, whole: float, progress: Callable[[str], None]) -> Option:
         """Without the causes that the others make superfluous, such as a calibration that stood in for an effect."""
         while len(current.names) > 1:
             without = []
@@ -180,7 +180,7 @@ class Selector:
                 rest = [other for other in current.names if other != name]
                 without.append(self.option(rest, [self.free(rest, fit.values) for fit in current.fits]))
             best = min(without, key=lambda o: o.score)
-            if self.worth(best, current):
+            if self.worth(best, current, whole):
                 return current
             current = best
         return current

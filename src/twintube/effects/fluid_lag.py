@@ -2,9 +2,9 @@
 
 There is one column for each direction; while the pressure of one is still being relieved, that of the other builds up. A
 column gives by x(F) under its force F, which obeys dx(F)/dt = v - u(F), u being the speed at which the valves make F, as
-long as that is positive. Oil and walls give linearly. Trapped air gives as an ideal gas at constant temperature: V_air (1/p_0 - 1/p), which is
-soft at small forces only. Rebound presses on the annulus, compression on the rod's area. One implicit Euler step is
-solved exactly, segment by segment of the F-v curve. The flows of the phases still follow the stroke.
+long as that is positive. Oil and walls give linearly. Trapped air gives as an ideal gas at constant temperature:
+V_air (1/p_0 - 1/p), which is soft at small forces only. Rebound presses on the annulus, compression on the rod's area. One
+implicit Euler step is solved exactly, segment by segment of the F-v curve. The phases still follow the stroke.
 """
 
 import math
