@@ -74,9 +74,9 @@ class Selector:
         """Twice the negative log-likelihood (h,) of each held-out record, with a variance not below its noise's."""
         return np.asarray(self.counts * np.log(np.maximum(LEAST_MISFIT, misfit)))
 
-    def option(self, names: Sequence[str], frees: Sequence[Sequence[Free]], iterations: int = 12) -> Option:
+    def option(self, names: Sequence[str], frees: Sequence[Sequence[Free]]) -> Option:
         """The model with some causes, fitted in every fold from the starts given for it."""
-        fits = tuple(fold.fitted.fit(free, {}, iterations) for fold, free in zip(self.folds, frees, strict=True))
+        fits = tuple(fold.fitted.fit(free, {}) for fold, free in zip(self.folds, frees, strict=True))
         held = [fold.held.misfits(fold.held.residual(fit.values)) for fold, fit in zip(self.folds, fits, strict=True)]
         misfit = np.concatenate(held)
         return Option(tuple(names), fits, misfit, float(self.logs(misfit).sum()))
@@ -86,6 +86,7 @@ class Selector:
         found = self.option((), [nuisances(self.whole)] * len(self.folds))
         for fold, fit in zip(self.folds, found.fits, strict=True):
             fold.fitted.balance(fit.misfit)
+        self.whole.balance(self.whole.misfits(self.whole.residual(found.fits[0].values)))
         return found
 
     def free(self, names: Sequence[str], values: Mapping[str, float]) -> list[Free]:
@@ -130,7 +131,10 @@ class Selector:
             return False
         if len(by_record) > FEW and gained - float(by_record.max()) <= self.limit:
             return False  # one record alone decides
-        return whole is None or (removed(before.score, after.score, self.count) >= NEXT and gained >= BESIDE * whole)
+        if whole is None:
+            return True
+        squares = float(self.counts @ (after.misfit - before.misfit))
+        return squares <= 0.0 and gained >= BESIDE * whole and removed(before.score, after.score, self.count) >= NEXT
 
     def acts(self, option: Option) -> bool:
         """Whether the new cause of an option is off its neutral value in every fold."""
@@ -167,9 +171,7 @@ class Selector:
             if current.score <= RIGHT * self.count:
                 break
         current = self.pruned(current, start.score, progress)
-        return Selection(
-            start, rounds, list(current.names), current, recalibrated, self.count, self.limit
-        )  # fmt: skip
+        return Selection(start, rounds, list(current.names), current, recalibrated, self.count, self.limit)
 
     def pruned(self, current: Option, whole: float, progress: Callable[[str], None]) -> Option:
         """Without the causes that the others make superfluous, such as a calibration that stood in for an effect."""
