@@ -220,7 +220,7 @@ def sentence(
     gain = f"{100 * explained:.0f} % of the explainable squared error of a typical held-out record goes away"
     if verdict == "ambiguous":
         others = " or ".join(o.names[-1].replace("_", " ") for o in close)
-        return f"The cause is {what}, or {others}: these records cannot tell them apart ({gain})."
+        return f"Two causes explain the records alike, {what}, and {others}: they cannot be told apart here ({gain})."
     if verdict == "measurement_fault":
         return f"The measurement is faulty: {what} ({gain})."
-    return f"The cause is {what}: {gain}."
+    return f"The cause: {what}. {gain}."
