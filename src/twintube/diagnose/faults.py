@@ -22,7 +22,6 @@ STROKE_UNITS = {
     "mm for in": 1 / 25.4,
 }
 BETTER = 1.5  # log-misfit per sample that another unit must gain: a factor of two in the error is no calibration
-USUAL = (0.5, 2.0)  # of the right scale: the factor must bring the forces there
 
 
 @dataclass(frozen=True)
