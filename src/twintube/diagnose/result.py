@@ -7,6 +7,8 @@ from twintube.arrays import Array
 from twintube.diagnose.prepare import Case
 from twintube.parameters import Damper
 
+VERDICTS = ("cause", "none", "recalibrate", "ambiguous", "unexplained", "measurement_fault")
+
 
 @dataclass(frozen=True)
 class Found:
