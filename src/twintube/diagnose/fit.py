@@ -5,6 +5,7 @@ import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ STEP = 1e-3  # of a parameter's range: step of a derivative
 PRIOR = 0.5  # of a parameter's range: standard deviation of a weak pull to its start, which keeps idle ones in place
 ITERATIONS = 12
 ENOUGH = 1e-4  # relative change of the cost or the parameters at which a fit ends; a cause must change the cost by percents
+REMEMBERED = 32  # latest simulations
 PARTS = 8  # steps of the model per interval, as effects with a short memory ask for at most: numerics alike in all models
 
 
@@ -73,21 +75,31 @@ class Problem:
         self.counts = np.add.reduceat(used.astype(np.int64), self.starts[:-1])
         self.threads = ThreadPoolExecutor(os.cpu_count())
         self.known = {item.name for item in fields(effects.Parameters)}
+        # The measurement's parameters need no simulation of their own.
+        self.simulated = lru_cache(REMEMBERED)(self.simulate)
 
     def with_cases(self, cases: Sequence[Case]) -> "Problem":
         """The same damper with other cases."""
         return Problem(self.given, cases)
 
-    def forces(self, values: Mapping[str, float]) -> Array:
-        """Predicted mean forces (n,) [N], measurement included."""
+    def damping(self, values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
+        """The damper's among the values."""
+        return tuple(sorted((name, value) for name, value in values.items() if name in self.known))
+
+    def simulate(self, changes: Sequence[tuple[str, float]]) -> Array:
+        """Mean forces (n,) [N] of the damper with parameters changed."""
         records = (self.damper.parameters, blank(Derived), blank(effects.State), blank(Flow))
         rows: list[Any] = [compiled.as_row(record)[0] for record in records]
-        for name, value in values.items():
-            if name in self.known:
-                rows[0][name] = value
+        for name, value in changes:
+            rows[0][name] = value
         force, work = np.empty(len(self.z)), np.empty(len(self.z))
         done = compiled.module().run_means(*rows, self.states, self.t, self.z, self.v, self.starts, PARTS, force, work)
         force[self.starts[done] :] = 1e9
+        return force
+
+    def forces(self, values: Mapping[str, float]) -> Array:
+        """Predicted mean forces (n,) [N], measurement included."""
+        force = self.simulated(self.damping(values))
         found: Array = values.get("force_gain", 1.0) * force + values.get("force_offset", 0.0)
         return found
 
@@ -105,8 +117,13 @@ class Problem:
         return self.residual(values) * self.share
 
     def residuals(self, many: Sequence[Mapping[str, float]]) -> list[Array]:
-        """Balanced errors of several parameter sets, shared out to threads."""
-        return list(self.threads.map(self.shared, many))
+        """Balanced errors of several parameter sets, their simulations shared out to threads."""
+        found: list[Array] = []
+        for first in range(0, len(many), REMEMBERED):
+            some = many[first : first + REMEMBERED]
+            list(self.threads.map(self.simulated, {self.damping(values) for values in some}))
+            found += [self.shared(values) for values in some]
+        return found
 
     def balance(self, misfit: Array) -> None:
         """Let every record count alike in what follows: `misfit` (r,) is its mean squared weighted error.
