@@ -152,26 +152,41 @@ class Selector:
         recalibrated = self.extended(start, RECALIBRATE)
         current, rounds = start, []
         for n in range(ROUNDS):
-            begins = {}
-            for name in (RECALIBRATE, *self.candidates):
-                if name not in current.names:
-                    progress(f"round {n + 1}: start of {name}")
-                    begins[name] = self.beginning(current, name)
-            names = sorted(begins, key=lambda name: begins[name][0])
-            options = []
-            for name in names[: 1 + (FIRST if n == 0 else FURTHER)]:
-                progress(f"round {n + 1}: {name}")
-                first = name == RECALIBRATE and n == 0
-                options.append(recalibrated if first else self.extended(current, name, begins[name][1]))
-            options.sort(key=lambda o: (not self.acts(o), o.score))
+            options = self.tried(current, f"round {n + 1}", FURTHER if n else FIRST, progress, () if n else (recalibrated,))
             rounds.append(options)
             if not self.acts(options[0]) or not self.worth(current, options[0], start.score if n else None):
                 break
             current = options[0]
             if current.score <= RIGHT * self.count:
                 break
-        current = self.pruned(current, start.score, progress)
+        current = self.exchanged(self.pruned(current, start.score, progress), progress)
         return Selection(start, rounds, list(current.names), current, recalibrated, self.count, self.limit)
+
+    def tried(
+        self, current: Option, label: str, most: int, progress: Callable[[str], None], known: Sequence[Option] = ()
+    ) -> list[Option]:
+        """The current model with one more cause, best first: the calibration and the `most` with the best starts."""
+        begins = {}
+        for name in (RECALIBRATE, *self.candidates):
+            if name not in current.names:
+                progress(f"{label}: start of {name}")
+                begins[name] = self.beginning(current, name)
+        options = list(known)
+        for name in sorted(begins, key=lambda name: begins[name][0])[: 1 + most]:
+            progress(f"{label}: {name}")
+            if (*current.names, name) not in [option.names for option in options]:
+                options.append(self.extended(current, name, begins[name][1]))
+        return sorted(options, key=lambda o: (not self.acts(o), o.score))
+
+    def exchanged(self, current: Option, progress: Callable[[str], None]) -> Option:
+        """With each of several causes exchanged for another one where that is better: the first was chosen alone."""
+        for name in current.names if len(current.names) > 1 else ():
+            others = [other for other in current.names if other != name]
+            rest = self.option(others, [self.free(others, fit.values) for fit in current.fits])
+            best = self.tried(rest, f"instead of {name}", FURTHER, progress)[0]
+            if self.acts(best) and self.worth(current, best):
+                current = best
+        return current
 
     def pruned(self, current: Option, whole: float, progress: Callable[[str], None]) -> Option:
         """Without the causes that the others make superfluous, such as a calibration that stood in for an effect."""
