@@ -1,1 +1,1 @@
-"""The FMI side of twintube: the pythonfmu slave, its model description and its documentation page."""
+"""The FMI side of twintube: model description and documentation of the FMUs, the native kind and the Python kind."""

@@ -1,72 +1,104 @@
-"""What pythonfmu leaves out of modelDescription.xml: units, bounds, output dependencies, initial unknowns."""
+"""modelDescription.xml of both kinds of FMU, made from the table of variables."""
 
-from dataclasses import fields
+import re
+from collections.abc import Mapping, Sequence
 from xml.etree import ElementTree as ET
 
-from twintube.effects import Parameters
-from twintube.variables import Inputs, Outputs, fmi_name
+from fmu_src.table import Variable, variables
+from twintube import __version__
+from twintube.parameters import Damper
 
-# Exponents of the SI base units, for importers that refuse to connect units they do not know.
-UNITS = {
-    "m": {"m": "1"},
-    "m3": {"m": "3"},
-    "m/s": {"m": "1", "s": "-1"},
-    "kg": {"kg": "1"},
-    "N": {"kg": "1", "m": "1", "s": "-2"},
-    "N/m": {"kg": "1", "s": "-2"},
-    "s": {"s": "1"},
-    "1/s": {"s": "-1"},
-    "m2": {"m": "2"},
-    "m/N": {"kg": "-1", "s": "2"},
-    "1/J": {"kg": "-1", "m": "-2", "s": "2"},
-    "J": {"kg": "1", "m": "2", "s": "-2"},
+# Exponents of the SI base units, for importers that refuse to connect units they do not know, and the quantity's name.
+UNITS: dict[str, tuple[str, dict[str, str]]] = {
+    "m": ("Length", {"m": "1"}),
+    "m3": ("Volume", {"m": "3"}),
+    "m/s": ("Velocity", {"m": "1", "s": "-1"}),
+    "kg": ("Mass", {"kg": "1"}),
+    "N": ("Force", {"kg": "1", "m": "1", "s": "-2"}),
+    "N/m": ("Stiffness", {"kg": "1", "s": "-2"}),
+    "s": ("Time", {"s": "1"}),
+    "1/s": ("Rate", {"s": "-1"}),
+    "m2": ("Area", {"m": "2"}),
+    "m/N": ("Compliance", {"kg": "-1", "s": "2"}),
+    "1/J": ("RelativeChangePerEnergy", {"kg": "-1", "m": "-2", "s": "2"}),
+    "J": ("Energy", {"kg": "1", "m": "2", "s": "-2"}),
+}
+TITLE = "Twin-tube shock absorber after oil and gas loss (Schramm, Zwosta, Prokop 2025): stroke and velocity in, force out"
+EXPERIMENT = {"startTime": "0.0", "stopTime": "2.0", "stepSize": "0.001"}
+CAPABILITIES = {
+    "needsExecutionTool": "false",  # nothing but a Python library in the Python kind; PyFMI refuses FMUs that say true
+    "canHandleVariableCommunicationStepSize": "true",
+    "canBeInstantiatedOnlyOncePerProcess": "false",
+    "canGetAndSetFMUstate": "true",
+    "canSerializeFMUstate": "true",
 }
 
 
-def table() -> dict[str, tuple[str, float | None, float | None]]:
-    """Unit, lower and upper bound by FMI name, arrays without their index."""
-    found = {}
-    for record in (Inputs, Outputs, Parameters):
-        for item in fields(record):
-            meta = item.metadata
-            found[fmi_name(item)] = (meta["unit"], meta["lower"], meta["upper"])
-    return found
+def model_name(damper: Damper) -> str:
+    """The model's name and identifier: an identifier of the C language."""
+    return "twintube_" + re.sub(r"\W", "_", damper.name)
 
 
-def complete(xml: bytes, guid: str, date: str) -> bytes:
-    """The model description with everything that the FMI contract of this project asks for."""
-    root = ET.fromstring(xml)
-    root.set("guid", guid)
-    root.set("generationDateAndTime", date)
-    described = table()
+def scalar(parent: ET.Element, reference: int, variable: Variable) -> str:
+    """Add one variable; returns its unit."""
+    meta = variable.item.metadata
+    attributes = {
+        "name": variable.name,
+        "valueReference": str(reference),
+        "description": meta["description"],
+        "causality": variable.causality,
+        "variability": variable.variability,
+    }
+    element = ET.SubElement(parent, "ScalarVariable", attributes)
+    kind = ET.SubElement(element, "Integer" if variable.integer else "Real")
+    unit: str = meta["unit"] if meta["unit"] in UNITS and not variable.integer else ""
+    if unit:
+        kind.set("declaredType", UNITS[unit][0])
+        kind.set("unit", unit)
+    # The range of the stroke depends on the tube too; the unit checks it.
+    for name, limit in (("min", meta["lower"]), ("max", meta["upper"])):
+        if limit is not None:
+            kind.set(name, str(int(limit)) if variable.integer else repr(float(limit)))
+    if variable.start is not None:
+        kind.set("start", str(int(variable.start)) if variable.integer else repr(float(variable.start)))
+    return unit
+
+
+def described(
+    damper: Damper, guid: str, date: str, capabilities: Mapping[str, str], sources: Sequence[str], categories: Sequence[str]
+) -> bytes:
+    """The model description; `capabilities` of the kind come beside those of both, `sources` are what is to be compiled."""
+    name = model_name(damper)
+    root = ET.Element(
+        "fmiModelDescription", fmiVersion="2.0", modelName=name, guid=guid, description=TITLE, author="twintube",
+        version=__version__, license="MIT", generationTool=f"twintube {__version__}", generationDateAndTime=date,
+        variableNamingConvention="structured",
+    )  # fmt: skip
+    unit = ET.SubElement(root, "CoSimulation", {"modelIdentifier": name, **CAPABILITIES, **capabilities})
+    if sources:
+        files = ET.SubElement(unit, "SourceFiles")
+        for file in sources:
+            ET.SubElement(files, "File", name=file)
+    definitions, types = ET.SubElement(root, "UnitDefinitions"), ET.SubElement(root, "TypeDefinitions")
+    if categories:
+        logs = ET.SubElement(root, "LogCategories")
+        for category in categories:
+            ET.SubElement(logs, "Category", name=category)
+    ET.SubElement(root, "DefaultExperiment", EXPERIMENT)
+    listed, structure = ET.SubElement(root, "ModelVariables"), ET.SubElement(root, "ModelStructure")
+    outputs, initial = ET.SubElement(structure, "Outputs"), ET.SubElement(structure, "InitialUnknowns")
     used = set()
-    variables = root.find("ModelVariables")
-    structure = root.find("ModelStructure")
-    assert variables is not None and structure is not None
-    for variable in variables:
-        unit, lower, upper = described[variable.attrib["name"].split("[")[0]]
-        kind = variable[0]
-        whole = kind.tag == "Integer"
-        if unit in UNITS and not whole:
-            kind.set("unit", unit)
-            used.add(unit)
-        # The range of the stroke depends on the tube; the slave checks it.
-        for name, bound in (("min", lower), ("max", upper)):
-            if bound is not None:
-                kind.set(name, str(int(bound)) if whole else repr(float(bound)))
-    definitions = ET.Element("UnitDefinitions")
-    for name, exponents in UNITS.items():
-        if name in used:
-            ET.SubElement(ET.SubElement(definitions, "Unit", name=name), "BaseUnit", exponents)
-    root.insert([child.tag for child in root].index("CoSimulation") + 1, definitions)
-
-    outputs = structure.find("Outputs")
-    assert outputs is not None
-    initial = ET.SubElement(structure, "InitialUnknowns")
-    for unknown in outputs:
-        # Outputs change in doStep only: no direct feedthrough, so that importers need not iterate.
-        unknown.set("dependencies", "")
-        ET.SubElement(initial, "Unknown", index=unknown.attrib["index"])
+    for i, variable in enumerate(variables(damper)):
+        used.add(scalar(listed, i, variable))
+        if variable.causality == "output":
+            # Outputs change in doStep only: no direct feedthrough, so that importers need not iterate.
+            ET.SubElement(outputs, "Unknown", index=str(i + 1), dependencies="")
+            ET.SubElement(initial, "Unknown", index=str(i + 1))
+    for symbol, (quantity, exponents) in UNITS.items():
+        if symbol in used:
+            ET.SubElement(ET.SubElement(definitions, "Unit", name=symbol), "BaseUnit", exponents)
+            simple = ET.SubElement(types, "SimpleType", name=quantity)
+            ET.SubElement(simple, "Real", quantity=quantity, unit=symbol)
     ET.indent(root)
     body: bytes = ET.tostring(root, encoding="utf-8")
     return b'<?xml version="1.0" encoding="UTF-8"?>\n' + body

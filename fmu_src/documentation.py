@@ -1,8 +1,11 @@
 """The documentation page inside the FMU, made from the table of variables and the parameter set."""
 
+import base64
+import io
 from dataclasses import fields
 from html import escape
 
+from fmu_src import reference
 from twintube import __version__
 from twintube.effects import Parameters
 from twintube.parameters import Damper
@@ -21,12 +24,41 @@ to the communication step; 1 ms is usual.</p>
 <p>A degraded damper must be preconditioned before its force means anything: the paper moves it six times at
 0.05 m/s. At rest the model holds still, however long,
 unless an effect that acts with time is switched on.</p>
+"""
+KINDS = {
+    "native": """
+<p>Compiled code without dependencies for Linux (glibc 2.17 or newer, x86-64), Windows (x86-64) and macOS (x86-64 and arm64);
+the C99 sources are inside, <em>fmi2.c</em> is the one to compile.</p>
+<p>With the first derivative of the velocity set as input derivative, the velocity goes evenly within the coming step; it
+holds for one step only. The stroke's derivative is the velocity and is not needed.</p>
+<p>A refused value or step (stroke beyond the tube, NaN, negative or mistimed step, parameter out of its range) is answered by
+<em>fmi2Error</em>, a log message that names the quantity, its value and the allowed range, and the state as before.</p>
+""",
+    "python": """
 <p>A refused step (stroke beyond the tube, NaN, negative step, parameter out of its range) is answered by
 <em>fmi2Discard</em>, a log message of status Error that names the quantity, its value and the allowed range, and the
 state as before.</p>
 <p>This FMU carries its equations as Python source and runs them in the Python 3.11 or newer of the host computer; it
 needs no package, only that Python's shared library is found.</p>
-"""
+""",
+}
+
+
+def picture(damper: Damper) -> str:
+    """Force over stroke and over velocity in the reference run, as a PNG in a data address."""
+    from matplotlib.figure import Figure
+
+    t, z, v, force, _ = zip(*reference.rows(damper), strict=True)
+    last = slice(len(t) // 2, None)
+    figure = Figure(figsize=(9, 3.2), layout="constrained")
+    for axes, x, label in zip(figure.subplots(1, 2, sharey=True), (z, v), ("stroke [m]", "velocity [m/s]"), strict=True):
+        axes.plot(x[last], force[last], color="#204a87")
+        axes.set_xlabel(label)
+        axes.grid(alpha=0.3)
+    figure.axes[0].set_ylabel("force [N]")
+    data = io.BytesIO()
+    figure.savefig(data, format="png", dpi=110, metadata={"Software": None})
+    return "data:image/png;base64," + base64.b64encode(data.getvalue()).decode()
 
 
 def origin(damper: Damper, name: str, group: str) -> str:
@@ -40,9 +72,10 @@ def origin(damper: Damper, name: str, group: str) -> str:
     return ""
 
 
-def page(damper: Damper) -> str:
-    """One self-contained HTML page."""
+def page(damper: Damper, kind: str) -> str:
+    """One self-contained HTML page for a kind of FMU."""
     rows = []
+    amplitude = reference.AMPLITUDE * damper.parameters.stroke_max
     for record, causality in ((Inputs, "input"), (Outputs, "output"), (Parameters, "parameter")):
         for item in fields(record):
             meta, name = item.metadata, fmi_name(item)
@@ -59,7 +92,10 @@ def page(damper: Damper) -> str:
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>twintube {escape(damper.name)}</title>'
         f"<style>{STYLE}</style><h1>twintube: {escape(damper.name)}</h1><p>{escape(damper.title)}. Semi-physical model of "
         "a twin-tube shock absorber after oil and gas loss, after Schramm, Zwosta, Prokop, Vehicles 2025, 7(1), 26, "
-        f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}<table><tr>"
+        f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}{KINDS[kind]}"
+        f'<figure><img alt="force over stroke and velocity" src="{picture(damper)}"><figcaption>Second half of the reference '
+        f"run in extra/twintube: {reference.FREQUENCY:g} Hz, {amplitude * 1e3:.0f} mm, with the start values of this FMU."
+        "</figcaption></figure><table><tr>"
         + "".join(f"<th>{h}</th>" for h in heads)
         + "</tr>"
         + "\n".join(rows)

@@ -6,6 +6,7 @@ from pathlib import Path
 from types import TracebackType
 
 import fmpy
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
@@ -18,7 +19,7 @@ class FmuError(RuntimeError):
 
 
 class DamperFmu:
-    """The FMU initialised at stroke 0 with the given start values; a context manager that frees it.
+    """The FMU initialised at stroke 0 with the given start values; a context manager that frees it. Raises FmuError.
 
     fmpy's own calls convert and log on every call (4 to 7 us); the raw handles with buffers made once take half of it.
     """
@@ -40,15 +41,20 @@ class DamperFmu:
         callbacks.allocateMemory = fmpy.fmi2.fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
         callbacks.freeMemory = fmpy.fmi2.fmi2CallbackFreeMemoryTYPE(fmpy.free)
         self.fmu.instantiate(callbacks=callbacks, loggingOn=True)
-        for name, value in start_values.items():
-            variable = variables[name]
-            if variable.type == "Integer":
-                self.fmu.setInteger([variable.valueReference], [int(value)])
-            else:
-                self.fmu.setReal([variable.valueReference], [value])
-        self.fmu.setupExperiment(startTime=0.0)
-        self.fmu.enterInitializationMode()
-        self.fmu.exitInitializationMode()
+        try:
+            for name, value in start_values.items():
+                variable = variables[name]
+                if variable.type == "Integer":
+                    self.fmu.setInteger([variable.valueReference], [int(value)])
+                else:
+                    self.fmu.setReal([variable.valueReference], [value])
+            self.fmu.setupExperiment(startTime=0.0)
+            self.fmu.enterInitializationMode()
+            self.fmu.exitInitializationMode()
+        except FMICallException as error:
+            self.fmu.freeInstance()
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise FmuError(f"{error}: " + "; ".join(self.messages[-3:])) from None
         self.time = 0.0
         self._component = self.fmu.component
         self._set, self._step, self._get = self.fmu.dll.fmi2SetReal, self.fmu.dll.fmi2DoStep, self.fmu.dll.fmi2GetReal

@@ -12,7 +12,7 @@ from twintube.variables import Parameters, State, var
 
 # Longest part of a step [s] for effects whose force has a memory of milliseconds, and the most parts of a step.
 PART = 2e-4
-MAX_PARTS = 8
+MAX_PARTS = 8.0
 
 
 @dataclass(slots=True)
@@ -41,4 +41,5 @@ def valve_force(p: Parameters, u: float, k_re: float, k_co: float) -> float:
 
 def parts_of(dt: float) -> int:
     """Number of parts for a step of `dt` [s]."""
-    return max(1, min(MAX_PARTS, math.ceil(dt / PART - 1e-6)))
+    # The smaller one first: C has no integer for the number of parts of a very long step.
+    return max(1, math.ceil(min(MAX_PARTS, dt / PART - 1e-6)))

@@ -75,15 +75,15 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
         k = s.k_full_re if side > 0.0 else s.k_full_co
         if dz != 0.0:
             k = f.k_mean if s.x_free > 0.0 else f.k_degr
-        step = max(0.0, k - s.k_mixed)
+        jump = max(0.0, k - s.k_mixed)
         free = abs(dz)
-        if s.x_free == 0.0 and step > 0.0:
+        if s.x_free == 0.0 and jump > 0.0:
             # In the step in which the gas runs out the kernel's mean tells where.
-            free *= max(0.0, min(1.0, (f.k_mean - s.k_mixed) / step))
-        missing = step * (1.0 - p.early_share) * math.exp(-s.x_free / p.build_up)
+            free *= max(0.0, min(1.0, (f.k_mean - s.k_mixed) / jump))
+        missing = jump * (1.0 - p.early_share) * math.exp(-s.x_free / p.build_up)
         way = free / p.build_up
         if abs(dz) > 0.0:
-            early = (1.0 - free / abs(dz)) * step * p.early_share
+            early = (1.0 - free / abs(dz)) * jump * p.early_share
             f.k_mean = max(0.0, f.k_mean + early - missing * (1.0 - math.exp(-way)) * p.build_up / abs(dz))
         s.x_free += free
         f.k_degr = k - missing * math.exp(-way)

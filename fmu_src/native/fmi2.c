@@ -1,0 +1,408 @@
+/* FMI 2.0 for co-simulation. The equations are in kernel.h, the table of variables with the start values in variables.h.
+
+   For static linking define FMI2_FUNCTION_PREFIX (modelIdentifier_) when this file is compiled; it is the only one to be. */
+#include "damper.h"
+
+#define EVERYWHERE (1 << INSTANTIATED | 1 << INITIALIZING | 1 << STEPPING | 1 << TERMINATED)
+
+static const char *const MODE[] = {"before the initialization", "in the initialization mode", "between the steps", "after the end"};
+
+/* Whether a function may be called now; else a message is logged. */
+static int allowed(struct unit *u, const char *function, int modes)
+{
+    if (u == NULL)
+        return 0;
+    if (modes >> u->m.mode & 1)
+        return 1;
+    refuse(u, "%s: not allowed %s", function, MODE[u->m.mode]);
+    return 0;
+}
+
+static int given(struct unit *u, const char *function, const void *a, const void *b, size_t n)
+{
+    if (n == 0 || (a != NULL && b != NULL))
+        return 1;
+    refuse(u, "%s: null pointer for %u values", function, (unsigned)n);
+    return 0;
+}
+
+/* The variable of a value reference if it has the kind; else NULL and a message. */
+static const struct variable *find(struct unit *u, const char *function, fmi2ValueReference vr, enum kind kind)
+{
+    if (vr < VARIABLES && VARIABLE[vr].kind == kind)
+        return &VARIABLE[vr];
+    refuse(u, "%s: no %s variable has the value reference %u", function, kind == REAL ? "Real" : "Integer", (unsigned)vr);
+    return NULL;
+}
+
+/* Whether a variable may be set now to a value. */
+static int settable(struct unit *u, const struct variable *v, double value)
+{
+    if (v->causality == OUTPUT) {
+        refuse(u, "%s: an output cannot be set", v->name);
+        return 0;
+    }
+    if (v->causality == FIXED && u->m.mode == STEPPING) {
+        refuse(u, "%s: fixed, cannot change after the initialization", v->name);
+        return 0;
+    }
+    return in_bounds(u, v, value);
+}
+
+static void *reserve(struct unit *u, size_t size)
+{
+    return u->allocate ? u->allocate(1, size) : calloc(1, size);
+}
+
+static void drop(struct unit *u, void *memory)
+{
+    if (u->release)
+        u->release(memory);
+    else
+        free(memory);
+}
+
+const char *fmi2GetTypesPlatform(void)
+{
+    return fmi2TypesPlatform;
+}
+
+const char *fmi2GetVersion(void)
+{
+    return fmi2Version;
+}
+
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
+{
+    struct unit blank, *u;
+    (void)resources, (void)visible, (void)logging;
+    memset(&blank, 0, sizeof blank);
+    if (functions == NULL)
+        return NULL;
+    /* Warnings and errors are said unless fmi2SetDebugLogging turns them off: there is no other debug output. */
+    blank.log = functions->logger;
+    blank.environment = functions->componentEnvironment;
+    blank.says_errors = blank.says_warnings = 1;
+    blank.name = (char *)(name && *name ? name : "");
+    if (functions->allocateMemory && functions->freeMemory) {
+        blank.allocate = functions->allocateMemory;
+        blank.release = functions->freeMemory;
+    }
+    if (*blank.name == 0)
+        return refuse(&blank, "fmi2Instantiate: the instance has no name"), NULL;
+    if (type != fmi2CoSimulation)
+        return refuse(&blank, "fmi2Instantiate: this FMU is for co-simulation only"), NULL;
+    if (guid == NULL || strcmp(guid, MODEL_GUID) != 0)
+        return refuse(&blank, "fmi2Instantiate: guid = %s: this binary belongs to " MODEL_GUID, guid ? guid : "null"), NULL;
+    u = reserve(&blank, sizeof *u);
+    if (u == NULL)
+        return refuse(&blank, "fmi2Instantiate: no memory"), NULL;
+    *u = blank;
+    u->name = reserve(u, strlen(name) + 1);
+    if (u->name == NULL) {
+        drop(&blank, u);
+        return refuse(&blank, "fmi2Instantiate: no memory"), NULL;
+    }
+    strcpy(u->name, name);
+    restart(&u->m);
+    return u;
+}
+
+void fmi2FreeInstance(fmi2Component c)
+{
+    struct unit *u = c;
+    if (u == NULL)
+        return;
+    drop(u, u->name);
+    drop(u, u);
+}
+
+fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[])
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2SetDebugLogging", EVERYWHERE) || !given(u, "fmi2SetDebugLogging", categories, categories, n))
+        return fmi2Error;
+    for (size_t i = 0; i < n; i++) {
+        if (categories[i] == NULL || (strcmp(categories[i], LOG_ERROR) && strcmp(categories[i], LOG_WARNING)))
+            return refuse(u, "fmi2SetDebugLogging: no category %s", categories[i] ? categories[i] : "null");
+    }
+    for (size_t i = 0; i < n; i++)
+        *(strcmp(categories[i], LOG_ERROR) ? &u->says_warnings : &u->says_errors) = on != 0;
+    if (n == 0)
+        u->says_errors = u->says_warnings = on != 0;
+    return fmi2OK;
+}
+
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance, fmi2Real start,
+                               fmi2Boolean stopDefined, fmi2Real stop)
+{
+    struct unit *u = c;
+    (void)toleranceDefined, (void)tolerance;
+    if (!allowed(u, "fmi2SetupExperiment", 1 << INSTANTIATED) || !inside(u, "start time", start, -1e12, 1e12, "s")
+        || (stopDefined && !(stop >= start) && !inside(u, "stop time", stop, start, 1e12, "s")))
+        return fmi2Error;
+    u->m.time = start;
+    u->m.timed = 1;
+    u->m.stop = stopDefined ? stop : INFINITY;
+    return fmi2OK;
+}
+
+fmi2Status fmi2EnterInitializationMode(fmi2Component c)
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2EnterInitializationMode", 1 << INSTANTIATED))
+        return fmi2Error;
+    u->m.mode = INITIALIZING;
+    return fmi2OK;
+}
+
+fmi2Status fmi2ExitInitializationMode(fmi2Component c)
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2ExitInitializationMode", 1 << INITIALIZING) || !begin(u))
+        return fmi2Error;
+    u->m.mode = STEPPING;
+    return fmi2OK;
+}
+
+fmi2Status fmi2Terminate(fmi2Component c)
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2Terminate", 1 << STEPPING))
+        return fmi2Error;
+    u->m.mode = TERMINATED;
+    return fmi2OK;
+}
+
+fmi2Status fmi2Reset(fmi2Component c)
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2Reset", EVERYWHERE))
+        return fmi2Error;
+    restart(&u->m);
+    return fmi2OK;
+}
+
+/* Before the first step outputs follow from the start values. */
+static int current(struct unit *u)
+{
+    return u->m.mode >= STEPPING || begin(u);
+}
+
+fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2GetReal", EVERYWHERE) || !given(u, "fmi2GetReal", vr, value, n))
+        return fmi2Error;
+    for (size_t i = 0; i < n; i++) {
+        const struct variable *v = find(u, "fmi2GetReal", vr[i], REAL);
+        if (v == NULL || (v->causality == OUTPUT && !current(u)))
+            return fmi2Error;
+        value[i] = *real_of(&u->m, v);
+    }
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Integer value[])
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2GetInteger", EVERYWHERE) || !given(u, "fmi2GetInteger", vr, value, n))
+        return fmi2Error;
+    for (size_t i = 0; i < n; i++) {
+        const struct variable *v = find(u, "fmi2GetInteger", vr[i], INTEGER);
+        if (v == NULL)
+            return fmi2Error;
+        value[i] = (fmi2Integer)*integer_of(&u->m, v);
+    }
+    return fmi2OK;
+}
+
+static void touched(struct memory *m, const struct variable *v)
+{
+    m->stale = m->mode < STEPPING;
+    m->changed |= v->causality != INPUT;
+}
+
+fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[])
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2SetReal", EVERYWHERE & ~(1 << TERMINATED)) || !given(u, "fmi2SetReal", vr, value, n))
+        return fmi2Error;
+    for (size_t i = 0; i < n; i++) {
+        const struct variable *v = find(u, "fmi2SetReal", vr[i], REAL);
+        if (v == NULL || !settable(u, v, value[i]))
+            return fmi2Error;
+    }
+    for (size_t i = 0; i < n; i++) {
+        *real_of(&u->m, &VARIABLE[vr[i]]) = value[i];
+        touched(&u->m, &VARIABLE[vr[i]]);
+    }
+    return fmi2OK;
+}
+
+fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer value[])
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2SetInteger", EVERYWHERE & ~(1 << TERMINATED)) || !given(u, "fmi2SetInteger", vr, value, n))
+        return fmi2Error;
+    for (size_t i = 0; i < n; i++) {
+        const struct variable *v = find(u, "fmi2SetInteger", vr[i], INTEGER);
+        if (v == NULL || !settable(u, v, value[i]))
+            return fmi2Error;
+    }
+    for (size_t i = 0; i < n; i++) {
+        *integer_of(&u->m, &VARIABLE[vr[i]]) = value[i];
+        touched(&u->m, &VARIABLE[vr[i]]);
+    }
+    return fmi2OK;
+}
+
+/* There are no Boolean and no String variables. */
+static fmi2Status none(fmi2Component c, const char *function, const char *kind, size_t n)
+{
+    struct unit *u = c;
+    if (!allowed(u, function, EVERYWHERE))
+        return fmi2Error;
+    return n == 0 ? fmi2OK : refuse(u, "%s: there is no %s variable", function, kind);
+}
+
+fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Boolean value[])
+{
+    (void)vr, (void)value;
+    return none(c, "fmi2GetBoolean", "Boolean", n);
+}
+
+fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2String value[])
+{
+    (void)vr, (void)value;
+    return none(c, "fmi2GetString", "String", n);
+}
+
+fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Boolean value[])
+{
+    (void)vr, (void)value;
+    return none(c, "fmi2SetBoolean", "Boolean", n);
+}
+
+fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2String value[])
+{
+    (void)vr, (void)value;
+    return none(c, "fmi2SetString", "String", n);
+}
+
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[],
+                                       const fmi2Real value[])
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2SetRealInputDerivatives", 1 << INITIALIZING | 1 << STEPPING)
+        || !given(u, "fmi2SetRealInputDerivatives", vr, value, n) || !given(u, "fmi2SetRealInputDerivatives", order, order, n))
+        return fmi2Error;
+    for (size_t i = 0; i < n; i++) {
+        const struct variable *v = find(u, "fmi2SetRealInputDerivatives", vr[i], REAL);
+        if (v == NULL)
+            return fmi2Error;
+        if (v->causality != INPUT || order[i] != 1)
+            return refuse(u, "%s: derivatives are those of inputs and of order 1, not %d", v->name, (int)order[i]);
+        if (!inside(u, "derivative of an input", value[i], -1e6, 1e6, "per second"))
+            return fmi2Error;
+    }
+    for (size_t i = 0; i < n; i++) {
+        /* The derivative of the stroke is the velocity, which is an input itself. */
+        if (VARIABLE[vr[i]].offset == offsetof(struct memory, velocity))
+            u->m.velocity_rate = value[i];
+    }
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[],
+                                        fmi2Real value[])
+{
+    (void)vr, (void)order, (void)value;
+    return none(c, "fmi2GetRealOutputDerivatives", "output derivative of a", n);
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[], size_t n,
+                                        const fmi2ValueReference known[], size_t k, const fmi2Real dknown[], fmi2Real dunknown[])
+{
+    (void)unknown, (void)known, (void)k, (void)dknown, (void)dunknown;
+    return none(c, "fmi2GetDirectionalDerivative", "directional derivative of a", n);
+}
+
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real h, fmi2Boolean noSetPrior)
+{
+    struct unit *u = c;
+    fmi2Status status;
+    double slack;
+    (void)noSetPrior;
+    if (!allowed(u, "fmi2DoStep", 1 << STEPPING) || !inside(u, "communication point", time, -1e12, 1e12, "s")
+        || !inside(u, "communication step", h, 0.0, 1e12, "s"))
+        return fmi2Error;
+    /* Importers add up their steps with rounding, and end with a step that differs by it. */
+    slack = 1e-9 * (1.0 + fabs(time)) + 1e-3 * h;
+    if (u->m.timed && fabs(time - u->m.time) > slack)
+        return refuse(u, "communication point = %.10g s: the last step ended at %.10g s", time, u->m.time);
+    if (time + h > u->m.stop + slack)
+        return refuse(u, "communication step = %g s at %.10g s: beyond the stop time %.10g s", h, time, u->m.stop);
+    u->m.time = time;
+    status = move(u, h);
+    if (status <= fmi2Warning) {
+        u->m.time = time + h;
+        u->m.timed = 1;
+    }
+    return status;
+}
+
+fmi2Status fmi2CancelStep(fmi2Component c)
+{
+    struct unit *u = c;
+    return u ? refuse(u, "fmi2CancelStep: steps are never pending") : fmi2Error;
+}
+
+fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2GetRealStatus", EVERYWHERE) || !given(u, "fmi2GetRealStatus", value, value, 1))
+        return fmi2Error;
+    if (kind != fmi2LastSuccessfulTime)
+        return refuse(u, "fmi2GetRealStatus: only the last successful time is known"), fmi2Discard;
+    *value = u->m.time;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
+{
+    struct unit *u = c;
+    if (!allowed(u, "fmi2GetBooleanStatus", EVERYWHERE) || !given(u, "fmi2GetBooleanStatus", value, value, 1))
+        return fmi2Error;
+    if (kind != fmi2Terminated)
+        return refuse(u, "fmi2GetBooleanStatus: only whether the unit wants to end is known"), fmi2Discard;
+    *value = fmi2False;
+    return fmi2OK;
+}
+
+static fmi2Status pending(fmi2Component c, const char *function)
+{
+    struct unit *u = c;
+    return u ? (refuse(u, "%s: steps are never pending", function), fmi2Discard) : fmi2Error;
+}
+
+fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
+{
+    (void)kind, (void)value;
+    return pending(c, "fmi2GetStatus");
+}
+
+fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
+{
+    (void)kind, (void)value;
+    return pending(c, "fmi2GetIntegerStatus");
+}
+
+fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
+{
+    (void)kind, (void)value;
+    return pending(c, "fmi2GetStringStatus");
+}
+
+#include "state.h"

@@ -1,0 +1,1626 @@
+/* Made by fmu_src/native/translate.py from the Python sources 6ae4ea48be9d7b23; do not edit. */
+#ifndef KERNEL_H
+#define KERNEL_H
+
+#include "subset.h"
+
+struct kernel_Parameters {
+    double oil_level;
+    int64_t gas_preload;
+    double D_a;
+    double D_PR;
+    double D_li;
+    double D_la;
+    double h_l;
+    double dead_length;
+    double V_oil;
+    double stroke_max;
+    array_double_1d v_re;
+    array_double_1d F_re;
+    array_double_1d v_co;
+    array_double_1d F_co;
+    double F_FrS;
+    double sigma_0;
+    double delta_D;
+    double k_high;
+    double v_S;
+    double oil_loss_gain;
+    double F_0;
+    double c_gas;
+    double c_gas_lost;
+    double X_Re;
+    double L_PV;
+    double G_PV;
+    double X_Co1;
+    double X_Co2;
+    double S_BV;
+    double S_BVoil;
+    double S_PV;
+    double S_PVoil;
+    double B;
+    double E;
+    double v_foam;
+    double v_cav;
+    double Y_Co_cav;
+    double Y_Re_cav;
+    int64_t leak_carries_oil;
+    int64_t foam_leaves_with_gas;
+    int64_t foam_decays;
+    int64_t cavitation_foams;
+    int64_t cavitation_needs;
+    double F_stop_re;
+    double onset_re;
+    double F_stop_co;
+    double onset_co;
+    double C_fluid;
+    double C_fluid_co;
+    double V_air;
+    double foam_decay_rate;
+    double redissolution_rate;
+    double c_residual;
+    double F_residual;
+    double C_mount;
+    double tau_mount;
+    double m_rod;
+    double level_error;
+    double fade_heat;
+    double cooling_time;
+    double H_start;
+    double leak_film;
+    double leak_power;
+    double side_load;
+    double v_side;
+    double build_up;
+    double early_share;
+    double wear_re;
+    double wear_co;
+};
+
+struct kernel_Derived {
+    double A_1;
+    double A_2;
+    double A_rod;
+    double half_length;
+    double V_reserve;
+    double F_FrS;
+    double F_0;
+    double c_gas;
+    double W_kPV;
+    double W_kBV_1;
+    double W_kBV_2;
+    double k_Co2;
+    double Y_Co;
+    double Y_Re;
+    int64_t extended;
+};
+
+struct kernel_State {
+    double z;
+    double V1_oil;
+    double V1_gas;
+    double V1_foam;
+    double V1_foam_oil;
+    double V2_oil;
+    double V2_gas;
+    double V2_foam;
+    double V2_foam_oil;
+    double V3_oil;
+    double V3_foam;
+    double V3_foam_oil;
+    double V_cav;
+    double F_D;
+    double k_degr;
+    double F_fluid;
+    double F_friction;
+    double F_gas;
+    double work;
+    double z_rod;
+    double goal_z;
+    double goal_v0;
+    double goal_v1;
+    double k_flow;
+    double k_re;
+    double k_co;
+    double impulse;
+    double F_valve;
+    double F_mean;
+    double k_mean;
+    double W_step;
+    double elapsed;
+    double F_held_re;
+    double F_held_co;
+    double x_mount;
+    double v_piston;
+    double u_valve;
+    double F_mount;
+    double F_rod;
+    double heat;
+    double V_lost;
+    double k_side;
+    double k_mixed;
+    double k_full_re;
+    double k_full_co;
+    double x_free;
+};
+
+struct kernel_Flow {
+    double V1_oil;
+    double V1_gas;
+    double V1_foam;
+    double V1_foam_oil;
+    double V2_oil;
+    double V2_gas;
+    double V2_foam;
+    double V2_foam_oil;
+    double V3_oil;
+    double V3_foam;
+    double V3_foam_oil;
+    double cavitated;
+    double k_degr;
+    double k_mean;
+};
+
+/* Fill `d` from `p`; to be called again after a parameter has changed. */
+static void kernel_prepare(struct kernel_Parameters* p, struct kernel_Derived* d)
+{
+    double lost;
+    bool quiet;
+    double a;
+    d->A_rod = 0.25 * M_PI * p->D_PR * p->D_PR;
+    d->A_2 = 0.25 * M_PI * p->D_li * p->D_li;
+    d->A_1 = d->A_2 - d->A_rod;
+    d->half_length = 0.5 * (p->h_l - p->dead_length);
+    d->V_reserve = 0.25 * M_PI * (p->D_a * p->D_a - p->D_la * p->D_la) * p->h_l;
+    lost = 1.0 - p->gas_preload;
+    d->F_FrS = p->F_FrS * (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
+    d->F_0 = p->gas_preload * p->F_0;
+    d->c_gas = p->gas_preload * p->c_gas + lost * p->c_gas_lost;
+    /* Section 3.2: the force falls from oscillation to oscillation when the damper "contains less than 100 % oil". */
+    quiet = ((p->cavitation_needs >= 1) && (p->gas_preload == 1)) || ((p->cavitation_needs == 2) && (p->oil_level >= 1.0));
+    d->Y_Co = (quiet ? 0.0 : p->Y_Co_cav);
+    d->Y_Re = (quiet ? 0.0 : p->Y_Re_cav);
+    /* Eq. 22: W_kPV reaches its target within one step. Reading B adds the leak to the flow; the force stays X_Re. */
+    d->W_kPV = (1.0 - p->L_PV) * p->X_Re + p->leak_carries_oil * p->L_PV;
+    a = d->A_1 / d->A_2;
+    /* Eq. 27 */
+    d->W_kBV_1 = (1.0 - a) * p->X_Co1;
+    /* Eq. 28 */
+    d->W_kBV_2 = (1.0 - a) * p->X_Co2;
+    /* Eq. 29: W_kBV/(1 - a) + G_PV ((1 - W_kBV) - a)/(1 - a), free of 0/0 where a is 1 */
+    d->k_Co2 = p->X_Co2 + p->G_PV * (1.0 - p->X_Co2);
+}
+
+/* As `fill`, with the volume `oil` [m3]. */
+static void kernel_pour(struct kernel_Derived* d, struct kernel_State* s, double z, double oil)
+{
+    double V1;
+    double V2;
+    V1 = d->A_1 * (d->half_length - z);
+    V2 = d->A_2 * (d->half_length + z);
+    s->z = z;
+    s->V2_oil = double_min(2, oil, V2);
+    s->V1_oil = double_min(2, oil - s->V2_oil, V1);
+    s->V3_oil = oil - s->V2_oil - s->V1_oil;
+    s->V1_gas = V1 - s->V1_oil;
+    s->V2_gas = V2 - s->V2_oil;
+    s->V1_foam = 0.0;
+    s->V1_foam_oil = 0.0;
+    s->V2_foam = 0.0;
+    s->V2_foam_oil = 0.0;
+    s->V3_foam = 0.0;
+    s->V3_foam_oil = 0.0;
+    s->V_cav = 0.0;
+    s->F_D = 0.0;
+    s->k_degr = 1.0;
+    s->F_fluid = 0.0;
+    s->F_friction = 0.0;
+    s->F_gas = d->c_gas * z - d->F_0;
+    s->work = 0.0;
+}
+
+/* The state at rest at the stroke `z` [m]: oil fills V2, then V1, the rest is in the reserve; no foam.
+   The order no longer matters after the paper's six preconditioning oscillations. */
+static void kernel_fill(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z)
+{
+    kernel_pour(d, s, z, p->oil_level * p->V_oil);
+}
+
+/* Force [N] of one branch of the F-v curve at the speed `v` >= 0 [m/s]; the last segment goes on beyond it. */
+static double kernel_branch(double v, array_double_1d velocities, array_double_1d forces)
+{
+    int64_t i;
+    double slope;
+    double result;
+    i = 0;
+    while((i < 20 - 1) && ((*cspan_at(&velocities, i)) < v))
+    {
+        i += 1;
+    }
+    if (i == 0)
+    {
+        result = (*cspan_at(&forces, 0)) * v / (*cspan_at(&velocities, 0));
+        return result;
+    }
+    slope = ((*cspan_at(&forces, i)) - (*cspan_at(&forces, i - 1))) / ((*cspan_at(&velocities, i)) - (*cspan_at(&velocities, i - 1)));
+    result = (*cspan_at(&forces, i - 1)) + slope * (v - (*cspan_at(&velocities, i - 1)));
+    return result;
+}
+
+/* Friction-reduced force of the intact damper [N] at the velocity `v` [m/s]. */
+static double kernel_fluid_force(struct kernel_Parameters* p, double v)
+{
+    double result;
+    /* Eq. 3: A2*p2 - A1*p1 explains this force; as in the paper the measured F-v curve stands for it. */
+    if (v >= 0.0)
+    {
+        result = kernel_branch(v, p->v_re, p->F_re);
+        return result;
+    }
+    result = -kernel_branch(-v, p->v_co, p->F_co);
+    return result;
+}
+
+/* Scaling k_FrS [1] of the friction at the velocity `v` [m/s]; the shape of Figure 12 is assumed. */
+static double kernel_stribeck(struct kernel_Parameters* p, double v)
+{
+    return p->k_high + (1.0 - p->k_high) * exp((-fabs(v)) / p->v_S);
+}
+
+/* Dahl friction force [N] after the stroke `dz` [m]: the exact solution of equation 2 over the stroke. */
+static double kernel_dahl(struct kernel_Parameters* p, struct kernel_Derived* d, double F_D, double dz)
+{
+    double direction;
+    double gap;
+    double side;
+    double way;
+    double size;
+    double q;
+    double left;
+    if (d->F_FrS <= 0.0)
+    {
+        return 0.0;
+    }
+    direction = (dz > 0.0 ? 1.0 : -1.0);
+    gap = 1.0 - direction * F_D / d->F_FrS;
+    side = (gap >= 0.0 ? 1.0 : -1.0);
+    /* Eq. 2 divided by the velocity: d|gap|/d|z| = -(sigma_0/F_FrS) |gap|^delta_D */
+    way = p->sigma_0 / d->F_FrS * fabs(dz);
+    size = fabs(gap);
+    if (size > 0.0)
+    {
+        q = 1.0 - p->delta_D;
+        if (fabs(q) < 1e-06)
+        {
+            size *= exp(-way);
+        }
+        else
+        {
+            left = exp(q * log(size)) - q * way;
+            size = (left > 0.0 ? exp(log(left) / q) : 0.0);
+        }
+    }
+    return direction * d->F_FrS * (1.0 - side * size);
+}
+
+/* Force of a foam holding the volume `oil` in the volume `foam` [m3], relative to that of oil [1]. */
+static double kernel_foam_factor(struct kernel_Parameters* p, double oil, double foam)
+{
+    /* Eq. 36: B p^E */
+    if (p->E == 0.0)
+    {
+        return p->B;
+    }
+    if (oil <= 0.0)
+    {
+        return 0.0;
+    }
+    return p->B * exp(p->E * log(oil / foam));
+}
+
+/* Share [1] of a step during which the speed exceeds `threshold`, the speed going from |v0| to |v1| evenly. */
+static double kernel_share_above(double v0, double v1, double threshold)
+{
+    double a;
+    double b;
+    a = fabs(v0);
+    b = fabs(v1);
+    if ((a > threshold) && (b > threshold))
+    {
+        return 1.0;
+    }
+    if ((a <= threshold) && (b <= threshold))
+    {
+        return 0.0;
+    }
+    return (double_max(2, a, b) - threshold) / fabs(a - b);
+}
+
+/* The three forces of equation 1 at the state `s`; `F_potential` is the intact fluid force [N] at `v` [m/s]. */
+static void kernel_set_forces(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double F_potential, double v)
+{
+    /* Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr */
+    s->F_gas = d->c_gas * s->z - d->F_0;
+    s->F_friction = kernel_stribeck(p, v) * s->F_D;
+    s->F_fluid = F_potential * s->k_degr;
+}
+
+/* Flows of all phases and k_degr while the phases present in `s` stay the same.
+   `foaming` and `cavitating` are the shares [1] of the step above the two threshold velocities. */
+static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double foaming, double cavitating)
+{
+    double oil;
+    double gas;
+    double foam;
+    double foam_oil;
+    double frothed;
+    double drawn;
+    /* Piston valve: what leaves V1 over the area A_1 (Eq. 6, 8, 11) */
+    oil = 0.0;
+    gas = 0.0;
+    foam = 0.0;
+    foam_oil = 0.0;
+    if (s->V1_gas > 0.0)
+    {
+        if ((s->V1_foam > 0.0) && ((p->foam_leaves_with_gas > 0) || (s->V1_oil <= 0.0)))
+        {
+            foam = d->W_kPV * d->A_1;
+            gas = d->A_1 - foam;
+            /* Eq. 39: B p1^E W_kPV/(1 - L_PV), and W_kPV/(1 - L_PV) is X_Re */
+            f->k_degr = kernel_foam_factor(p, s->V1_foam_oil, s->V1_foam) * p->X_Re;
+        }
+        else if (s->V1_oil > 0.0)
+        {
+            /* Eq. 14: W_kPV is the oil flow relative to the intact one, which is A_1 */
+            oil = d->W_kPV * d->A_1;
+            gas = d->A_1 - oil;
+            /* Eq. 25 */
+            f->k_degr = p->X_Re;
+        }
+        else
+        {
+            gas = d->A_1;
+            /* Eq. 16, 24: only gas, no work at the valve */
+            f->k_degr = 0.0;
+        }
+    }
+    else if (s->V1_foam > 0.0)
+    {
+        foam = d->A_1;
+        /* Eq. 37, 38: with oil in V1 or without, the foam leaves first */
+        f->k_degr = kernel_foam_factor(p, s->V1_foam_oil, s->V1_foam);
+    }
+    else
+    {
+        oil = d->A_1;
+        /* Eq. 17, 23: only oil */
+        f->k_degr = 1.0;
+    }
+    if (foam > 0.0)
+    {
+        foam_oil = foam * s->V1_foam_oil / s->V1_foam;
+    }
+    f->V1_oil = -oil;
+    f->V1_gas = -gas;
+    f->V1_foam = -foam;
+    f->V1_foam_oil = -foam_oil;
+    /* What arrives in V2: cavitation frees gas from the oil, and foam beside oil separates. */
+    f->cavitated = cavitating * d->Y_Re * oil;
+    /* Eq. 40 */
+    gas += f->cavitated;
+    /* Eq. 41 */
+    oil -= f->cavitated;
+    if ((foam > 0.0) && (p->foam_decays > 0) && (s->V1_oil > 0.0))
+    {
+        oil += foam_oil;
+        gas += foam - foam_oil;
+        foam = 0.0;
+        foam_oil = 0.0;
+    }
+    /* Bottom valve: V3 gives the rod's volume (Eq. 10, 12): oil, then foam, then gas */
+    f->V3_oil = 0.0;
+    f->V3_foam = 0.0;
+    f->V3_foam_oil = 0.0;
+    if (s->V3_oil > 0.0)
+    {
+        f->V3_oil = -d->A_rod;
+        oil += d->A_rod;
+    }
+    else if (s->V3_foam > 0.0)
+    {
+        f->V3_foam = -d->A_rod;
+        f->V3_foam_oil = (-d->A_rod) * s->V3_foam_oil / s->V3_foam;
+        foam += d->A_rod;
+        foam_oil -= f->V3_foam_oil;
+    }
+    else if ((foaming > 0.0) && (p->S_BV > 0.0) && ((s->V2_oil > 0.0) || (oil > 0.0)))
+    {
+        frothed = foaming * p->S_BV * d->A_rod;
+        drawn = p->S_BVoil * frothed;
+        if ((s->V2_oil <= 0.0) && (drawn > oil))
+        {
+            frothed *= oil / drawn;
+            drawn = oil;
+        }
+        gas += d->A_rod - frothed;
+        oil -= drawn;
+        foam += frothed + drawn;
+        foam_oil += drawn;
+    }
+    else
+    {
+        /* Eq. 30, 32, 33: the foam takes S of the gas flow and S_oil per volume of that gas from V2's oil */
+        /* Eq. 31, 34 */
+        gas += d->A_rod;
+    }
+    /* Eq. 7, 9, 26; mixing of foams (Eq. 35) is the sum of the oil they hold */
+    f->V2_oil = oil;
+    f->V2_gas = gas;
+    f->V2_foam = foam;
+    f->V2_foam_oil = foam_oil;
+}
+
+/* Share [1] of the time that V1, without gas at the moment, vents gas while V2 is full.
+   Cavitation brings gas into V1. Where venting is faster, V1 stays at zero gas and the flow slides between the two
+   cases; the share is the one that keeps it there (Filippov's convex combination). */
+static double kernel_vented_share(struct kernel_Parameters* p, struct kernel_Derived* d, bool as_foam, double foaming, double cavitating)
+{
+    double stays;
+    double gained;
+    double surplus;
+    double change;
+    if (as_foam || (cavitating <= 0.0))
+    {
+        return 0.0;
+    }
+    stays = cavitating * d->Y_Co * (1.0 - p->cavitation_foams * foaming * p->S_PV);
+    gained = stays * d->A_1;
+    if (gained <= 0.0)
+    {
+        return 0.0;
+    }
+    surplus = d->A_rod - d->W_kBV_2 * d->A_2;
+    change = stays * (d->A_2 - d->W_kBV_2 * d->A_2) - surplus;
+    if (change >= 0.0)
+    {
+        return 1.0;
+    }
+    return gained / (gained - change);
+}
+
+/* Flows of all phases and k_degr while the phases present in `s` stay the same.
+   `foaming` and `cavitating` are the shares [1] of the step above the two threshold velocities. */
+static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double foaming, double cavitating)
+{
+    bool as_foam;
+    double gas;
+    double piston;
+    double bottom;
+    double venting;
+    double oil;
+    double share;
+    double kept;
+    double foamable;
+    double frothed;
+    double drawn;
+    /* The liquid that leaves V2 is foam where there is foam, but beside oil and gas the reading says which. */
+    as_foam = (s->V2_foam > 0.0) && ((s->V2_gas <= 0.0) || (s->V2_oil <= 0.0) || (p->foam_leaves_with_gas > 0));
+    gas = 0.0;
+    piston = 0.0;
+    /* Eq. 15: W_kBV gives the bottom valve's flow; as in Eq. 27-29 it is counted relative to the flow out of V2. */
+    if (s->V2_gas > 0.0)
+    {
+        bottom = 0.0;
+        f->k_degr = 0.0;
+        if (as_foam || (s->V2_oil > 0.0))
+        {
+            bottom = d->W_kBV_1 * d->A_2;
+            f->k_degr = p->X_Co1;
+        }
+        gas = d->A_2 - bottom;
+    }
+    else
+    {
+        /* Eq. 19: V1 and V2 without gas, the flows and the force of the intact damper */
+        venting = (s->V1_gas > 0.0 ? 1.0 : kernel_vented_share(p, d, as_foam, foaming, cavitating));
+        /* While V1 holds gas the flows are those of Eq. 28, 29, and the surplus drives the gas out. */
+        bottom = d->A_rod + venting * (d->W_kBV_2 * d->A_2 - d->A_rod);
+        piston = d->A_2 - bottom;
+        f->k_degr = 1.0 + venting * (d->k_Co2 - 1.0);
+        /* Eq. 40, 41 */
+    }
+    f->V2_gas = -gas;
+    f->V2_oil = 0.0;
+    f->V2_foam = 0.0;
+    f->V2_foam_oil = 0.0;
+    f->V3_oil = 0.0;
+    f->V3_foam = 0.0;
+    f->V3_foam_oil = 0.0;
+    f->V1_foam = 0.0;
+    f->V1_foam_oil = 0.0;
+    f->cavitated = 0.0;
+    oil = 0.0;
+    if (as_foam)
+    {
+        share = s->V2_foam_oil / s->V2_foam;
+        f->k_degr *= kernel_foam_factor(p, s->V2_foam_oil, s->V2_foam);
+        f->V2_foam = -(bottom + piston);
+        f->V2_foam_oil = (-share) * (bottom + piston);
+        f->V3_foam = bottom;
+        f->V3_foam_oil = share * bottom;
+        f->V1_foam = piston;
+        f->V1_foam_oil = share * piston;
+    }
+    else
+    {
+        f->V2_oil = -(bottom + piston);
+        f->V3_oil = bottom;
+        f->cavitated = cavitating * d->Y_Co * piston;
+        oil = piston - f->cavitated;
+    }
+    /* V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13). */
+    kept = d->A_1 + f->cavitated - piston;
+    foamable = gas + p->cavitation_foams * f->cavitated;
+    if ((foaming > 0.0) && (p->S_PV > 0.0) && (foamable > 0.0) && ((s->V1_oil > 0.0) || (oil > 0.0)))
+    {
+        frothed = foaming * p->S_PV * foamable;
+        if ((s->V1_gas <= 0.0) && (frothed > kept))
+        {
+            frothed = kept;
+        }
+        drawn = p->S_PVoil * frothed;
+        if ((s->V1_oil <= 0.0) && (drawn > oil))
+        {
+            frothed *= oil / drawn;
+            drawn = oil;
+        }
+        oil -= drawn;
+        kept -= frothed;
+        f->V1_foam += frothed + drawn;
+        f->V1_foam_oil += drawn;
+    }
+    if ((s->V1_gas <= 0.0) && (kept < 0.0))
+    {
+        kept = 0.0;
+    }
+    f->V1_oil = oil;
+    f->V1_gas = kept;
+}
+
+/* The stroke [m], at most `way`, after which a phase of `volume` [m3] changing by `change` [m2] is used up. */
+static double kernel_before_empty(double volume, double change, double way)
+{
+    if ((change < 0.0) && (volume + change * way < 0.0))
+    {
+        return volume / (-change);
+    }
+    return way;
+}
+
+/* A phase's volume [m3] after the stroke `way` [m]; what runs out is exactly zero. */
+static double kernel_moved(double volume, double change, double way)
+{
+    double after;
+    after = volume + change * way;
+    /* Rounding leaves a trace of 1e-16 of the volume where the split was made. */
+    if ((change < 0.0) && (after < 1e-15 * volume))
+    {
+        return 0.0;
+    }
+    return after;
+}
+
+/* The part [m] of the stroke `way` over which every phase lasts. */
+static double kernel_split_length(struct kernel_State* s, struct kernel_Flow* f, double way)
+{
+    way = kernel_before_empty(s->V1_oil, f->V1_oil, way);
+    way = kernel_before_empty(s->V1_gas, f->V1_gas, way);
+    way = kernel_before_empty(s->V1_foam, f->V1_foam, way);
+    way = kernel_before_empty(s->V2_oil, f->V2_oil, way);
+    way = kernel_before_empty(s->V2_gas, f->V2_gas, way);
+    way = kernel_before_empty(s->V2_foam, f->V2_foam, way);
+    way = kernel_before_empty(s->V3_oil, f->V3_oil, way);
+    return kernel_before_empty(s->V3_foam, f->V3_foam, way);
+}
+
+/* Carry all phases over the stroke `way` [m] (Eq. 4, 5: the sums of the phases stay the chamber volumes). */
+static void kernel_move(struct kernel_State* s, struct kernel_Flow* f, double way)
+{
+    s->V1_oil = kernel_moved(s->V1_oil, f->V1_oil, way);
+    s->V1_gas = kernel_moved(s->V1_gas, f->V1_gas, way);
+    s->V1_foam = kernel_moved(s->V1_foam, f->V1_foam, way);
+    s->V2_oil = kernel_moved(s->V2_oil, f->V2_oil, way);
+    s->V2_gas = kernel_moved(s->V2_gas, f->V2_gas, way);
+    s->V2_foam = kernel_moved(s->V2_foam, f->V2_foam, way);
+    s->V3_oil = kernel_moved(s->V3_oil, f->V3_oil, way);
+    s->V3_foam = kernel_moved(s->V3_foam, f->V3_foam, way);
+    /* Eq. 35 */
+    s->V1_foam_oil = (s->V1_foam > 0.0 ? kernel_moved(s->V1_foam_oil, f->V1_foam_oil, way) : 0.0);
+    s->V2_foam_oil = (s->V2_foam > 0.0 ? kernel_moved(s->V2_foam_oil, f->V2_foam_oil, way) : 0.0);
+    s->V3_foam_oil = (s->V3_foam > 0.0 ? kernel_moved(s->V3_foam_oil, f->V3_foam_oil, way) : 0.0);
+    s->V_cav += f->cavitated * way;
+}
+
+/* Foam that does not fit into the reserve loses its gas; the paper has no limit there. */
+static void kernel_squeeze_reserve(struct kernel_Derived* d, struct kernel_State* s)
+{
+    double room;
+    room = d->V_reserve - s->V3_oil;
+    if (s->V3_foam > room)
+    {
+        s->V3_foam = double_max(2, room, s->V3_foam_oil);
+    }
+}
+
+/* k_degr for the direction of `v` [m/s] where the last stroke went the other way or nowhere. */
+static void kernel_settle(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double v)
+{
+    if (v > 0.0)
+    {
+        kernel_rebound(p, d, s, f, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
+        s->k_degr = f->k_degr;
+    }
+    else if (v < 0.0)
+    {
+        kernel_compression(p, d, s, f, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
+        s->k_degr = f->k_degr;
+    }
+}
+
+/* Carry `s` to the stroke `z` [m] while the velocity goes evenly from `v0` to `v1` [m/s].
+   Time enters through stroke and velocity only: every process of the paper is tied to the stroke. `k_degr` is the mean
+   over the step, the forces are those at its end with that mean. False when the
+   step could not be finished within `64`, which no admissible parameter set is known to cause. */
+static bool kernel_step(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1)
+{
+    double dz;
+    double F_1;
+    double F_0;
+    bool rising;
+    double left;
+    double foaming;
+    double cavitating;
+    double acting;
+    int64_t splits;
+    double way;
+    double friction;
+    dz = z - s->z;
+    F_1 = kernel_fluid_force(p, v1);
+    if (dz == 0.0)
+    {
+        kernel_settle(p, d, s, f, v1);
+        f->k_mean = s->k_degr;
+        kernel_set_forces(p, d, s, F_1, v1);
+        return 1;
+    }
+    F_0 = (v0 == v1 ? F_1 : kernel_fluid_force(p, v0));
+    rising = dz > 0.0;
+    left = (rising ? dz : -dz);
+    foaming = kernel_share_above(v0, v1, p->v_foam);
+    cavitating = kernel_share_above(v0, v1, p->v_cav);
+    acting = 0.0;
+    splits = 0;
+    while((left > 0.0) && (splits < 64))
+    {
+        if (rising)
+        {
+            kernel_rebound(p, d, s, f, foaming, cavitating);
+        }
+        else
+        {
+            kernel_compression(p, d, s, f, foaming, cavitating);
+        }
+        way = kernel_split_length(s, f, left);
+        kernel_move(s, f, way);
+        acting += f->k_degr * way;
+        left -= way;
+        splits += 1;
+    }
+    if (!rising)
+    {
+        kernel_squeeze_reserve(d, s);
+    }
+    s->z = z;
+    s->F_D = kernel_dahl(p, d, s->F_D, dz);
+    /* The mean over the step: force times stroke is then the work, wherever in the step a phase ran out. */
+    s->k_degr = acting / ((rising ? dz : -dz));
+    f->k_mean = s->k_degr;
+    if (v1 < 0.0 == rising)
+    {
+        kernel_settle(p, d, s, f, v1);
+    }
+    friction = s->F_friction;
+    kernel_set_forces(p, d, s, F_1, v1);
+    s->work += 0.5 * (F_0 + F_1) * ((rising ? acting : -acting)) + 0.5 * (friction + s->F_friction) * dz;
+    return left <= 0.0;
+}
+
+/* Fluid force [N] while the oil passes the valves as at the piston speed `u` [m/s]; it rises with `u`. */
+static double kernel_valve_force(struct kernel_Parameters* p, double u, double k_re, double k_co)
+{
+    return kernel_fluid_force(p, u) * ((u >= 0.0 ? k_re : k_co));
+}
+
+/* Number of parts for a step of `dt` [s]. */
+static int64_t kernel_parts_of(double dt)
+{
+    /* The smaller one first: C has no integer for the number of parts of a very long step. */
+    return int64_t_max(2, 1, (int64_t)ceil(double_min(2, 8.0, dt / 0.0002 - 1e-06)));
+}
+
+/* Force [N] of a stop pressed by `over` [m]. */
+static double kernel_end_stop_press(double force, double over)
+{
+    double depth;
+    if (over <= 0.0)
+    {
+        return 0.0;
+    }
+    depth = over / 0.01;
+    return force * depth * sqrt(depth);
+}
+
+/* Force [N] at the stroke `z` [m]. */
+static double kernel_end_stop_elastic(struct kernel_Parameters* p, double z)
+{
+    return kernel_end_stop_press(p->F_stop_re, z - p->onset_re) - kernel_end_stop_press(p->F_stop_co, (-z) - p->onset_co);
+}
+
+/* The force settles within milliseconds. */
+static int64_t kernel_fluid_lag_parts(struct kernel_Parameters* p, double dt)
+{
+    return kernel_parts_of(dt);
+}
+
+/* Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N]. */
+static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0001, double* result_2_0001, struct kernel_Parameters* p, double F)
+{
+    double rod;
+    double pressure;
+    double area;
+    rod = 0.25 * M_PI * p->D_PR * p->D_PR;
+    pressure = 100000.0 + ((p->gas_preload > 0 ? p->F_0 / rod : 0.0));
+    area = (F >= 0.0 ? 0.25 * M_PI * p->D_li * p->D_li - rod : rod);
+    (*result_0_0001) = (F >= 0.0 ? p->C_fluid : p->C_fluid_co);
+    (*result_1_0001) = p->V_air * 100000.0 / (pressure * area);
+    (*result_2_0001) = pressure * area;
+    return 0;
+}
+
+/* Stroke [m] by which the column gives under the force `F` [N], with its sign. */
+static double kernel_fluid_lag_given(struct kernel_Parameters* p, double F)
+{
+    double C;
+    double way;
+    double F_half;
+    kernel_fluid_lag_column(&C, &way, &F_half, p, F);
+    return C * F + way * F / (fabs(F) + F_half);
+}
+
+/* Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]; for an element in series. */
+static double kernel_fluid_lag_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
+{
+    return (kernel_fluid_lag_given(p, F) - kernel_fluid_lag_given(p, s->F_held_re - s->F_held_co)) / dt;
+}
+
+/* The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
+   `side` is 1 in rebound and -1 in compression, `k` the degradation of the branch. */
+static double kernel_fluid_lag_inverse(struct kernel_Parameters* p, double w, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
+{
+    double C;
+    double way;
+    double F_half;
+    int64_t i;
+    double u;
+    double F;
+    double slope;
+    double rest;
+    double a;
+    double b;
+    double c;
+    double root;
+    double found;
+    kernel_fluid_lag_column(&C, &way, &F_half, p, side);
+    i = 0;
+    while((i < 20 - 1) && ((*cspan_at(&velocities, i)) + (C + way / (k * (*cspan_at(&forces, i)) + F_half)) * k * (*cspan_at(&forces, i)) / dt < w))
+    {
+        i += 1;
+    }
+    u = 0.0;
+    F = 0.0;
+    if (i > 0)
+    {
+        u = (*cspan_at(&velocities, i - 1));
+        F = k * (*cspan_at(&forces, i - 1));
+    }
+    slope = (k * (*cspan_at(&forces, i)) - F) / ((*cspan_at(&velocities, i)) - u);
+    /* F = F_i + slope (u' - u_i) put into the equation makes a F^2 + b F - c = 0, of which one root is not negative. */
+    rest = F + slope * (w - u);
+    a = 1.0 + slope * C / dt;
+    b = a * F_half + slope * way / dt - rest;
+    c = double_max(2, 0.0, rest * F_half);
+    root = sqrt(b * b + 4.0 * a * c);
+    found = (b > 0.0 ? 2.0 * c / (b + root) : (root - b) / (2.0 * a));
+    return double_max(2, 0.0, w - (C + way / (found + F_half)) * found / dt);
+}
+
+/* The fluid force with the memory of the oil columns; a step without time leaves it, but for the first. */
+static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
+{
+    double half;
+    double before;
+    double w;
+    double u;
+    double F;
+    double through;
+    if (dt <= 0.0)
+    {
+        if (s->elapsed > 0.0)
+        {
+            s->F_fluid = s->F_held_re - s->F_held_co;
+            s->F_valve = s->F_fluid;
+            s->F_mean = s->F_fluid;
+        }
+        return;
+    }
+    half = 0.5 * (s->goal_v0 + s->goal_v1);
+    before = kernel_fluid_lag_given(p, s->F_held_re) / dt;
+    w = s->goal_v1 + before;
+    u = (w > 0.0 ? kernel_fluid_lag_inverse(p, w, s->k_re, 1.0, p->v_re, p->F_re, dt) : 0.0);
+    F = kernel_valve_force(p, u, s->k_re, s->k_co);
+    /* The valves see what the column does not give; k_degr may have jumped in between. */
+    through = double_max(2, 0.0, half + before - kernel_fluid_lag_given(p, F) / dt);
+    s->F_mean = kernel_fluid_force(p, through) * ((dz > 0.0 ? s->k_mean : s->k_re));
+    s->F_fluid = F;
+    s->W_step = F * u * dt;
+    before = kernel_fluid_lag_given(p, -s->F_held_co) / dt;
+    w = s->goal_v1 + before;
+    u = (w < 0.0 ? -kernel_fluid_lag_inverse(p, -w, s->k_co, -1.0, p->v_co, p->F_co, dt) : 0.0);
+    F = kernel_valve_force(p, u, s->k_re, s->k_co);
+    through = double_min(2, 0.0, half + before - kernel_fluid_lag_given(p, F) / dt);
+    if (through < 0.0)
+    {
+        s->F_mean += kernel_fluid_force(p, through) * ((dz < 0.0 ? s->k_mean : s->k_co));
+    }
+    s->F_held_re = s->F_fluid;
+    s->F_held_co = -F;
+    s->F_fluid += F;
+    s->F_valve = s->F_fluid;
+    s->W_step += F * u * dt;
+}
+
+/* Remember the force where it is not that of the columns: at the start, or with another element in series. */
+static void kernel_fluid_lag_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
+{
+    if (s->F_valve != s->F_held_re - s->F_held_co)
+    {
+        s->F_held_re = double_max(2, 0.0, s->F_valve);
+        s->F_held_co = double_max(2, 0.0, -s->F_valve);
+    }
+}
+
+/* Give the oil and the gas of the decayed foam back; the volumes of the chambers stay. */
+static void kernel_foam_decay_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    double share;
+    double gone;
+    double oil;
+    share = 1.0 - exp((-p->foam_decay_rate) * dt);
+    /* A trace of 1e-9 mL would still count as foam. */
+    gone = (s->V1_foam < 1e-15 ? s->V1_foam : share * s->V1_foam);
+    oil = (s->V1_foam < 1e-15 ? s->V1_foam_oil : share * s->V1_foam_oil);
+    s->V1_foam -= gone;
+    s->V1_foam_oil -= oil;
+    s->V1_oil += oil;
+    s->V1_gas += double_max(2, 0.0, gone - oil);
+    gone = (s->V2_foam < 1e-15 ? s->V2_foam : share * s->V2_foam);
+    oil = (s->V2_foam < 1e-15 ? s->V2_foam_oil : share * s->V2_foam_oil);
+    s->V2_foam -= gone;
+    s->V2_foam_oil -= oil;
+    s->V2_oil += oil;
+    s->V2_gas += double_max(2, 0.0, gone - oil);
+    /* The reserve's gas is the rest of its volume. */
+    gone = (s->V3_foam < 1e-15 ? s->V3_foam : share * s->V3_foam);
+    oil = (s->V3_foam < 1e-15 ? s->V3_foam_oil : share * s->V3_foam_oil);
+    s->V3_foam -= gone;
+    s->V3_foam_oil -= oil;
+    s->V3_oil += oil;
+}
+
+/* Turn gas back into oil. */
+static void kernel_gas_redissolution_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    double back;
+    double gas;
+    double part;
+    back = s->V_cav * (1.0 - exp((-p->redissolution_rate) * dt));
+    s->V_cav -= back;
+    gas = s->V1_gas + s->V2_gas;
+    if (gas <= back)
+    {
+        s->V1_oil += s->V1_gas;
+        s->V2_oil += s->V2_gas;
+        s->V3_oil += back - gas;
+        s->V1_gas = 0.0;
+        s->V2_gas = 0.0;
+        return;
+    }
+    part = back / gas;
+    s->V1_oil += part * s->V1_gas;
+    s->V2_oil += part * s->V2_gas;
+    s->V1_gas -= part * s->V1_gas;
+    s->V2_gas -= part * s->V2_gas;
+}
+
+/* Force [N] at the stroke `z` [m]; with preload the gas spring of the parameter set is measured, not assumed. */
+static double kernel_gas_spring_elastic(struct kernel_Parameters* p, double z)
+{
+    if (p->gas_preload > 0)
+    {
+        return 0.0;
+    }
+    return p->c_residual * z - p->F_residual;
+}
+
+/* The deflection settles within milliseconds, and k_degr is that of the part before. */
+static int64_t kernel_mount_compliance_parts(struct kernel_Parameters* p, double dt)
+{
+    return kernel_parts_of(dt);
+}
+
+static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
+{
+    double value;
+    value = 0.0;
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    {
+        value += kernel_fluid_lag_series(p, s, F, dt);
+    }
+    return value;
+}
+
+static double kernel_effects_elastic(struct kernel_Parameters* p, double z)
+{
+    double value;
+    value = 0.0;
+    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
+    {
+        value += kernel_end_stop_elastic(p, z);
+    }
+    if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
+    {
+        value += kernel_gas_spring_elastic(p, z);
+    }
+    return value;
+}
+
+/* Factor of the friction force [1] at the velocity `v` [m/s]. */
+static double kernel_side_load_friction_scale_friction(struct kernel_Parameters* p, double v)
+{
+    double x;
+    x = v / p->v_side;
+    return 1.0 + p->side_load * (1.0 - exp((-x) * x)) / (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
+}
+
+static double kernel_effects_scale_friction(struct kernel_Parameters* p, double v)
+{
+    double value;
+    value = 1.0;
+    if (p->side_load != 0.0)
+    {
+        value *= kernel_side_load_friction_scale_friction(p, v);
+    }
+    return value;
+}
+
+/* Force of the rubber beyond that of the damper [N] if the step ends with the speed `u` [m/s] at the valves. */
+static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt, double u)
+{
+    double F;
+    double speed;
+    double rate;
+    double x;
+    double goal;
+    double friction;
+    double gas;
+    F = kernel_valve_force(p, u, s->k_re, s->k_co);
+    speed = u + kernel_effects_series(p, s, F, dt);
+    rate = v - speed;
+    x = s->x_mount + rate * dt;
+    goal = z - x;
+    friction = kernel_effects_scale_friction(p, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z);
+    gas = d->c_gas * goal + kernel_effects_elastic(p, goal) - kernel_effects_elastic(p, 0.0);
+    return (x + p->tau_mount * rate) / p->C_mount - F - friction - gas - p->m_rod * (speed - s->v_piston) / dt;
+}
+
+/* The speed [m/s] at the valves for which rubber and damper agree: bracketed about the last one, then regula falsi. */
+static double kernel_mount_compliance_speed(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt)
+{
+    double low;
+    double r_low;
+    double way;
+    double high;
+    double r_high;
+    int64_t n;
+    double u;
+    double r;
+    low = s->u_valve;
+    r_low = kernel_mount_compliance_excess(p, d, s, z, v, dt, low);
+    if (r_low == 0.0)
+    {
+        return low;
+    }
+    /* The excess falls with the speed. */
+    way = ((r_low > 0.0 ? 1.0 : -1.0)) * double_max(2, 0.05 * fabs(v - low), 0.001);
+    high = low + way;
+    r_high = kernel_mount_compliance_excess(p, d, s, z, v, dt, high);
+    n = 0;
+    while((r_high * r_low > 0.0) && (n < 60))
+    {
+        low = high;
+        r_low = r_high;
+        way *= 3.0;
+        high += way;
+        r_high = kernel_mount_compliance_excess(p, d, s, z, v, dt, high);
+        n += 1;
+    }
+    n = 0;
+    while((n < 60) && (fabs(r_high) > 1e-06) && (r_low != r_high))
+    {
+        u = high - r_high * (high - low) / (r_high - r_low);
+        r = kernel_mount_compliance_excess(p, d, s, z, v, dt, u);
+        if (r * r_high < 0.0)
+        {
+            low = high;
+            r_low = r_high;
+        }
+        else
+        {
+            r_low *= 0.5;
+        }
+        high = u;
+        r_high = r;
+        n += 1;
+    }
+    return high;
+}
+
+/* Stroke and velocity of the piston; in a step without time the deflection stays. */
+static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
+{
+    if (s->elapsed > 0.0)
+    {
+        s->goal_v0 = s->v_piston;
+        s->goal_v1 = s->v_piston;
+    }
+    else
+    {
+        s->v_piston = v0;
+    }
+    if (dt > 0.0)
+    {
+        s->u_valve = kernel_mount_compliance_speed(p, d, s, z, v1, dt);
+        s->goal_v1 = s->u_valve + kernel_effects_series(p, s, kernel_valve_force(p, s->u_valve, s->k_re, s->k_co), dt);
+        s->x_mount += (v1 - s->goal_v1) * dt;
+        s->F_mount = kernel_valve_force(p, s->u_valve, s->k_re, s->k_co);
+        s->F_rod = p->m_rod * (s->goal_v1 - s->v_piston) / dt;
+    }
+    /* An elastic mount cannot push the piston out of the tube. */
+    s->goal_z = double_max(2, 1e-06 - d->half_length, double_min(2, d->half_length - 1e-06, z - s->x_mount));
+}
+
+/* The force that the rubber lets through, and the rubber's own loss. */
+static void kernel_mount_compliance_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
+{
+    double rate;
+    if ((dt <= 0.0) && (s->elapsed == 0.0))
+    {
+        return;
+    }
+    s->F_valve = s->F_mount;
+    s->F_fluid = s->F_mount + s->F_rod;
+    s->F_mean += s->F_rod;
+    if (dt <= 0.0)
+    {
+        return;
+    }
+    rate = v - s->goal_v1;
+    s->v_piston = s->goal_v1;
+    s->W_step = s->F_mount * (dz - (s->goal_v1 - s->u_valve) * dt) + p->tau_mount / p->C_mount * rate * rate * dt;
+}
+
+/* The true level [1]. */
+static double kernel_oil_level_error_level(struct kernel_Parameters* p, double level)
+{
+    return (p->gas_preload == 0 ? double_max(2, 0.0, double_min(2, 1.0, level + p->level_error)) : level);
+}
+
+/* Cavitation needs oil lost (reading 2): of the true level, not of the recorded one. */
+static void kernel_oil_level_error_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
+{
+    bool lost;
+    if ((p->gas_preload == 0) && (p->cavitation_needs == 2))
+    {
+        lost = kernel_oil_level_error_level(p, p->oil_level) < 1.0;
+        d->Y_Co = (lost ? p->Y_Co_cav : 0.0);
+        d->Y_Re = (lost ? p->Y_Re_cav : 0.0);
+    }
+}
+
+/* Cool down over `dt` [s]. */
+static void kernel_oil_temperature_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    s->heat *= exp((-dt) / p->cooling_time);
+}
+
+/* Share of the fluid force that is left [1]. */
+static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
+{
+    return exp((-p->fade_heat) * (p->H_start + s->heat));
+}
+
+/* Take up the step's work, less what of it has already gone. */
+static void kernel_oil_temperature_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
+{
+    double share;
+    double kept;
+    share = dt / p->cooling_time;
+    kept = (share > 1e-09 ? (1.0 - exp(-share)) / share : 1.0);
+    /* Where stroke and velocity of a record do not agree, a step can do negative work. */
+    s->heat = double_max(2, 0.0, s->heat + s->W_step * kept);
+}
+
+/* Take the oil for the stroke `way` >= 0 [m]. */
+static void kernel_seal_leak_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    double left;
+    double oil;
+    left = p->leak_film * way;
+    if ((p->leak_power != 1.0) && (dt > 0.0))
+    {
+        left = p->leak_film * dt * pow(way / dt, p->leak_power);
+    }
+    oil = double_min(2, left, s->V3_oil);
+    s->V3_oil -= oil;
+    s->V_lost += oil;
+    left -= oil;
+    if (left > 0.0)
+    {
+        oil = double_min(2, left, s->V3_foam_oil);
+        s->V3_foam_oil -= oil;
+        s->V3_foam = (s->V3_foam_oil > 0.0 ? s->V3_foam - oil : 0.0);
+        s->V_lost += oil;
+        left -= oil;
+    }
+    if (left > 0.0)
+    {
+        oil = double_min(2, left, s->V1_oil);
+        s->V1_oil -= oil;
+        s->V1_gas += oil;
+        s->V_lost += oil;
+    }
+}
+
+/* Depth [m] of the gas in the driving chamber. */
+static double kernel_smooth_transition_depth(struct kernel_Parameters* p, struct kernel_State* s, double side)
+{
+    double rod;
+    double tube;
+    rod = p->D_PR * p->D_PR;
+    tube = p->D_li * p->D_li;
+    return (side > 0.0 ? s->V1_gas / (0.25 * M_PI * (tube - rod)) : s->V2_gas / (0.25 * M_PI * tube));
+}
+
+/* Begin a direction at its own value `k`; where its chamber has no gas there is no step ahead. */
+static void kernel_smooth_transition_turn(struct kernel_Parameters* p, struct kernel_State* s, double side, double k)
+{
+    s->k_side = side;
+    s->k_mixed = k;
+    s->x_free = (kernel_smooth_transition_depth(p, s, side) > 0.0 ? 0.0 : 1000.0 * p->build_up);
+}
+
+/* Change the mean over the step, `f.k_mean`, and the value at its end. */
+static void kernel_smooth_transition_transition(struct kernel_Parameters* p, struct kernel_State* s, struct kernel_Flow* f, double v, double dz)
+{
+    double settled;
+    double side;
+    double depth;
+    double full;
+    double near;
+    double rise;
+    double k;
+    double jump;
+    double free;
+    double missing;
+    double way;
+    double early;
+    double turned;
+    settled = s->k_degr;
+    side = (dz > 0.0 ? 1.0 : ((dz < 0.0 ? -1.0 : s->k_side)));
+    if (side != s->k_side)
+    {
+        kernel_smooth_transition_turn(p, s, side, f->k_mean);
+    }
+    depth = kernel_smooth_transition_depth(p, s, side);
+    if (depth > 0.0)
+    {
+        full = (side > 0.0 ? s->k_full_re : s->k_full_co);
+        near = double_max(2, 0.0, 1.0 - depth / p->build_up);
+        rise = double_max(2, 0.0, full - f->k_mean) * p->early_share * near * near;
+        s->k_mixed = f->k_mean;
+        s->x_free = 0.0;
+        f->k_mean += rise;
+        f->k_degr = f->k_mean;
+    }
+    else if (side != 0.0)
+    {
+        k = (side > 0.0 ? s->k_full_re : s->k_full_co);
+        if (dz != 0.0)
+        {
+            k = (s->x_free > 0.0 ? f->k_mean : f->k_degr);
+        }
+        jump = double_max(2, 0.0, k - s->k_mixed);
+        free = fabs(dz);
+        if ((s->x_free == 0.0) && (jump > 0.0))
+        {
+            /* In the step in which the gas runs out the kernel's mean tells where. */
+            free *= double_max(2, 0.0, double_min(2, 1.0, (f->k_mean - s->k_mixed) / jump));
+        }
+        missing = jump * (1.0 - p->early_share) * exp((-s->x_free) / p->build_up);
+        way = free / p->build_up;
+        if (fabs(dz) > 0.0)
+        {
+            early = (1.0 - free / fabs(dz)) * jump * p->early_share;
+            f->k_mean = double_max(2, 0.0, f->k_mean + early - missing * (1.0 - exp(-way)) * p->build_up / fabs(dz));
+        }
+        s->x_free += free;
+        f->k_degr = k - missing * exp(-way);
+        if (side > 0.0)
+        {
+            s->k_full_re = k;
+        }
+        else
+        {
+            s->k_full_co = k;
+        }
+        /* The kernel has settled k_degr for the new direction. */
+    }
+    s->k_degr = (dz != 0.0 ? f->k_mean : f->k_degr);
+    turned = (v > 0.0 ? 1.0 : ((v < 0.0 ? -1.0 : s->k_side)));
+    if (turned != s->k_side)
+    {
+        kernel_smooth_transition_turn(p, s, turned, settled);
+        s->k_degr = settled;
+    }
+}
+
+/* Factor of the fluid force [1] in the direction of `v`. */
+static double kernel_valve_wear_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
+{
+    return 1.0 + ((v >= 0.0 ? p->wear_re : p->wear_co));
+}
+
+static int64_t kernel_effects_active(struct kernel_Parameters* p)
+{
+    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
+    {
+        return 1;
+    }
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    {
+        return 1;
+    }
+    if (p->foam_decay_rate != 0.0)
+    {
+        return 1;
+    }
+    if (p->redissolution_rate != 0.0)
+    {
+        return 1;
+    }
+    if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
+    {
+        return 1;
+    }
+    if (p->C_mount != 0.0)
+    {
+        return 1;
+    }
+    if (p->level_error != 0.0)
+    {
+        return 1;
+    }
+    if (p->fade_heat != 0.0)
+    {
+        return 1;
+    }
+    if (p->leak_film != 0.0)
+    {
+        return 1;
+    }
+    if (p->side_load != 0.0)
+    {
+        return 1;
+    }
+    if (p->build_up != 0.0)
+    {
+        return 1;
+    }
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0))
+    {
+        return 1;
+    }
+    return 0;
+}
+
+static void kernel_effects_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
+{
+    if (p->level_error != 0.0)
+    {
+        kernel_oil_level_error_derive(p, d);
+    }
+    return;
+}
+
+static double kernel_effects_level(struct kernel_Parameters* p, double value)
+{
+    if (p->level_error != 0.0)
+    {
+        value = kernel_oil_level_error_level(p, value);
+    }
+    return value;
+}
+
+static int64_t kernel_effects_parts(struct kernel_Parameters* p, double dt)
+{
+    int64_t value;
+    value = 1;
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    {
+        value = int64_t_max(2, value, kernel_fluid_lag_parts(p, dt));
+    }
+    if (p->C_mount != 0.0)
+    {
+        value = int64_t_max(2, value, kernel_mount_compliance_parts(p, dt));
+    }
+    return value;
+}
+
+static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
+{
+    if (p->C_mount != 0.0)
+    {
+        kernel_mount_compliance_motion(p, d, s, z, v0, v1, dt);
+    }
+    return;
+}
+
+static void kernel_effects_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    if (p->foam_decay_rate != 0.0)
+    {
+        kernel_foam_decay_phases(p, s, way, dt);
+    }
+    if (p->redissolution_rate != 0.0)
+    {
+        kernel_gas_redissolution_phases(p, s, way, dt);
+    }
+    if (p->fade_heat != 0.0)
+    {
+        kernel_oil_temperature_phases(p, s, way, dt);
+    }
+    if (p->leak_film != 0.0)
+    {
+        kernel_seal_leak_phases(p, s, way, dt);
+    }
+    return;
+}
+
+static void kernel_effects_transition(struct kernel_Parameters* p, struct kernel_State* s, struct kernel_Flow* f, double v, double dz)
+{
+    if (p->build_up != 0.0)
+    {
+        kernel_smooth_transition_transition(p, s, f, v, dz);
+    }
+    return;
+}
+
+static double kernel_effects_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
+{
+    double value;
+    value = 1.0;
+    if (p->fade_heat != 0.0)
+    {
+        value *= kernel_oil_temperature_scale_fluid(p, s, v);
+    }
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0))
+    {
+        value *= kernel_valve_wear_scale_fluid(p, s, v);
+    }
+    return value;
+}
+
+static void kernel_effects_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
+{
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    {
+        kernel_fluid_lag_force(p, s, v, dz, dt);
+    }
+    if (p->C_mount != 0.0)
+    {
+        kernel_mount_compliance_force(p, s, v, dz, dt);
+    }
+    return;
+}
+
+static void kernel_effects_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
+{
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    {
+        kernel_fluid_lag_finish(p, s, dt);
+    }
+    if (p->fade_heat != 0.0)
+    {
+        kernel_oil_temperature_finish(p, s, dt);
+    }
+    return;
+}
+
+static void kernel_effects_reset(struct kernel_State* s)
+{
+    s->z_rod = 0.0;
+    s->goal_z = 0.0;
+    s->goal_v0 = 0.0;
+    s->goal_v1 = 0.0;
+    s->k_flow = 1.0;
+    s->k_re = 1.0;
+    s->k_co = 1.0;
+    s->impulse = 0.0;
+    s->F_valve = 0.0;
+    s->F_mean = 0.0;
+    s->k_mean = 1.0;
+    s->W_step = 0.0;
+    s->elapsed = 0.0;
+    s->F_held_re = 0.0;
+    s->F_held_co = 0.0;
+    s->x_mount = 0.0;
+    s->v_piston = 0.0;
+    s->u_valve = 0.0;
+    s->F_mount = 0.0;
+    s->F_rod = 0.0;
+    s->heat = 0.0;
+    s->V_lost = 0.0;
+    s->k_side = 0.0;
+    s->k_mixed = 1.0;
+    s->k_full_re = 1.0;
+    s->k_full_co = 1.0;
+    s->x_free = 0.0;
+}
+
+/* Fill `d` from `p`; to be called again after a parameter has changed. */
+static void kernel_set_up(struct kernel_Parameters* p, struct kernel_Derived* d)
+{
+    kernel_prepare(p, d);
+    d->extended = kernel_effects_active(p);
+    if (d->extended > 0)
+    {
+        kernel_effects_derive(p, d);
+    }
+}
+
+/* The state at rest at the stroke `z` [m]. */
+static void kernel_start(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z)
+{
+    if (d->extended == 0)
+    {
+        kernel_fill(p, d, s, z);
+        return;
+    }
+    kernel_pour(d, s, z, kernel_effects_level(p, p->oil_level) * p->V_oil);
+    kernel_effects_reset(s);
+    s->z_rod = z;
+    s->F_gas += kernel_effects_elastic(p, z);
+}
+
+/* The kernel's step with the effects around it. */
+static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1, double dt)
+{
+    double work;
+    double friction;
+    double gas;
+    double dz;
+    double v;
+    double scale;
+    double F_1;
+    bool done;
+    work = s->work;
+    friction = s->F_friction;
+    gas = s->F_gas;
+    s->goal_z = z;
+    s->goal_v0 = v0;
+    s->goal_v1 = v1;
+    kernel_effects_motion(p, d, s, z, v0, v1, dt);
+    dz = s->goal_z - s->z;
+    kernel_effects_phases(p, s, fabs(dz), dt);
+    s->k_degr = s->k_flow;
+    done = kernel_step(p, d, s, f, s->goal_z, s->goal_v0, s->goal_v1);
+    s->k_flow = s->k_degr;
+    v = s->goal_v1;
+    kernel_effects_transition(p, s, f, v, dz);
+    scale = kernel_effects_scale_fluid(p, s, v);
+    s->k_degr *= scale;
+    if ((v > 0.0) || ((v == 0.0) && (dz > 0.0)))
+    {
+        s->k_re = s->k_degr;
+    }
+    else if ((v < 0.0) || (dz < 0.0))
+    {
+        s->k_co = s->k_degr;
+    }
+    F_1 = kernel_fluid_force(p, v);
+    s->F_fluid = F_1 * s->k_degr;
+    s->F_friction *= kernel_effects_scale_friction(p, v);
+    s->F_gas += kernel_effects_elastic(p, s->z);
+    /* As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end. */
+    s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, dz);
+    s->F_mean = 0.5 * (kernel_fluid_force(p, s->goal_v0) + F_1) * s->k_mean;
+    s->W_step = s->F_mean * dz;
+    s->F_valve = s->F_fluid;
+    kernel_effects_force(p, s, v1, dz, dt);
+    s->W_step += 0.5 * (friction + s->F_friction) * dz;
+    s->impulse += (s->F_mean + 0.5 * (friction + s->F_friction + gas + s->F_gas)) * dt;
+    s->work = work + s->W_step;
+    s->elapsed += dt;
+    kernel_effects_finish(p, s, dt);
+    return done;
+}
+
+/* `advance` with at least one effect, in as many equal parts as the effects ask for. */
+static bool kernel_extended_step(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1, double dt)
+{
+    int64_t n;
+    double z0;
+    double before;
+    int64_t i;
+    double share;
+    double after;
+    n = kernel_effects_parts(p, dt);
+    /* Stroke and velocity go evenly, each by itself: samples of the two need not agree, at a rest above all. */
+    z0 = s->z_rod;
+    before = v0;
+    for (i = 1; i < n; i += 1)
+    {
+        share = (double)(i) / (double)(n);
+        after = v0 + share * (v1 - v0);
+        if (!kernel_extended_part(p, d, s, f, z0 + share * (z - z0), before, after, dt / n))
+        {
+            return 0;
+        }
+        before = after;
+    }
+    s->z_rod = z;
+    return kernel_extended_part(p, d, s, f, z, before, v1, dt / n);
+}
+
+/* Carry `s` to the stroke `z` [m] in the time `dt` [s] >= 0, the velocity going evenly from `v0` to `v1` [m/s].
+   As `kernel.step`, whose result it returns; `dt` acts through effects that need time and is else ignored. */
+static bool kernel_advance(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1, double dt)
+{
+    if (d->extended == 0)
+    {
+        return kernel_step(p, d, s, f, z, v0, v1);
+    }
+    return kernel_extended_step(p, d, s, f, z, v0, v1, dt);
+}
+
+/* `advance` in one part, for a caller that has divided the step itself. */
+static bool kernel_advance_whole(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1, double dt)
+{
+    if (d->extended == 0)
+    {
+        return kernel_step(p, d, s, f, z, v0, v1);
+    }
+    s->z_rod = z;
+    return kernel_extended_part(p, d, s, f, z, v0, v1, dt);
+}
+
+#endif

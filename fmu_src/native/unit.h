@@ -1,0 +1,148 @@
+/* One instance of the damper: what it remembers, how it is described, how it speaks. No global state. */
+#ifndef UNIT_H
+#define UNIT_H
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fmi2Functions.h"
+#include "kernel.h"
+
+#define FV_POINTS 20
+
+enum kind { REAL, INTEGER };
+enum causality { INPUT, OUTPUT, FIXED, TUNABLE };
+enum mode { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED };
+
+/* The parameters with the memory of their F-v curve: velocities and forces of rebound, of compression. */
+struct damper {
+    struct kernel_Parameters p;
+    double fv[4][FV_POINTS];
+};
+
+struct outputs {
+    double force, k_degr, V1_oil, V1_gas, V1_foam, V2_oil, V2_gas, V2_foam, V3_oil, V3_gas, V3_foam;
+    double force_fluid, force_friction, force_gas, work;
+};
+
+/* Everything that changes: an FMU state is a copy of it. */
+struct memory {
+    struct damper damper;  /* in force */
+    struct damper wanted;  /* with the parameters set since the last step */
+    struct kernel_Derived d;
+    struct kernel_State s;
+    struct kernel_Flow f;
+    struct outputs out;
+    double stroke, velocity;
+    double velocity_rate; /* [m/s2] input derivative, for the coming step only */
+    double limit;         /* [m] largest stroke to each side */
+    double time, stop;    /* [s] */
+    int32_t mode;
+    int32_t timed;   /* whether `time` is known */
+    int32_t changed; /* whether `wanted` differs from `damper` */
+    int32_t stale;   /* whether the start has to be computed again */
+    int32_t warned;
+    int32_t unused;
+};
+
+struct variable {
+    const char *name, *unit;
+    enum kind kind;
+    enum causality causality;
+    size_t offset; /* in struct memory; parameters are those of `wanted` */
+    double min, max;
+};
+
+struct unit {
+    struct memory m;
+    fmi2CallbackLogger log;
+    fmi2CallbackAllocateMemory allocate;
+    fmi2CallbackFreeMemory release;
+    fmi2ComponentEnvironment environment;
+    int says_errors, says_warnings;
+    char *name;
+};
+
+#include "variables.h"
+
+#define VARIABLES ((fmi2ValueReference)(sizeof(VARIABLE) / sizeof(VARIABLE[0])))
+
+static const char LOG_ERROR[] = "logStatusError";
+static const char LOG_WARNING[] = "logStatusWarning";
+
+static fmi2Status say(struct unit *u, fmi2Status status, const char *format, va_list arguments)
+{
+    char text[512];
+    const int wanted = status == fmi2Warning ? u->says_warnings : u->says_errors;
+    if (u->log && wanted) {
+        vsnprintf(text, sizeof text, format, arguments);
+        u->log(u->environment, u->name, status, status == fmi2Warning ? LOG_WARNING : LOG_ERROR, text);
+    }
+    return status;
+}
+
+/* Log a message and return the status, for `return refuse(...)`. Messages must hold no % and no #: loggers expand them. */
+static fmi2Status refuse(struct unit *u, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(u, fmi2Error, format, arguments);
+    va_end(arguments);
+    return fmi2Error;
+}
+
+static fmi2Status warn(struct unit *u, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(u, fmi2Warning, format, arguments);
+    va_end(arguments);
+    return fmi2Warning;
+}
+
+/* Point the parameters to the memory of their own curve, as is needed after a copy. */
+static void bind(struct damper *damper)
+{
+    damper->p.v_re.data = damper->fv[0];
+    damper->p.F_re.data = damper->fv[1];
+    damper->p.v_co.data = damper->fv[2];
+    damper->p.F_co.data = damper->fv[3];
+}
+
+static void copy_damper(struct damper *to, const struct damper *from)
+{
+    *to = *from;
+    bind(to);
+}
+
+static double *real_of(struct memory *m, const struct variable *v)
+{
+    return (double *)((char *)m + v->offset);
+}
+
+static int64_t *integer_of(struct memory *m, const struct variable *v)
+{
+    return (int64_t *)((char *)m + v->offset);
+}
+
+/* As after the instantiation: all start values, at rest. */
+static void restart(struct memory *m)
+{
+    memset(m, 0, sizeof *m);
+    bind(&m->wanted);
+    for (fmi2ValueReference i = 0; i < VARIABLES; i++) {
+        if (VARIABLE[i].kind == INTEGER)
+            *integer_of(m, &VARIABLE[i]) = (int64_t)START[i];
+        else
+            *real_of(m, &VARIABLE[i]) = START[i];
+    }
+    copy_damper(&m->damper, &m->wanted);
+    m->stop = INFINITY;
+    m->mode = INSTANTIATED;
+    m->stale = 1;
+}
+
+#endif

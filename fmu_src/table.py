@@ -1,0 +1,47 @@
+"""All variables of the FMU in the order of their value references, the same in both kinds of FMU."""
+
+from collections.abc import Iterator
+from dataclasses import Field, dataclass, fields
+from typing import Any
+
+from twintube.effects import Parameters
+from twintube.parameters import Damper
+from twintube.variables import Inputs, Outputs, fmi_name
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One scalar variable; `index` is its place in an array, -1 where it is none."""
+
+    name: str
+    causality: str
+    item: Field[Any]
+    index: int
+    start: float | None  # None for outputs
+
+    @property
+    def variability(self) -> str:
+        """As FMI calls it."""
+        if self.causality != "parameter":
+            return "continuous"
+        return "tunable" if self.item.metadata["tunable"] else "fixed"
+
+    @property
+    def integer(self) -> bool:
+        """Whether it is an Integer variable."""
+        return bool(self.item.metadata["integer"])
+
+
+def variables(damper: Damper) -> Iterator[Variable]:
+    """Inputs, outputs and parameters, arrays element by element."""
+    for item in fields(Inputs):
+        yield Variable(fmi_name(item), "input", item, -1, item.metadata["default"])
+    for item in fields(Outputs):
+        yield Variable(fmi_name(item), "output", item, -1, None)
+    for item in fields(Parameters):
+        value = getattr(damper.parameters, item.name)
+        if item.metadata["size"] == 1:
+            yield Variable(fmi_name(item), "parameter", item, -1, value)
+        else:
+            for i, part in enumerate(value):
+                yield Variable(f"{fmi_name(item)}[{i + 1}]", "parameter", item, i, part)
