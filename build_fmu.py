@@ -129,10 +129,6 @@ def main(
 
     The first build for Windows compiles the runtime too and takes a minute or two; later ones take seconds.
     """
-    for name in platform or ():
-        if name not in binaries.PLATFORMS:
-            typer.echo(f"error: platform = {name}: must be one of {', '.join(binaries.PLATFORMS)}", err=True)
-            raise typer.Exit(2)
     try:
         chosen = load(parameters if parameters is not None else damper)
         changes: dict[str, Any] = {}

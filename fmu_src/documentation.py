@@ -31,8 +31,8 @@ KINDS = {
 the C99 sources are inside, <em>fmi2.c</em> is the one to compile.</p>
 <p>With the first derivative of the velocity set as input derivative, the velocity goes evenly within the coming step; it
 holds for one step only. The stroke's derivative is the velocity and is not needed.</p>
-<p>A refused value or step (stroke beyond the tube, NaN, negative or mistimed step, parameter out of its range) is answered by
-<em>fmi2Error</em>, a log message that names the quantity, its value and the allowed range, and the state as before.</p>
+<p>A refused value or step (stroke beyond the tube, NaN, negative or mistimed step, parameter out of its range) is answered
+by <em>fmi2Error</em>, a log message that names the quantity, its value and the allowed range, and the state as before.</p>
 """,
     "python": """
 <p>A refused step (stroke beyond the tube, NaN, negative step, parameter out of its range) is answered by
@@ -93,9 +93,9 @@ def page(damper: Damper, kind: str) -> str:
         f"<style>{STYLE}</style><h1>twintube: {escape(damper.name)}</h1><p>{escape(damper.title)}. Semi-physical model of "
         "a twin-tube shock absorber after oil and gas loss, after Schramm, Zwosta, Prokop, Vehicles 2025, 7(1), 26, "
         f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}{KINDS[kind]}"
-        f'<figure><img alt="force over stroke and velocity" src="{picture(damper)}"><figcaption>Second half of the reference '
-        f"run in extra/twintube: {reference.FREQUENCY:g} Hz, {amplitude * 1e3:.0f} mm, with the start values of this FMU."
-        "</figcaption></figure><table><tr>"
+        f'<figure><img alt="force over stroke and velocity" src="{picture(damper)}"><figcaption>Second half of the '
+        f"reference run in extra/twintube: {reference.FREQUENCY:g} Hz, {amplitude * 1e3:.0f} mm, with the start values of "
+        "this FMU.</figcaption></figure><table><tr>"
         + "".join(f"<th>{h}</th>" for h in heads)
         + "</tr>"
         + "\n".join(rows)

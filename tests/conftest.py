@@ -1,6 +1,7 @@
 import os
 from pathlib import Path
 
+import fmpy
 import pytest
 from hypothesis import settings
 
@@ -13,11 +14,24 @@ if os.environ.get("CI"):
     settings.load_profile("ci")
 
 
-@pytest.fixture(scope="session")
-def sa8_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_fmu.build(load("SA8"), tmp_path_factory.mktemp("fmu"))
+HERE = (fmpy.platform,)
+
+
+@pytest.fixture(scope="session", params=["native", "python"])
+def kind(request: pytest.FixtureRequest) -> build_fmu.Kind:
+    return request.param
 
 
 @pytest.fixture(scope="session")
-def sa7_fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_fmu.build(load("SA7"), tmp_path_factory.mktemp("fmu"))
+def sa8_fmu(kind: build_fmu.Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_fmu.build(load("SA8"), tmp_path_factory.mktemp("fmu"), kind, HERE)
+
+
+@pytest.fixture(scope="session")
+def sa7_fmu(kind: build_fmu.Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_fmu.build(load("SA7"), tmp_path_factory.mktemp("fmu"), kind, HERE)
+
+
+@pytest.fixture(scope="session")
+def sa8_native(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_fmu.build(load("SA8"), tmp_path_factory.mktemp("fmu"), platforms=HERE)

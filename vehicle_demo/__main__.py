@@ -7,6 +7,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Annotated, Any
 
+import fmpy
 import typer
 from tqdm import tqdm
 
@@ -146,7 +147,7 @@ def main(
         car = corner(chosen)
         output.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory() as folder:
-            fmu = build_fmu.build(chosen, Path(folder))
+            fmu = build_fmu.build(chosen, Path(folder), platforms=(fmpy.platform,))
             rides = run_all(fmu, car, cases(strengths(chosen)), seconds, step_ms * 1e-3, seed)
         result = summary(chosen, car, rides, seconds, step_ms * 1e-3, seed)
         pictures = draw(output, chosen, rides, result)

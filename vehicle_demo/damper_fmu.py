@@ -80,10 +80,11 @@ class DamperFmu:
         buffer = self._in
         buffer[0] = stroke
         buffer[1] = velocity
-        self._set(self._component, self._in_refs, 2, buffer)
-        status = self._step(self._component, self.time, dt, 1)
+        status = self._set(self._component, self._in_refs, 2, buffer)
+        if status <= 1:
+            status = self._step(self._component, self.time, dt, 1)
         if status > 1:
-            raise FmuError(f"doStep returned {STATUS[status]}: " + "; ".join(self.messages[-3:]))
+            raise FmuError(f"the step returned {STATUS[status]}: " + "; ".join(self.messages[-3:]))
         self.time += dt
         self._get(self._component, self._out_refs, 1, self._out)
         return self._out[0]

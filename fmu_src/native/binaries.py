@@ -66,6 +66,8 @@ def binaries(sources: Mapping[str, str], name: str, platforms: Sequence[str]) ->
         for file, text in sources.items():
             (folder / file).write_text(text, encoding="utf-8")
         for platform in platforms:
+            if platform not in PLATFORMS:
+                raise CompilerError(f"platform = {platform}: must be one of {', '.join(PLATFORMS)}")
             ending, targets = PLATFORMS[platform]
             parts = {}
             for target in targets:

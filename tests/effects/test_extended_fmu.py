@@ -23,10 +23,11 @@ def motion(i: int) -> tuple[float, float]:
     return 0.03 * math.sin(30 * t), 0.9 * math.cos(30 * t)
 
 
-def test_extended_fmu_is_the_model_to_the_bit(sa8: Damper, everything: dict[str, Any], tmp_path: Path) -> None:
+def test_extended_fmu_is_the_model_to_the_bit(sa8: Damper, everything: dict[str, Any], kind: str, tmp_path: Path) -> None:
     damper = sa8.with_(**everything)
     (tmp_path / "extended.toml").write_text(to_toml(damper))
     arguments = ["--parameters", str(tmp_path / "extended.toml"), "--output", str(tmp_path / "extended.fmu")]
+    arguments += ["--kind", kind, "--platform", fmpy.platform]
     run = CliRunner().invoke(build_fmu.app, arguments)
     assert run.exit_code == 0, run.output
     fmu = tmp_path / "extended.fmu"

@@ -23,7 +23,7 @@ CONTRACT = (
 
 @pytest.mark.parametrize("name", names())
 def test_every_damper_builds_and_validates_without_a_message(name: str, tmp_path: Path) -> None:
-    fmu = build_fmu.build(load(name), tmp_path / "a.fmu")
+    fmu = build_fmu.build(load(name), tmp_path / "a.fmu", platforms=(fmpy.platform,))
     assert validate_fmu(str(fmu)) == []
     assert [p.name for p in tmp_path.iterdir()] == ["a.fmu"]
 

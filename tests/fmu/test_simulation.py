@@ -8,6 +8,7 @@ import fmpy
 import numpy as np
 import pytest
 from fmpy import simulate_fmu
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
 from twintube.kernel import fill, prepare, step
@@ -94,11 +95,11 @@ def test_full_and_tiny_steps_are_accepted(sa8_fmu: Path) -> None:
 @pytest.mark.parametrize(
     ("stroke", "velocity", "dt", "message"),
     [
-        (math.nan, 0.0, 1e-3, r"stroke = nan m: must be a number from -0\.11"),
+        (math.nan, 0.0, 1e-3, r"stroke = nan m: must be a number from -0\."),
         (0.3, 0.0, 1e-3, r"stroke = 0\.3 m: must be a number from -0\.11"),
         (0.1, 15.0, 1e-2, r"stroke at the end of the step = 0\.25 m: must be"),
         (0.0, math.inf, 1e-3, r"velocity = inf m/s: must be a number from -20 to 20 m/s"),
-        (0.0, 0.0, -1e-3, r"communication step = -0\.001 s: must be at least 0 s"),
+        (0.0, 0.0, -1e-3, r"communication step = -0\.001 s: must be"),
     ],
 )
 def test_bad_input_is_refused_and_the_state_kept(
@@ -108,7 +109,7 @@ def test_bad_input_is_refused_and_the_state_kept(
         expected = driven(damper, 50, 1e-3)
         assert expected == in_process("SA8", 50, 1e-3, **DEGRADED)
         held = damper.outputs()
-        with pytest.raises(FmuError, match=r"Discard: Error: .*" + message):
+        with pytest.raises(FmuError, match=r"(Discard|Error): Error: .*" + message):
             damper.step(stroke, velocity, dt)
         assert damper.outputs() == held
         going_on = [damper.step(*motion(i, 1e-3), 1e-3) for i in range(50, 100)]
@@ -124,8 +125,8 @@ def test_bad_input_is_refused_and_the_state_kept(
         ("friction.sigma_0", math.nan, r"friction\.sigma_0 = nan N/m: must be a number"),
     ],
 )
-def test_bad_parameters_stop_the_first_step(sa8_fmu: Path, parameter: str, value: float, message: str) -> None:
-    with DamperFmu(sa8_fmu, **{parameter: value}) as damper, pytest.raises(FmuError, match=message):
+def test_bad_parameters_are_refused_before_the_first_step(sa8_fmu: Path, parameter: str, value: float, message: str) -> None:
+    with pytest.raises(FmuError, match=message), DamperFmu(sa8_fmu, **{parameter: value}) as damper:
         damper.step(0.0, 0.1, 1e-3)
 
 
@@ -147,12 +148,12 @@ def test_tunable_parameters_change_and_fixed_ones_do_not(sa8_fmu: Path) -> None:
     slave.setReal([refs["friction.F_FrS"], refs["stroke"]], [0.0, 5e-4])
     slave.doStep(1e-3, 1e-3)
     assert slave.getReal([refs["force_friction"]]) == [0.0]
-    slave.setReal([refs["friction.F_FrS"], refs["stroke"]], [-1.0, 1e-3])
-    with pytest.raises(Exception, match="discard"):
+    with pytest.raises(FMICallException):  # the native kind refuses the value, the Python kind the step
+        slave.setReal([refs["friction.F_FrS"], refs["stroke"]], [-1.0, 1e-3])
         slave.doStep(2e-3, 1e-3)
     assert slave.getReal([refs["friction.F_FrS"]]) == [0.0]
-    slave.setReal([refs["oil_level"]], [0.5])
-    with pytest.raises(Exception, match="discard"):
+    with pytest.raises(FMICallException):
+        slave.setReal([refs["oil_level"]], [0.5])
         slave.doStep(2e-3, 1e-3)
     slave.doStep(2e-3, 1e-3)
     slave.terminate()

@@ -4,6 +4,7 @@ import csv
 import json
 from pathlib import Path
 
+import fmpy
 import pytest
 from typer.testing import CliRunner
 
@@ -135,6 +136,7 @@ def test_claims_as_json(tmp_path: Path) -> None:
     [
         (["SA9"], "error: unknown damper SA9"),
         (["SA8", "--oil-level", "1.7"], "oil_level = 1.7 1: must be a number from 0 to 1"),
+        (["SA8", "--platform", "vax"], "platform = vax: must be one of linux64, win64, darwin64"),
     ],
 )
 def test_build_fmu_bad_arguments(arguments: list[str], message: str, tmp_path: Path) -> None:
@@ -147,6 +149,6 @@ def test_build_fmu_bad_arguments(arguments: list[str], message: str, tmp_path: P
 def test_build_fmu_of_a_users_own_damper(tmp_path: Path) -> None:
     mine = tmp_path / "mine.toml"
     mine.write_text(RUNNER.invoke(app, ["dampers", "SA8"]).output.replace('name = "SA8"', 'name = "My damper"'))
-    run = RUNNER.invoke(build_fmu.app, ["--parameters", str(mine), "--output", str(tmp_path)])
+    run = RUNNER.invoke(build_fmu.app, ["--parameters", str(mine), "--platform", fmpy.platform, "--output", str(tmp_path)])
     assert run.exit_code == 0, run.output
     assert (tmp_path / "twintube_My_damper.fmu").is_file()
