@@ -1,4 +1,4 @@
-/* Made by fmu_src/native/translate.py from the Python sources 6ae4ea48be9d7b23; do not edit. */
+/* Made by fmu_src/native/translate.py from the Python sources 909be1006f0b74f7; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -1183,6 +1183,14 @@ static void kernel_seal_leak_phases(struct kernel_Parameters* p, struct kernel_S
     s->V3_oil -= oil;
     s->V_lost += oil;
     left -= oil;
+    if (left > 0.0)
+    {
+        oil = double_min(2, left, s->V2_oil);
+        s->V2_oil -= oil;
+        s->V2_gas += oil;
+        s->V_lost += oil;
+        left -= oil;
+    }
     if (left > 0.0)
     {
         oil = double_min(2, left, s->V3_foam_oil);

@@ -43,7 +43,6 @@ class Secret:
     always: dict[str, float] = field(default_factory=dict)  # fields of `Hidden` in all records
     moving: dict[str, float] = field(default_factory=dict)  # the same, in all but the quasi-static record
     degraded: dict[str, float] = field(default_factory=dict)  # the same, in the degraded states
-    per_oil: dict[str, float] = field(default_factory=dict)  # the same, per oil in the damper [m3]
     parameters: dict[str, float] = field(default_factory=dict)  # that differ from the parameter file
     level_error: float = 0.0  # [1] true less recorded oil level in the degraded states
     measurement: dict[str, float] = field(default_factory=dict)  # numbers of what the measurement does wrong
@@ -115,13 +114,13 @@ def gas_spring(d: Dice, s: Secret) -> None:
 
 
 def seal_leak(d: Dice, s: Secret) -> None:
-    """A film on the rod; the share is of the oil that was there, in the longest record."""
-    share = d.strength * d.between(0.09, 0.16)
+    """A film on the rod, the same at every fill; the share is of half the intact volume, in the longest record."""
+    lost = d.strength * d.between(0.09, 0.16) * 0.5 * d.p.V_oil
     longest = harmonic(min(VELOCITIES))
     times = np.linspace(0.0, longest.duration, 20000)
     film = float(np.trapezoid(np.sqrt(np.abs(longest.sampled(times)[1])), times))
-    s.per_oil |= {"leak": share / film}
-    s.truth |= {"lost_in_longest_record": share}
+    s.always |= {"leak": lost / film}
+    s.truth |= {"lost_in_longest_record_m3": lost}
 
 
 def end_stop(d: Dice, s: Secret) -> None:
@@ -251,6 +250,6 @@ def secret(kind: str, seed: int, p: Parameters, strength: float | None) -> tuple
         strengths.append(drawn if strength is None else strength)
         DRAWS[part](Dice(rng, strengths[-1], p), found)
         found.truth[f"strength_{part}"] = strengths[-1]
-    for numbers in (found.always, found.moving, found.degraded, found.per_oil, found.parameters, found.measurement):
+    for numbers in (found.always, found.moving, found.degraded, found.parameters, found.measurement):
         found.truth |= numbers
     return found, strengths[0]

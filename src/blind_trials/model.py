@@ -257,7 +257,7 @@ def ageing(c: Tube, h: Hidden, y: Array, z: float, v: float, dt: float) -> None:
             y[RETURNED] += back
     if h.leak > 0.0:
         left = h.leak * math.sqrt(abs(v)) * dt
-        for i in (2, 0, 1):  # the rod guide drains into the reserve, what it loses is missing there first
+        for i in (2, 1, 0):  # the rod guide drains into the reserve; V1, under pressure, passes its loss on to V2
             part = min(y[O1 + i], left)
             y[O1 + i] -= part
             y[LEAKED] += part

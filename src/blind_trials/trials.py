@@ -107,7 +107,6 @@ def take(
     time = np.asarray(np.round(np.clip(time, 0.0, plan.drive.duration), 6), dtype=np.float64)
     level = plan.level if plan.preload else plan.level + s.level_error
     numbers = s.always | ({} if plan.velocity == 0.0 else s.moving) | ({} if plan.preload else s.degraded)
-    numbers |= {name: value * level * damper.parameters.V_oil for name, value in s.per_oil.items()}
     hidden = Hidden(**(numbers | {"start": start}))
     c = tube(damper, level, plan.preload, s.parameters)
     # The load cell's amplifier takes the mean of the force over the interval around each sample.

@@ -46,7 +46,7 @@ def test_strength_zero_hides_nothing():
     plain = Run(0.56, 1.048).force
     for kind in EFFECTS:
         s = secret(kind, 3, P, 0.0)[0]
-        hidden = s.always | s.moving | s.degraded | s.per_oil
+        hidden = s.always | s.moving | s.degraded
         error = np.sqrt(np.mean((Run(0.56, 1.048, **hidden).force - plain) ** 2)) / np.abs(plain).max()
         # With a mount, even a rigid one, the rod has a mass and what switches within a sample is not averaged.
         assert error < (0.03 if kind == "mount_compliance" else 1e-9), (kind, error)
@@ -115,9 +115,9 @@ def test_residual_gas_pushes_the_rod_out_more_when_it_is_in():
 
 def test_leak_loses_the_stated_share_and_lowers_the_work():
     s = secret("seal_leak", 3, P, 1.0)[0]
-    leak = s.per_oil["leak"] * 0.56 * P.V_oil
+    leak = s.always["leak"]
     slow = Run(0.56, min(VELOCITIES), leak=leak)
-    assert slow.out[-1, LOST] == pytest.approx(s.truth["lost_in_longest_record"] * 0.56 * P.V_oil, rel=0.02)
+    assert slow.out[-1, LOST] == pytest.approx(s.truth["lost_in_longest_record_m3"], rel=0.02)
     fast, plain = Run(0.56, 0.524, leak=5 * leak), Run(0.56, 0.524)
     assert fast.works()[18] < plain.works()[18]
 

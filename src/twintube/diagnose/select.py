@@ -44,6 +44,7 @@ class Option:
     names: tuple[str, ...]  # of all causes in the model, the new one last
     fits: tuple[Fit, ...]  # one per fold
     misfit: Array  # (h,) mean squared weighted error of the held-out records, fold after fold
+    squares: float  # sum of their squared force errors [N2]
     score: float  # twice the negative log-likelihood of the held-out records
 
 
@@ -77,9 +78,10 @@ class Selector:
     def option(self, names: Sequence[str], frees: Sequence[Sequence[Free]]) -> Option:
         """The model with some causes, fitted in every fold from the starts given for it."""
         fits = tuple(fold.fitted.fit(free, {}) for fold, free in zip(self.folds, frees, strict=True))
-        held = [fold.held.misfits(fold.held.residual(fit.values)) for fold, fit in zip(self.folds, fits, strict=True)]
-        misfit = np.concatenate(held)
-        return Option(tuple(names), fits, misfit, float(self.logs(misfit).sum()))
+        errors = [fold.held.residual(fit.values) for fold, fit in zip(self.folds, fits, strict=True)]
+        misfit = np.concatenate([fold.held.misfits(error) for fold, error in zip(self.folds, errors, strict=True)])
+        squares = sum(float(np.sum((error * fold.held.sigma) ** 2)) for fold, error in zip(self.folds, errors, strict=True))
+        return Option(tuple(names), fits, misfit, squares, float(self.logs(misfit).sum()))
 
     def bare(self) -> Option:
         """The model with nothing but the nuisances; balances the records for what follows."""
@@ -133,8 +135,9 @@ class Selector:
             return False  # one record alone decides
         if whole is None:
             return True
-        squares = float(self.counts @ (after.misfit - before.misfit))
-        return squares <= 0.0 and gained >= BESIDE * whole and removed(before.score, after.score, self.count) >= NEXT
+        # Many records a little better and some far worse is a formulation, not a second cause.
+        better = after.squares <= before.squares
+        return better and gained >= BESIDE * whole and removed(before.score, after.score, self.count) >= NEXT
 
     def acts(self, option: Option) -> bool:
         """Whether the new cause of an option is off its neutral value in every fold."""

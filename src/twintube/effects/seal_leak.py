@@ -3,7 +3,8 @@
 The film grows with the speed to the power leak_power - 1: a film of constant thickness has 1, a leak under constant pressure
 0, the film that viscosity draws out lies between.
 
-It comes from the reserve, where the seal is (oil, then the oil of its foam), then from V1, whose oil gives way to gas.
+It comes from the reserve, where the seal is. Without oil there, the rod guide passes on what V1 presses through it and what
+then misses in V2, whose oil gives way to gas; V1 itself draws no gas while it is under pressure.
 """
 
 import math
@@ -25,7 +26,7 @@ NEEDS_TIME = True
 class Parameters(variables.Parameters):
     """The film's cross-section and what it depends on."""
 
-    leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled, at 1 m/s", lower=0, upper=5e-5,
+    leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled, at 1 m/s", lower=0, upper=1e-5,
                            source="film on the rod; Mueller and Nau, Fluid Sealing Technology", default=0.0)  # fmt: skip
     leak_power: float = var("seal_leak", "", "1", "oil lost per time goes with the speed to this power", lower=0, upper=2,
                             source="1: constant film", default=1.0)  # fmt: skip
@@ -47,6 +48,12 @@ def seal_leak_phases(p: Parameters, s: State, way: float, dt: float) -> None:
     s.V3_oil -= oil
     s.V_lost += oil
     left -= oil
+    if left > 0.0:
+        oil = min(left, s.V2_oil)
+        s.V2_oil -= oil
+        s.V2_gas += oil
+        s.V_lost += oil
+        left -= oil
     if left > 0.0:
         oil = min(left, s.V3_foam_oil)
         s.V3_foam_oil -= oil
