@@ -3,7 +3,6 @@
 import json
 import os
 import platform
-import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -12,34 +11,21 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-import build_fmu
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
+from benchmarks.fmu import bench_fmu_step, bench_quarter_car
+from benchmarks.timing import best
 from twintube import compiled, effects, model
 from twintube.identify import METHODS, Harmonic, Objective, minimise
 from twintube.identify.objective import TABLE_6, TABLES_7_8
 from twintube.parameters import Damper, load
-from twintube.quarter_car import PASSAT_REAR, Car
 from twintube.rig import BLOCKS, harmonic_block
 from twintube.simulate import simulate, work_between
 from twintube.variables import Derived, Flow, blank
 from twintube.variants import NO_CAVITATION, NO_FOAM
-from vehicle_demo.damper_fmu import DamperFmu
-from vehicle_demo.ride import Case, heights, ride
 
-REPEATS = 5
 FINER = 16  # steps of the truth per sample of a record
 NOISE = 0.01  # of the peak force
 SEEDS = (1, 2)  # of the comparison of the optimisers
-
-
-def best(job: Callable[[], object]) -> float:
-    """Shortest of several times [s]: the one least disturbed by the rest of the machine."""
-    times = []
-    for _ in range(REPEATS):
-        start = time.perf_counter()
-        job()
-        times.append(time.perf_counter() - start)
-    return min(times)
 
 
 def bench_kernel() -> dict[str, float]:
@@ -62,35 +48,6 @@ def bench_kernel() -> dict[str, float]:
 
     slow = best(interpreted)
     return {"ns_per_step": fast / n * 1e9, "interpreted_ns_per_step": slow / n * 1e9, "speed_up": slow / fast}
-
-
-def bench_fmu_step() -> dict[str, float]:
-    """Set, step and get of the FMU through its library, in turn with the bare kernel step as reference."""
-    damper = load("SA8").with_(oil_level=0.6, gas_preload=0)
-    stroke = 0.03 * np.sin(np.arange(20001) * 0.02)
-    moves = list(zip(stroke[:-1].tolist(), (np.diff(stroke) / 1e-3).tolist(), strict=True))
-    with tempfile.TemporaryDirectory() as folder:
-        fmu = build_fmu.build(damper, Path(folder))
-        with DamperFmu(fmu) as unit:
-            p, d, s, f = damper.parameters, blank(Derived), blank(effects.State), blank(Flow)
-            model.set_up(p, d)
-            model.start(p, d, s, 0.0)
-            found = best(lambda: [unit.step(z, v, 1e-3) for z, v in moves])
-            reference = best(lambda: [model.advance(p, d, s, f, z + v * 1e-3, v, v, 1e-3) for z, v in moves])
-    n = len(moves)
-    return {"us_per_step": found / n * 1e6, "reference_us_per_step": reference / n * 1e6, "ratio": found / reference}
-
-
-def bench_quarter_car() -> dict[str, float]:
-    """One case of the demo on one core: 60 s at 50 km/h, 60 % oil, steps of 1 ms, FMU in the loop."""
-    damper = load("SA8")
-    car = Car(**PASSAT_REAR, F_rest=-damper.parameters.F_0)
-    case = Case(50.0, 0.6, 0)
-    height = heights(case, 60.0, 1e-3, seed=1)
-    with tempfile.TemporaryDirectory() as folder:
-        fmu = build_fmu.build(damper, Path(folder))
-        seconds = best(lambda: ride(fmu, car, case, height, 1e-3))
-    return {"times_real_time": 60.0 / seconds, "seconds": seconds}
 
 
 def measured(damper: Damper, noise: float) -> list[Harmonic]:
@@ -171,7 +128,7 @@ def main(
     typer.echo(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}")
     for key, value in figures.items():
         if isinstance(value, float):
-            typer.echo(f"{key:26}{value:12.3f}")
+            typer.echo(f"{key:32}{value:12.3f}")
         elif isinstance(value, dict):
             typer.echo(f"{key}:")
             for row, cells in value.items():

@@ -7,7 +7,7 @@ from twintube.effects import State
 from twintube.parameters import Damper
 from twintube.variables import Derived, Flow, blank
 
-AMPLITUDE = 0.5  # of the largest stroke
+AMPLITUDE = 0.9  # of the largest stroke
 FREQUENCY = 2.0  # [Hz]
 STEP, STEPS = 1e-3, 2000
 

@@ -29,6 +29,16 @@ static void publish(struct memory *m)
     o->work = s->work;
 }
 
+/* Whether all is a number: what the outputs do not show spoils later steps. */
+static int computed(const struct kernel_State *s)
+{
+    const double *value = (const double *)s, force = s->F_fluid + s->F_friction + s->F_gas;
+    int wrong = force - force != 0.0;
+    for (size_t i = 0; i < sizeof *s / sizeof *value; i++)
+        wrong |= value[i] - value[i] != 0.0;
+    return !wrong;
+}
+
 /* Take over the parameters that were set; nothing changes where they are not admissible. */
 static int take_over(struct unit *u)
 {
@@ -60,6 +70,10 @@ static int begin(struct unit *u)
     m->f.k_degr = m->f.k_mean = 1.0;
     kernel_start(&m->damper.p, &m->d, &m->s, m->stroke);
     kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, m->stroke, m->velocity, m->velocity, 0.0);
+    if (!computed(&m->s)) {
+        refuse(u, "the start could not be computed; please report this parameter set");
+        return 0;
+    }
     publish(m);
     m->stale = 0;
     return 1;
@@ -73,6 +87,7 @@ static fmi2Status move(struct unit *u, double h)
     const double end = z + (v + 0.5 * m->velocity_rate * h) * h;
     const double jump = z - (m->d.extended > 0 ? m->s.z_rod : m->s.z);
     struct kernel_State before;
+    struct kernel_Flow flow;
     fmi2Status status = fmi2OK;
 
     if (m->changed && !take_over(u))
@@ -82,9 +97,10 @@ static fmi2Status move(struct unit *u, double h)
         || !inside(u, "velocity at the end of the step", after, -SPEED_LIMIT, SPEED_LIMIT, "m/s"))
         return fmi2Error;
     before = m->s;
-    if (!kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, end, v, after, h)
-        || m->s.F_fluid - m->s.F_fluid != 0.0 || m->s.F_friction - m->s.F_friction != 0.0 || m->s.work - m->s.work != 0.0) {
+    flow = m->f;
+    if (!kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, end, v, after, h) || !computed(&m->s)) {
         m->s = before;
+        m->f = flow;
         return refuse(u, "time %g s: the step could not be computed; please report this parameter set", m->time);
     }
     publish(m);

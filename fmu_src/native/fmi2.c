@@ -1,6 +1,5 @@
-/* FMI 2.0 for co-simulation. The equations are in kernel.h, the table of variables with the start values in variables.h.
-
-   For static linking define FMI2_FUNCTION_PREFIX (modelIdentifier_) when this file is compiled; it is the only one to be. */
+/* FMI 2.0 for co-simulation; the only file to compile. The equations are in kernel.h, the table of variables with the start
+   values in variables.h. */
 #include "damper.h"
 
 #define EVERYWHERE (1 << INSTANTIATED | 1 << INITIALIZING | 1 << STEPPING | 1 << TERMINATED)
@@ -333,7 +332,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real h, fmi2Boolean no
 {
     struct unit *u = c;
     fmi2Status status;
-    double slack;
+    double slack, last;
     (void)noSetPrior;
     if (!allowed(u, "fmi2DoStep", 1 << STEPPING) || !inside(u, "communication point", time, -1e12, 1e12, "s")
         || !inside(u, "communication step", h, 0.0, 1e12, "s"))
@@ -344,12 +343,11 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real h, fmi2Boolean no
         return refuse(u, "communication point = %.10g s: the last step ended at %.10g s", time, u->m.time);
     if (time + h > u->m.stop + slack)
         return refuse(u, "communication step = %g s at %.10g s: beyond the stop time %.10g s", h, time, u->m.stop);
+    last = u->m.time;
     u->m.time = time;
     status = move(u, h);
-    if (status <= fmi2Warning) {
-        u->m.time = time + h;
-        u->m.timed = 1;
-    }
+    u->m.time = status <= fmi2Warning ? time + h : last;
+    u->m.timed |= status <= fmi2Warning;
     return status;
 }
 

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from fmu_src.description import model_name
 from fmu_src.native.translate import digest
 from fmu_src.table import Variable, variables
 from twintube.parameters import Damper
@@ -38,7 +39,21 @@ def bound(value: float | None, sign: str) -> str:
     return f"{sign}INFINITY" if value is None else repr(float(value))
 
 
-def table(damper: Damper, guid: str) -> str:
+def identity(damper: Damper, guid: str) -> str:
+    """The text of `model.h`; the prefix is for static linking, as the standard asks of sources."""
+    return "\n".join([
+        "/* Made by build_fmu.py: what this model is called. For a shared library define the prefix as nothing. */",
+        "#ifndef MODEL_H", "#define MODEL_H", "",
+        "#ifndef FMI2_FUNCTION_PREFIX",
+        f"#define FMI2_FUNCTION_PREFIX {model_name(damper)}_",
+        "#endif", "",
+        f'#define MODEL_GUID "{guid}"',
+        f'#define MODEL_EQUATIONS "{digest()[:15]}"', "",
+        "#endif", "",
+    ])  # fmt: skip
+
+
+def table(damper: Damper) -> str:
     """The text of `variables.h`."""
     rows, starts = [], []
     for variable in variables(damper):
@@ -52,8 +67,6 @@ def table(damper: Damper, guid: str) -> str:
     return "\n".join([
         "/* Made by build_fmu.py: all variables by their value references, and their start values. */",
         "#ifndef VARIABLES_H", "#define VARIABLES_H", "",
-        f'#define MODEL_GUID "{guid}"',
-        f'#define MODEL_EQUATIONS "{digest()[:15]}"', "",
         "static const struct variable VARIABLE[] = {", *rows, "};", "",
         "static const double START[] = {", *starts, "};", "", "#endif", "",
     ])  # fmt: skip
@@ -61,4 +74,5 @@ def table(damper: Damper, guid: str) -> str:
 
 def sources(damper: Damper, guid: str) -> dict[str, str]:
     """All files by name."""
-    return {name: (FOLDER / name).read_text(encoding="utf-8") for name in FIXED} | {"variables.h": table(damper, guid)}
+    made = {"model.h": identity(damper, guid), "variables.h": table(damper)}
+    return {name: (FOLDER / name).read_text(encoding="utf-8") for name in FIXED} | made

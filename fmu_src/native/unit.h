@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model.h"
+
 #include "fmi2Functions.h"
 #include "kernel.h"
 
@@ -73,18 +75,21 @@ struct unit {
 static const char LOG_ERROR[] = "logStatusError";
 static const char LOG_WARNING[] = "logStatusWarning";
 
+/* Loggers expand % and #, which an importer's own words may hold. */
 static fmi2Status say(struct unit *u, fmi2Status status, const char *format, va_list arguments)
 {
     char text[512];
     const int wanted = status == fmi2Warning ? u->says_warnings : u->says_errors;
     if (u->log && wanted) {
         vsnprintf(text, sizeof text, format, arguments);
+        for (char *mark = text; (mark = strpbrk(mark, "%#")) != NULL;)
+            *mark = '?';
         u->log(u->environment, u->name, status, status == fmi2Warning ? LOG_WARNING : LOG_ERROR, text);
     }
     return status;
 }
 
-/* Log a message and return the status, for `return refuse(...)`. Messages must hold no % and no #: loggers expand them. */
+/* Log a message and return the status, for `return refuse(...)`. */
 static fmi2Status refuse(struct unit *u, const char *format, ...)
 {
     va_list arguments;

@@ -72,6 +72,27 @@ def simulate(
         )
 
 
+@app.command(epilog="Example: twintube ssv SA8 --oil-level 0.6 --gas-lost --output worn.ssv")
+def ssv(
+    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
+    oil_level: Annotated[float | None, typer.Option(help="Oil, share of the intact volume.")] = None,
+    gas_lost: Annotated[bool, typer.Option("--gas-lost", help="The gas preload is lost.")] = False,
+    output: Annotated[Path, typer.Option(help="SSV file for the parameters.")] = Path("parameters.ssv"),
+) -> None:
+    """Write all parameters for an importer of the FMU, as System Structure Parameter Values of SSP 1.0."""
+    from twintube.ssv import to_ssv
+
+    with answering():
+        changes: dict[str, Any] = {}
+        if oil_level is not None:
+            changes["oil_level"] = oil_level
+        if gas_lost:
+            changes["gas_preload"] = 0
+        chosen = parameters.load(damper).with_(**changes)
+        write(output, to_ssv(chosen))
+        typer.echo(f"{output}: parameters of {chosen.name}, {chosen.title}")
+
+
 @app.command(epilog="Example: twintube rig SA8 --output excitations")
 def rig(
     damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],

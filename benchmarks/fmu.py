@@ -1,0 +1,139 @@
+"""Speed of the FMUs: native and Python kind beside a trivial FMU, in a C host and through fmpy; the quarter car."""
+
+import subprocess
+import tempfile
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+from fmpy.fmi2 import FMU2Slave
+
+import build_fmu
+from benchmarks.timing import best
+from fmu_src.native import binaries
+from twintube import effects, model
+from twintube.parameters import Damper, load
+from twintube.quarter_car import PASSAT_REAR, Car
+from twintube.variables import Derived, Flow, blank
+from vehicle_demo.damper_fmu import DamperFmu
+from vehicle_demo.ride import Case, heights, ride
+
+TRIVIAL = Path(__file__).parent / "trivial.c"
+HOST = Path(__file__).parent.parent / "tests" / "native" / "host.c"
+STEPS = 20000
+HOST_STEPS = 2_000_000
+
+
+def trivial(native: Path, folder: Path) -> Path:
+    """The native FMU with the library of the trivial one in its place, compiled the same way."""
+    name = fmpy.read_model_description(str(native)).coSimulation.modelIdentifier
+    ending, targets = binaries.PLATFORMS[fmpy.platform]
+    library = folder / f"{name}.{ending}"
+    binaries.compiled(TRIVIAL, targets[0], library)
+    target = folder / "trivial.fmu"
+    with zipfile.ZipFile(native) as old, zipfile.ZipFile(target, "w") as new:
+        for item in old.namelist():
+            new.writestr(item, library.read_bytes() if item.startswith("binaries/") else old.read(item))
+    return target
+
+
+def moves() -> list[tuple[float, float]]:
+    """Strokes [m] and the mean velocities [m/s] of the steps of 1 ms that follow."""
+    stroke = 0.03 * np.sin(np.arange(STEPS + 1) * 0.02)
+    return list(zip(stroke[:-1].tolist(), (np.diff(stroke) / 1e-3).tolist(), strict=True))
+
+
+def by_fmpy(fmu: Path) -> float:
+    """Time [s] of a set, step and get with fmpy's own functions."""
+    description = fmpy.read_model_description(str(fmu))
+    slave = FMU2Slave(
+        guid=description.guid, unzipDirectory=fmpy.extract(str(fmu)),
+        modelIdentifier=description.coSimulation.modelIdentifier, instanceName="damper",
+    )  # fmt: skip
+    slave.instantiate()
+    slave.setupExperiment(startTime=0.0)
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    time = 0.0
+
+    def run() -> None:
+        nonlocal time
+        for z, v in moves():
+            slave.setReal([0, 1], [z, v])
+            slave.doStep(time, 1e-3)
+            slave.getReal([2])
+            time += 1e-3
+
+    found = best(run) / STEPS
+    slave.terminate()
+    slave.freeInstance()
+    return found
+
+
+def by_handle(fmu: Path) -> float:
+    """The same with the preallocated buffers of the vehicle demo."""
+    with DamperFmu(fmu) as unit:
+        return best(lambda: [unit.step(z, v, 1e-3) for z, v in moves()]) / STEPS
+
+
+def by_host(fmu: Path, folder: Path) -> float:
+    """The same in a program of C."""
+    host = folder / "host"
+    targets = binaries.PLATFORMS[fmpy.platform][1]
+    binaries.compiled(HOST, targets[0], host, ("-std=gnu11", "-O2"))
+    unpacked = Path(fmpy.extract(str(fmu)))
+    library = next((unpacked / "binaries" / fmpy.platform).iterdir())
+    guid = fmpy.read_model_description(str(fmu)).guid
+    command = [str(host), str(library), guid, "speed", str(HOST_STEPS)]
+    return min(float(subprocess.run(command, check=True, capture_output=True, text=True).stdout) for _ in range(3)) * 1e-9
+
+
+def kernel(damper: Damper) -> float:
+    """Time [s] of a step of the interpreted kernel."""
+    p, d, s, f = damper.parameters, blank(Derived), blank(effects.State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    return best(lambda: [model.advance(p, d, s, f, z + v * 1e-3, v, v, 1e-3) for z, v in moves()]) / STEPS
+
+
+def bench_fmu_step() -> dict[str, float]:
+    """Set, step and get, SA8 at 60 % oil: `us_per_step` and its reference, a trivial C FMU, both through fmpy."""
+    damper = load("SA8").with_(oil_level=0.6, gas_preload=0)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        native = build_fmu.build(damper, folder / "native.fmu", platforms=(fmpy.platform,))
+        python = build_fmu.build(damper, folder / "python.fmu", "python")
+        bare = trivial(native, folder)
+        found = {
+            "us_per_step": by_fmpy(native),
+            "reference_us_per_step": by_fmpy(bare),
+            "python_kind_us_per_step": by_fmpy(python),
+            "buffered_us_per_step": by_handle(native),
+            "buffered_reference_us_per_step": by_handle(bare),
+            "c_host_us_per_step": by_host(native, folder),
+            "interpreted_kernel_us_per_step": kernel(damper),
+        }
+    figures = {key: value * 1e6 for key, value in found.items()}
+    return figures | {"ratio": figures["us_per_step"] / figures["reference_us_per_step"]}
+
+
+def bench_quarter_car() -> dict[str, float]:
+    """One case of the demo on one core: 60 s at 50 km/h, 60 % oil, steps of 1 ms, FMU in the loop."""
+    damper = load("SA8")
+    car = Car(**PASSAT_REAR, F_rest=-damper.parameters.F_0)
+    case = Case(50.0, 0.6, 0)
+    height = heights(case, 60.0, 1e-3, seed=1)
+
+    def seconds(kind: build_fmu.Kind, folder: str) -> float:
+        fmu = build_fmu.build(damper, Path(folder) / f"{kind}.fmu", kind, (fmpy.platform,))
+        return best(lambda: ride(fmu, car, case, height, 1e-3))
+
+    with tempfile.TemporaryDirectory() as folder:
+        native, python = seconds("native", folder), seconds("python", folder)
+    return {
+        "times_real_time": 60.0 / native,
+        "seconds": native,
+        "python_kind_seconds": python,
+        "times_python_kind": python / native,
+    }

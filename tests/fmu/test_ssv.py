@@ -1,0 +1,153 @@
+"""Parameters as SSV: importers of SSP that are not ours run the FMU with them."""
+
+import zipfile
+from pathlib import Path
+from types import ModuleType
+from xml.etree import ElementTree as ET
+
+import fmpy
+import pytest
+from libcosimpy.CosimExecution import CosimExecution
+from libcosimpy.CosimManipulator import CosimManipulator
+from libcosimpy.CosimObserver import CosimObserver
+from lxml import etree
+from typer.testing import CliRunner
+
+from twintube.cli import app
+from twintube.parameters import Damper, load, names
+from twintube.ssv import to_ssv, values
+from vehicle_demo.damper_fmu import DamperFmu
+
+NS = {
+    "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
+    "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
+}
+SCHEMA = Path(fmpy.__file__).parent / "ssp" / "schema" / "SystemStructureParameterValues.xsd"
+STRUCTURE = """<?xml version="1.0" encoding="UTF-8"?>
+<ssd:SystemStructureDescription name="test" version="1.0"
+    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
+    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon">
+  <ssd:System name="rig">
+    <ssd:Elements>
+      <ssd:Component name="damper" type="application/x-fmu-sharedlibrary" source="resources/damper.fmu">
+        <ssd:Connectors>
+          <ssd:Connector name="stroke" kind="input"><ssc:Real unit="m"/></ssd:Connector>
+          <ssd:Connector name="velocity" kind="input"><ssc:Real unit="m/s"/></ssd:Connector>
+          <ssd:Connector name="force" kind="output"><ssc:Real unit="N"/></ssd:Connector>
+        </ssd:Connectors>
+        <ssd:ParameterBindings>
+          <ssd:ParameterBinding type="application/x-ssp-parameter-set" source="resources/worn.ssv"/>
+        </ssd:ParameterBindings>
+      </ssd:Component>
+    </ssd:Elements>
+  </ssd:System>
+</ssd:SystemStructureDescription>
+"""
+# Another damper than the FMU's, in another condition: hardly a parameter is that of SA8.
+WORN = load("SA7").with_(oil_level=0.56, gas_preload=0)
+STROKE, VELOCITY, FORCE = 0, 1, 2  # value references, in the order of the variables
+VELOCITIES = [0.4] * 100 + [-0.3] * 200 + [0.05] * 100
+STROKES = [sum(VELOCITIES[:i]) * 1e-3 for i in range(len(VELOCITIES))]
+
+
+@pytest.fixture
+def system(sa8_native: Path, tmp_path: Path) -> Path:
+    """The folder of an SSP of the SA8 with the parameters of WORN."""
+    folder = tmp_path / "ssp"
+    (folder / "resources").mkdir(parents=True)
+    (folder / "SystemStructure.ssd").write_text(STRUCTURE)
+    (folder / "resources" / "worn.ssv").write_text(to_ssv(WORN))
+    (folder / "resources" / "damper.fmu").write_bytes(sa8_native.read_bytes())
+    return folder
+
+
+def set_directly(fmu: Path, damper: Damper, steps: list[float]) -> list[float]:
+    """Forces of the FMU in fmpy, all parameters set by their names."""
+    start = {name: float(text) for name, _, _, text, _ in values(damper)}
+    with DamperFmu(fmu, **start) as unit:
+        forces = [unit.step(*at) for at in zip(STROKES, VELOCITIES, steps, strict=True)]
+        assert unit.messages == []
+    return forces
+
+
+def test_ecos_runs_the_fmu_with_the_parameters(system: Path, ecos: ModuleType, sa8_native: Path, tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "rig.ssp", "w") as archive:
+        for file in system.rglob("*.*"):
+            archive.write(file, file.relative_to(system))
+    forces = []
+    with ecos.EcosSimulation(step_size=1e-3, ssp_path=str(tmp_path / "rig.ssp")) as run:
+        assert run.init(parameter_set=WORN.name)
+        assert run.get_real("damper::fv.F_re[3]") == WORN.parameters.F_re[2]
+        assert run.get_integer("damper::gas_preload") == 0
+        for z, v in zip(STROKES, VELOCITIES, strict=True):
+            run.set_real("damper::stroke", z)
+            run.set_real("damper::velocity", v)
+            run.step()
+            forces.append(run.get_real("damper::force"))
+        run.terminate()
+    assert forces == set_directly(sa8_native, WORN, [1e-3] * len(STROKES))
+    assert forces != set_directly(sa8_native, load("SA8"), [1e-3] * len(STROKES))
+
+
+def test_libcosim_runs_the_fmu_with_the_parameters(system: Path, sa8_native: Path) -> None:
+    execution = CosimExecution.from_ssp_file(ssp_path=str(system), step_size=1_000_000)
+    manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
+    execution.add_manipulator(manipulator)
+    execution.add_observer(observer)
+    forces = []
+    for z, v in zip(STROKES, VELOCITIES, strict=True):
+        assert manipulator.slave_real_values(slave_index=0, variable_references=[STROKE, VELOCITY], values=[z, v])
+        assert execution.step()
+        forces += observer.last_real_values(slave_index=0, variable_references=[FORCE])
+    # libcosim counts nanoseconds: its steps are differences of rounded times.
+    steps = [(i + 1) * 1_000_000 / 1e9 - i * 1_000_000 / 1e9 for i in range(len(STROKES))]
+    assert forces == set_directly(sa8_native, WORN, steps)
+
+
+def test_names_kinds_and_units_are_those_of_the_fmu(sa8_native: Path) -> None:
+    description = fmpy.read_model_description(str(sa8_native))
+    root = ET.fromstring(to_ssv(load("SA8")))
+    found = {}
+    for parameter in root.findall("ssv:Parameters/ssv:Parameter", NS):
+        (number,) = parameter
+        found[parameter.get("name")] = (number.tag.partition("}")[2], number.get("unit"), float(number.get("value", "nan")))
+    assert found == {
+        v.name: (v.type, v.unit, float(v.start)) for v in description.modelVariables if v.causality == "parameter"
+    }
+    exponents = {unit.get("name"): dict(unit[0].attrib) for unit in root.findall("ssv:Units/ssc:Unit", NS)}
+    assert set(exponents) == {unit for _, unit, _ in found.values() if unit}
+    for unit in description.unitDefinitions:
+        if unit.name in exponents:
+            powers = {base: int(power) for base, power in exponents[unit.name].items()}
+            assert powers == {base: getattr(unit.baseUnit, base) for base in powers}
+
+
+@pytest.mark.parametrize("name", names())
+def test_ssv_is_valid(name: str) -> None:
+    schema = etree.XMLSchema(etree.parse(str(SCHEMA)))
+    schema.assertValid(etree.fromstring(to_ssv(load(name)).encode()))
+
+
+def test_command_writes_the_parameters(tmp_path: Path) -> None:
+    file = tmp_path / "new" / "worn.ssv"
+    run = CliRunner().invoke(app, ["ssv", "SA7", "--oil-level", "0.56", "--gas-lost", "--output", str(file)])
+    assert run.exit_code == 0, run.output
+    assert "SA7" in run.output
+    assert file.read_text(encoding="utf-8") == to_ssv(WORN)
+    help_ = CliRunner().invoke(app, ["ssv", "--help"])
+    assert "Example: twintube ssv" in help_.output
+
+
+def test_command_keeps_the_condition_of_a_file_and_refuses_bad_values(tmp_path: Path) -> None:
+    shown = CliRunner().invoke(app, ["dampers", "SA7"]).output.replace("oil_level = 1.0", "oil_level = 0.7")
+    (tmp_path / "mine.toml").write_text(shown)
+    run = CliRunner().invoke(app, ["ssv", str(tmp_path / "mine.toml"), "--output", str(tmp_path / "mine.ssv")])
+    assert run.exit_code == 0, run.output
+    root = ET.parse(tmp_path / "mine.ssv")
+    oil = root.find("ssv:Parameters/ssv:Parameter[@name='oil_level']/ssv:Real", NS)
+    assert oil is not None
+    assert oil.get("value") == "0.7"
+    bad = CliRunner().invoke(app, ["ssv", "SA7", "--oil-level", "1.7", "--output", str(tmp_path / "bad.ssv")])
+    assert bad.exit_code == 2
+    assert "oil_level = 1.7 1: must be a number from 0 to 1" in bad.output
+    assert not (tmp_path / "bad.ssv").exists()
