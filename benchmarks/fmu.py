@@ -79,13 +79,12 @@ def by_handle(fmu: Path) -> float:
 
 def by_host(fmu: Path, folder: Path) -> float:
     """The same in a program of C."""
-    host = folder / "host"
-    targets = binaries.PLATFORMS[fmpy.platform][1]
-    binaries.compiled(HOST, targets[0], host, ("-std=gnu11", "-O2"))
     unpacked = Path(fmpy.extract(str(fmu)))
+    host = folder / "host"
+    flags = ("-std=gnu99", "-O2", f"-I{unpacked / 'sources'}", "-pthread", "-ldl")
+    binaries.compiled(HOST, binaries.PLATFORMS[fmpy.platform][1][0], host, flags)
     library = next((unpacked / "binaries" / fmpy.platform).iterdir())
-    guid = fmpy.read_model_description(str(fmu)).guid
-    command = [str(host), str(library), guid, "speed", str(HOST_STEPS)]
+    command = [str(host), str(library), "speed", str(HOST_STEPS)]
     return min(float(subprocess.run(command, check=True, capture_output=True, text=True).stdout) for _ in range(3)) * 1e-9
 
 

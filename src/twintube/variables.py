@@ -165,7 +165,7 @@ class Outputs:
 
     force: float = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1")
     k_degr: float = var("", "k_degr", "1", "fluid force relative to the intact damper, mean over the step; above 1 only "
-                        "with a stiffer valve", lower=0, upper=2, source="equations 23-39")
+                        "with a stiffer valve or colder oil", lower=0, upper=15, source="equations 23-39")
     V1_oil: float = var("V1.oil", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5")
     V1_gas: float = var("V1.gas", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5")
     V1_foam: float = var("V1.foam", "V_1foam", "m3", "foam in the rebound chamber", lower=0, source="equation 5")
