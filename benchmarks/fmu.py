@@ -21,7 +21,7 @@ from vehicle_demo.ride import Case, heights, ride
 
 TRIVIAL = Path(__file__).parent / "trivial.c"
 HOST = Path(__file__).parent.parent / "tests" / "native" / "host.c"
-STEPS = 20000
+STEPS, PERIODS = 20000, 64
 HOST_STEPS = 2_000_000
 
 
@@ -39,8 +39,8 @@ def trivial(native: Path, folder: Path) -> Path:
 
 
 def moves() -> list[tuple[float, float]]:
-    """Strokes [m] and the mean velocities [m/s] of the steps of 1 ms that follow."""
-    stroke = 0.03 * np.sin(np.arange(STEPS + 1) * 0.02)
+    """Strokes [m] and the mean velocities [m/s] of the steps of 1 ms that follow; they end where they begin."""
+    stroke = 0.03 * np.sin(np.arange(STEPS + 1) * (2 * np.pi * PERIODS / STEPS))
     return list(zip(stroke[:-1].tolist(), (np.diff(stroke) / 1e-3).tolist(), strict=True))
 
 

@@ -1,71 +1,74 @@
 /* The least FMU there can be: it stores what is set and multiplies once per step. Reference for the cost of a call. */
-#include "fmi2Functions.h"
+#include <stddef.h>
 #include <stdlib.h>
 
-struct unit {
-    double value[512];
-};
+#include "fmi2FunctionTypes.h"
 
-fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
-                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
+#define EXPORT __attribute__((visibility("default")))
+#define STUB(name) \
+    EXPORT fmi2Status name(void) \
+    { \
+        return fmi2OK; \
+    }
+
+EXPORT fmi2Component fmi2Instantiate(void)
 {
-    (void)name, (void)type, (void)guid, (void)resources, (void)functions, (void)visible, (void)logging;
-    return calloc(1, sizeof(struct unit));
+    return calloc(512, sizeof(double));
 }
 
-void fmi2FreeInstance(fmi2Component c)
+EXPORT void fmi2FreeInstance(fmi2Component c)
 {
     free(c);
 }
 
-fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean a, fmi2Real b, fmi2Real start, fmi2Boolean d, fmi2Real stop)
-{
-    (void)c, (void)a, (void)b, (void)start, (void)d, (void)stop;
-    return fmi2OK;
-}
-
-fmi2Status fmi2EnterInitializationMode(fmi2Component c)
-{
-    (void)c;
-    return fmi2OK;
-}
-
-fmi2Status fmi2ExitInitializationMode(fmi2Component c)
-{
-    (void)c;
-    return fmi2OK;
-}
-
-fmi2Status fmi2Terminate(fmi2Component c)
-{
-    (void)c;
-    return fmi2OK;
-}
-
-fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[])
+EXPORT fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[])
 {
     for (size_t i = 0; i < n; i++)
-        ((struct unit *)c)->value[vr[i]] = value[i];
+        ((double *)c)[vr[i]] = value[i];
     return fmi2OK;
 }
 
-fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer value[])
-{
-    (void)c, (void)vr, (void)n, (void)value;
-    return fmi2OK;
-}
-
-fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
+EXPORT fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
 {
     for (size_t i = 0; i < n; i++)
-        value[i] = ((struct unit *)c)->value[vr[i]];
+        value[i] = ((double *)c)[vr[i]];
     return fmi2OK;
 }
 
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean flag)
+EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean flag)
 {
-    double *value = ((struct unit *)c)->value;
+    double *value = c;
     (void)time, (void)step, (void)flag;
     value[2] = 1000.0 * value[1];
     return fmi2OK;
 }
+
+STUB(fmi2GetTypesPlatform)
+STUB(fmi2GetVersion)
+STUB(fmi2SetDebugLogging)
+STUB(fmi2SetupExperiment)
+STUB(fmi2EnterInitializationMode)
+STUB(fmi2ExitInitializationMode)
+STUB(fmi2Terminate)
+STUB(fmi2Reset)
+STUB(fmi2GetInteger)
+STUB(fmi2GetBoolean)
+STUB(fmi2GetString)
+STUB(fmi2SetInteger)
+STUB(fmi2SetBoolean)
+STUB(fmi2SetString)
+STUB(fmi2GetFMUstate)
+STUB(fmi2SetFMUstate)
+STUB(fmi2FreeFMUstate)
+STUB(fmi2SerializedFMUstateSize)
+STUB(fmi2SerializeFMUstate)
+STUB(fmi2DeSerializeFMUstate)
+STUB(fmi2GetDirectionalDerivative)
+STUB(fmi2SetRealInputDerivatives)
+STUB(fmi2GetRealOutputDerivatives)
+STUB(fmi2CancelStep)
+STUB(fmi2GetStatus)
+STUB(fmi2GetRealStatus)
+STUB(fmi2GetIntegerStatus)
+STUB(fmi2GetBooleanStatus)
+STUB(fmi2GetStringStatus)

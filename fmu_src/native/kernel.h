@@ -1,4 +1,4 @@
-/* Made by fmu_src/native/translate.py from the Python sources 909be1006f0b74f7; do not edit. */
+/* Made by fmu_src/native/translate.py from the Python sources 2be19c3212d18cfd; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -190,6 +190,97 @@ static void kernel_prepare(struct kernel_Parameters* p, struct kernel_Derived* d
     d->k_Co2 = p->X_Co2 + p->G_PV * (1.0 - p->X_Co2);
 }
 
+static int64_t kernel_effects_active(struct kernel_Parameters* p)
+{
+    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
+    {
+        return 1;
+    }
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    {
+        return 1;
+    }
+    if (p->foam_decay_rate != 0.0)
+    {
+        return 1;
+    }
+    if (p->redissolution_rate != 0.0)
+    {
+        return 1;
+    }
+    if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
+    {
+        return 1;
+    }
+    if (p->C_mount != 0.0)
+    {
+        return 1;
+    }
+    if (p->level_error != 0.0)
+    {
+        return 1;
+    }
+    if (p->fade_heat != 0.0)
+    {
+        return 1;
+    }
+    if (p->leak_film != 0.0)
+    {
+        return 1;
+    }
+    if (p->side_load != 0.0)
+    {
+        return 1;
+    }
+    if (p->build_up != 0.0)
+    {
+        return 1;
+    }
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0))
+    {
+        return 1;
+    }
+    return 0;
+}
+
+/* The true level [1]. */
+static double kernel_oil_level_error_level(struct kernel_Parameters* p, double level)
+{
+    return (p->gas_preload == 0 ? double_max(2, 0.0, double_min(2, 1.0, level + p->level_error)) : level);
+}
+
+/* Cavitation needs oil lost (reading 2): of the true level, not of the recorded one. */
+static void kernel_oil_level_error_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
+{
+    bool lost;
+    if ((p->gas_preload == 0) && (p->cavitation_needs == 2))
+    {
+        lost = kernel_oil_level_error_level(p, p->oil_level) < 1.0;
+        d->Y_Co = (lost ? p->Y_Co_cav : 0.0);
+        d->Y_Re = (lost ? p->Y_Re_cav : 0.0);
+    }
+}
+
+static void kernel_effects_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
+{
+    if (p->level_error != 0.0)
+    {
+        kernel_oil_level_error_derive(p, d);
+    }
+    return;
+}
+
+/* Fill `d` from `p`; to be called again after a parameter has changed. */
+static void kernel_set_up(struct kernel_Parameters* p, struct kernel_Derived* d)
+{
+    kernel_prepare(p, d);
+    d->extended = kernel_effects_active(p);
+    if (d->extended > 0)
+    {
+        kernel_effects_derive(p, d);
+    }
+}
+
 /* As `fill`, with the volume `oil` [m3]. */
 static void kernel_pour(struct kernel_Derived* d, struct kernel_State* s, double z, double oil)
 {
@@ -218,11 +309,142 @@ static void kernel_pour(struct kernel_Derived* d, struct kernel_State* s, double
     s->work = 0.0;
 }
 
+static void kernel_effects_reset(struct kernel_State* s)
+{
+    s->z_rod = 0.0;
+    s->goal_z = 0.0;
+    s->goal_v0 = 0.0;
+    s->goal_v1 = 0.0;
+    s->k_flow = 1.0;
+    s->k_re = 1.0;
+    s->k_co = 1.0;
+    s->impulse = 0.0;
+    s->F_valve = 0.0;
+    s->F_mean = 0.0;
+    s->k_mean = 1.0;
+    s->W_step = 0.0;
+    s->elapsed = 0.0;
+    s->F_held_re = 0.0;
+    s->F_held_co = 0.0;
+    s->x_mount = 0.0;
+    s->v_piston = 0.0;
+    s->u_valve = 0.0;
+    s->F_mount = 0.0;
+    s->F_rod = 0.0;
+    s->heat = 0.0;
+    s->V_lost = 0.0;
+    s->k_side = 0.0;
+    s->k_mixed = 1.0;
+    s->k_full_re = 1.0;
+    s->k_full_co = 1.0;
+    s->x_free = 0.0;
+}
+
+/* Force [N] of a stop pressed by `over` [m]. */
+static double kernel_end_stop_press(double force, double over)
+{
+    double depth;
+    if (over <= 0.0)
+    {
+        return 0.0;
+    }
+    depth = over / 0.01;
+    return force * depth * sqrt(depth);
+}
+
+/* Force [N] at the stroke `z` [m]. */
+static double kernel_end_stop_elastic(struct kernel_Parameters* p, double z)
+{
+    return kernel_end_stop_press(p->F_stop_re, z - p->onset_re) - kernel_end_stop_press(p->F_stop_co, (-z) - p->onset_co);
+}
+
+/* Force [N] at the stroke `z` [m]; with preload the gas spring of the parameter set is measured, not assumed. */
+static double kernel_gas_spring_elastic(struct kernel_Parameters* p, double z)
+{
+    if (p->gas_preload > 0)
+    {
+        return 0.0;
+    }
+    return p->c_residual * z - p->F_residual;
+}
+
+static double kernel_effects_elastic(struct kernel_Parameters* p, double z)
+{
+    double value;
+    value = 0.0;
+    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
+    {
+        value += kernel_end_stop_elastic(p, z);
+    }
+    if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
+    {
+        value += kernel_gas_spring_elastic(p, z);
+    }
+    return value;
+}
+
 /* The state at rest at the stroke `z` [m]: oil fills V2, then V1, the rest is in the reserve; no foam.
    The order no longer matters after the paper's six preconditioning oscillations. */
 static void kernel_fill(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z)
 {
     kernel_pour(d, s, z, p->oil_level * p->V_oil);
+}
+
+static double kernel_effects_level(struct kernel_Parameters* p, double value)
+{
+    if (p->level_error != 0.0)
+    {
+        value = kernel_oil_level_error_level(p, value);
+    }
+    return value;
+}
+
+/* The state at rest at the stroke `z` [m]. */
+static void kernel_start(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z)
+{
+    if (d->extended == 0)
+    {
+        kernel_fill(p, d, s, z);
+        return;
+    }
+    kernel_pour(d, s, z, kernel_effects_level(p, p->oil_level) * p->V_oil);
+    kernel_effects_reset(s);
+    s->z_rod = z;
+    s->F_gas += kernel_effects_elastic(p, z);
+}
+
+/* Number of parts for a step of `dt` [s]. */
+static int64_t kernel_parts_of(double dt)
+{
+    /* The smaller one first: C has no integer for the number of parts of a very long step. */
+    return int64_t_max(2, 1, (int64_t)ceil(double_min(2, 8.0, dt / 0.0002 - 1e-06)));
+}
+
+/* The force settles within milliseconds. */
+static int64_t kernel_fluid_lag_parts(struct kernel_Parameters* p, double dt)
+{
+    return kernel_parts_of(dt);
+}
+
+/* The deflection settles within milliseconds, and k_degr is that of the part before. */
+static int64_t kernel_mount_compliance_parts(struct kernel_Parameters* p, double dt)
+{
+    return kernel_parts_of(dt);
+}
+
+static int64_t kernel_effects_parts(struct kernel_Parameters* p, double dt)
+{
+    int64_t value;
+    value = 1;
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    {
+        value = int64_t_max(2, value, kernel_fluid_lag_parts(p, dt));
+    }
+    if (p->C_mount != 0.0)
+    {
+        value = int64_t_max(2, value, kernel_mount_compliance_parts(p, dt));
+    }
+    return value;
 }
 
 /* Force [N] of one branch of the F-v curve at the speed `v` >= 0 [m/s]; the last segment goes on beyond it. */
@@ -260,10 +482,52 @@ static double kernel_fluid_force(struct kernel_Parameters* p, double v)
     return result;
 }
 
-/* Scaling k_FrS [1] of the friction at the velocity `v` [m/s]; the shape of Figure 12 is assumed. */
-static double kernel_stribeck(struct kernel_Parameters* p, double v)
+/* Fluid force [N] while the oil passes the valves as at the piston speed `u` [m/s]; it rises with `u`. */
+static double kernel_valve_force(struct kernel_Parameters* p, double u, double k_re, double k_co)
 {
-    return p->k_high + (1.0 - p->k_high) * exp((-fabs(v)) / p->v_S);
+    return kernel_fluid_force(p, u) * ((u >= 0.0 ? k_re : k_co));
+}
+
+/* Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N]. */
+static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0001, double* result_2_0001, struct kernel_Parameters* p, double F)
+{
+    double rod;
+    double pressure;
+    double area;
+    rod = 0.25 * M_PI * p->D_PR * p->D_PR;
+    pressure = 100000.0 + ((p->gas_preload > 0 ? p->F_0 / rod : 0.0));
+    area = (F >= 0.0 ? 0.25 * M_PI * p->D_li * p->D_li - rod : rod);
+    (*result_0_0001) = (F >= 0.0 ? p->C_fluid : p->C_fluid_co);
+    (*result_1_0001) = p->V_air * 100000.0 / (pressure * area);
+    (*result_2_0001) = pressure * area;
+    return 0;
+}
+
+/* Stroke [m] by which the column gives under the force `F` [N], with its sign. */
+static double kernel_fluid_lag_given(struct kernel_Parameters* p, double F)
+{
+    double C;
+    double way;
+    double F_half;
+    kernel_fluid_lag_column(&C, &way, &F_half, p, F);
+    return C * F + way * F / (fabs(F) + F_half);
+}
+
+/* Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]; for an element in series. */
+static double kernel_fluid_lag_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
+{
+    return (kernel_fluid_lag_given(p, F) - kernel_fluid_lag_given(p, s->F_held_re - s->F_held_co)) / dt;
+}
+
+static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
+{
+    double value;
+    value = 0.0;
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    {
+        value += kernel_fluid_lag_series(p, s, F, dt);
+    }
+    return value;
 }
 
 /* Dahl friction force [N] after the stroke `dz` [m]: the exact solution of equation 2 over the stroke. */
@@ -302,19 +566,253 @@ static double kernel_dahl(struct kernel_Parameters* p, struct kernel_Derived* d,
     return direction * d->F_FrS * (1.0 - side * size);
 }
 
-/* Force of a foam holding the volume `oil` in the volume `foam` [m3], relative to that of oil [1]. */
-static double kernel_foam_factor(struct kernel_Parameters* p, double oil, double foam)
+/* Factor of the friction force [1] at the velocity `v` [m/s]. */
+static double kernel_side_load_friction_scale_friction(struct kernel_Parameters* p, double v)
 {
-    /* Eq. 36: B p^E */
-    if (p->E == 0.0)
+    double x;
+    x = v / p->v_side;
+    return 1.0 + p->side_load * (1.0 - exp((-x) * x)) / (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
+}
+
+static double kernel_effects_scale_friction(struct kernel_Parameters* p, double v)
+{
+    double value;
+    value = 1.0;
+    if (p->side_load != 0.0)
     {
-        return p->B;
+        value *= kernel_side_load_friction_scale_friction(p, v);
     }
-    if (oil <= 0.0)
+    return value;
+}
+
+/* Scaling k_FrS [1] of the friction at the velocity `v` [m/s]; the shape of Figure 12 is assumed. */
+static double kernel_stribeck(struct kernel_Parameters* p, double v)
+{
+    return p->k_high + (1.0 - p->k_high) * exp((-fabs(v)) / p->v_S);
+}
+
+/* Force of the rubber beyond that of the damper [N] if the step ends with the speed `u` [m/s] at the valves. */
+static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt, double u)
+{
+    double F;
+    double speed;
+    double rate;
+    double x;
+    double goal;
+    double friction;
+    double gas;
+    F = kernel_valve_force(p, u, s->k_re, s->k_co);
+    speed = u + kernel_effects_series(p, s, F, dt);
+    rate = v - speed;
+    x = s->x_mount + rate * dt;
+    goal = z - x;
+    friction = kernel_effects_scale_friction(p, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z);
+    gas = d->c_gas * goal + kernel_effects_elastic(p, goal) - kernel_effects_elastic(p, 0.0);
+    return (x + p->tau_mount * rate) / p->C_mount - F - friction - gas - p->m_rod * (speed - s->v_piston) / dt;
+}
+
+/* The speed [m/s] at the valves for which rubber and damper agree: bracketed about the last one, then regula falsi. */
+static double kernel_mount_compliance_speed(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt)
+{
+    double low;
+    double r_low;
+    double way;
+    double high;
+    double r_high;
+    int64_t n;
+    double u;
+    double r;
+    low = s->u_valve;
+    r_low = kernel_mount_compliance_excess(p, d, s, z, v, dt, low);
+    if (r_low == 0.0)
     {
-        return 0.0;
+        return low;
     }
-    return p->B * exp(p->E * log(oil / foam));
+    /* The excess falls with the speed. */
+    way = ((r_low > 0.0 ? 1.0 : -1.0)) * double_max(2, 0.05 * fabs(v - low), 0.001);
+    high = low + way;
+    r_high = kernel_mount_compliance_excess(p, d, s, z, v, dt, high);
+    n = 0;
+    while((r_high * r_low > 0.0) && (n < 60))
+    {
+        low = high;
+        r_low = r_high;
+        way *= 3.0;
+        high += way;
+        r_high = kernel_mount_compliance_excess(p, d, s, z, v, dt, high);
+        n += 1;
+    }
+    n = 0;
+    while((n < 60) && (fabs(r_high) > 1e-06) && (r_low != r_high))
+    {
+        u = high - r_high * (high - low) / (r_high - r_low);
+        r = kernel_mount_compliance_excess(p, d, s, z, v, dt, u);
+        if (r * r_high < 0.0)
+        {
+            low = high;
+            r_low = r_high;
+        }
+        else
+        {
+            r_low *= 0.5;
+        }
+        high = u;
+        r_high = r;
+        n += 1;
+    }
+    return high;
+}
+
+/* Stroke and velocity of the piston; in a step without time the deflection stays. */
+static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
+{
+    if (s->elapsed > 0.0)
+    {
+        s->goal_v0 = s->v_piston;
+        s->goal_v1 = s->v_piston;
+    }
+    else
+    {
+        s->v_piston = v0;
+    }
+    if (dt > 0.0)
+    {
+        s->u_valve = kernel_mount_compliance_speed(p, d, s, z, v1, dt);
+        s->goal_v1 = s->u_valve + kernel_effects_series(p, s, kernel_valve_force(p, s->u_valve, s->k_re, s->k_co), dt);
+        s->x_mount += (v1 - s->goal_v1) * dt;
+        s->F_mount = kernel_valve_force(p, s->u_valve, s->k_re, s->k_co);
+        s->F_rod = p->m_rod * (s->goal_v1 - s->v_piston) / dt;
+    }
+    /* An elastic mount cannot push the piston out of the tube. */
+    s->goal_z = double_max(2, 1e-06 - d->half_length, double_min(2, d->half_length - 1e-06, z - s->x_mount));
+}
+
+static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
+{
+    if (p->C_mount != 0.0)
+    {
+        kernel_mount_compliance_motion(p, d, s, z, v0, v1, dt);
+    }
+    return;
+}
+
+/* Give the oil and the gas of the decayed foam back; the volumes of the chambers stay. */
+static void kernel_foam_decay_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    double share;
+    double gone;
+    double oil;
+    share = 1.0 - exp((-p->foam_decay_rate) * dt);
+    /* A trace of 1e-9 mL would still count as foam. */
+    gone = (s->V1_foam < 1e-15 ? s->V1_foam : share * s->V1_foam);
+    oil = (s->V1_foam < 1e-15 ? s->V1_foam_oil : share * s->V1_foam_oil);
+    s->V1_foam -= gone;
+    s->V1_foam_oil -= oil;
+    s->V1_oil += oil;
+    s->V1_gas += double_max(2, 0.0, gone - oil);
+    gone = (s->V2_foam < 1e-15 ? s->V2_foam : share * s->V2_foam);
+    oil = (s->V2_foam < 1e-15 ? s->V2_foam_oil : share * s->V2_foam_oil);
+    s->V2_foam -= gone;
+    s->V2_foam_oil -= oil;
+    s->V2_oil += oil;
+    s->V2_gas += double_max(2, 0.0, gone - oil);
+    /* The reserve's gas is the rest of its volume. */
+    gone = (s->V3_foam < 1e-15 ? s->V3_foam : share * s->V3_foam);
+    oil = (s->V3_foam < 1e-15 ? s->V3_foam_oil : share * s->V3_foam_oil);
+    s->V3_foam -= gone;
+    s->V3_foam_oil -= oil;
+    s->V3_oil += oil;
+}
+
+/* Turn gas back into oil. */
+static void kernel_gas_redissolution_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    double back;
+    double gas;
+    double part;
+    back = s->V_cav * (1.0 - exp((-p->redissolution_rate) * dt));
+    s->V_cav -= back;
+    gas = s->V1_gas + s->V2_gas;
+    if (gas <= back)
+    {
+        s->V1_oil += s->V1_gas;
+        s->V2_oil += s->V2_gas;
+        s->V3_oil += back - gas;
+        s->V1_gas = 0.0;
+        s->V2_gas = 0.0;
+        return;
+    }
+    part = back / gas;
+    s->V1_oil += part * s->V1_gas;
+    s->V2_oil += part * s->V2_gas;
+    s->V1_gas -= part * s->V1_gas;
+    s->V2_gas -= part * s->V2_gas;
+}
+
+/* Cool down over `dt` [s]. */
+static void kernel_oil_temperature_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    s->heat *= exp((-dt) / p->cooling_time);
+}
+
+/* Take the oil for the stroke `way` >= 0 [m]. */
+static void kernel_seal_leak_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    double left;
+    double oil;
+    left = p->leak_film * way;
+    if ((p->leak_power != 1.0) && (dt > 0.0))
+    {
+        left = p->leak_film * dt * pow(way / dt, p->leak_power);
+    }
+    oil = double_min(2, left, s->V3_oil);
+    s->V3_oil -= oil;
+    s->V_lost += oil;
+    left -= oil;
+    if (left > 0.0)
+    {
+        oil = double_min(2, left, s->V2_oil);
+        s->V2_oil -= oil;
+        s->V2_gas += oil;
+        s->V_lost += oil;
+        left -= oil;
+    }
+    if (left > 0.0)
+    {
+        oil = double_min(2, left, s->V3_foam_oil);
+        s->V3_foam_oil -= oil;
+        s->V3_foam = (s->V3_foam_oil > 0.0 ? s->V3_foam - oil : 0.0);
+        s->V_lost += oil;
+        left -= oil;
+    }
+    if (left > 0.0)
+    {
+        oil = double_min(2, left, s->V1_oil);
+        s->V1_oil -= oil;
+        s->V1_gas += oil;
+        s->V_lost += oil;
+    }
+}
+
+static void kernel_effects_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    if (p->foam_decay_rate != 0.0)
+    {
+        kernel_foam_decay_phases(p, s, way, dt);
+    }
+    if (p->redissolution_rate != 0.0)
+    {
+        kernel_gas_redissolution_phases(p, s, way, dt);
+    }
+    if (p->fade_heat != 0.0)
+    {
+        kernel_oil_temperature_phases(p, s, way, dt);
+    }
+    if (p->leak_film != 0.0)
+    {
+        kernel_seal_leak_phases(p, s, way, dt);
+    }
+    return;
 }
 
 /* Share [1] of a step during which the speed exceeds `threshold`, the speed going from |v0| to |v1| evenly. */
@@ -342,6 +840,21 @@ static void kernel_set_forces(struct kernel_Parameters* p, struct kernel_Derived
     s->F_gas = d->c_gas * s->z - d->F_0;
     s->F_friction = kernel_stribeck(p, v) * s->F_D;
     s->F_fluid = F_potential * s->k_degr;
+}
+
+/* Force of a foam holding the volume `oil` in the volume `foam` [m3], relative to that of oil [1]. */
+static double kernel_foam_factor(struct kernel_Parameters* p, double oil, double foam)
+{
+    /* Eq. 36: B p^E */
+    if (p->E == 0.0)
+    {
+        return p->B;
+    }
+    if (oil <= 0.0)
+    {
+        return 0.0;
+    }
+    return p->B * exp(p->E * log(oil / foam));
 }
 
 /* Flows of all phases and k_degr while the phases present in `s` stay the same.
@@ -586,6 +1099,21 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
     f->V1_gas = kept;
 }
 
+/* k_degr for the direction of `v` [m/s] where the last stroke went the other way or nowhere. */
+static void kernel_settle(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double v)
+{
+    if (v > 0.0)
+    {
+        kernel_rebound(p, d, s, f, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
+        s->k_degr = f->k_degr;
+    }
+    else if (v < 0.0)
+    {
+        kernel_compression(p, d, s, f, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
+        s->k_degr = f->k_degr;
+    }
+}
+
 /* The stroke [m], at most `way`, after which a phase of `volume` [m3] changing by `change` [m2] is used up. */
 static double kernel_before_empty(double volume, double change, double way)
 {
@@ -594,19 +1122,6 @@ static double kernel_before_empty(double volume, double change, double way)
         return volume / (-change);
     }
     return way;
-}
-
-/* A phase's volume [m3] after the stroke `way` [m]; what runs out is exactly zero. */
-static double kernel_moved(double volume, double change, double way)
-{
-    double after;
-    after = volume + change * way;
-    /* Rounding leaves a trace of 1e-16 of the volume where the split was made. */
-    if ((change < 0.0) && (after < 1e-15 * volume))
-    {
-        return 0.0;
-    }
-    return after;
 }
 
 /* The part [m] of the stroke `way` over which every phase lasts. */
@@ -620,6 +1135,19 @@ static double kernel_split_length(struct kernel_State* s, struct kernel_Flow* f,
     way = kernel_before_empty(s->V2_foam, f->V2_foam, way);
     way = kernel_before_empty(s->V3_oil, f->V3_oil, way);
     return kernel_before_empty(s->V3_foam, f->V3_foam, way);
+}
+
+/* A phase's volume [m3] after the stroke `way` [m]; what runs out is exactly zero. */
+static double kernel_moved(double volume, double change, double way)
+{
+    double after;
+    after = volume + change * way;
+    /* Rounding leaves a trace of 1e-16 of the volume where the split was made. */
+    if ((change < 0.0) && (after < 1e-15 * volume))
+    {
+        return 0.0;
+    }
+    return after;
 }
 
 /* Carry all phases over the stroke `way` [m] (Eq. 4, 5: the sums of the phases stay the chamber volumes). */
@@ -648,21 +1176,6 @@ static void kernel_squeeze_reserve(struct kernel_Derived* d, struct kernel_State
     if (s->V3_foam > room)
     {
         s->V3_foam = double_max(2, room, s->V3_foam_oil);
-    }
-}
-
-/* k_degr for the direction of `v` [m/s] where the last stroke went the other way or nowhere. */
-static void kernel_settle(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double v)
-{
-    if (v > 0.0)
-    {
-        kernel_rebound(p, d, s, f, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
-        s->k_degr = f->k_degr;
-    }
-    else if (v < 0.0)
-    {
-        kernel_compression(p, d, s, f, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
-        s->k_degr = f->k_degr;
     }
 }
 
@@ -732,480 +1245,6 @@ static bool kernel_step(struct kernel_Parameters* p, struct kernel_Derived* d, s
     kernel_set_forces(p, d, s, F_1, v1);
     s->work += 0.5 * (F_0 + F_1) * ((rising ? acting : -acting)) + 0.5 * (friction + s->F_friction) * dz;
     return left <= 0.0;
-}
-
-/* Fluid force [N] while the oil passes the valves as at the piston speed `u` [m/s]; it rises with `u`. */
-static double kernel_valve_force(struct kernel_Parameters* p, double u, double k_re, double k_co)
-{
-    return kernel_fluid_force(p, u) * ((u >= 0.0 ? k_re : k_co));
-}
-
-/* Number of parts for a step of `dt` [s]. */
-static int64_t kernel_parts_of(double dt)
-{
-    /* The smaller one first: C has no integer for the number of parts of a very long step. */
-    return int64_t_max(2, 1, (int64_t)ceil(double_min(2, 8.0, dt / 0.0002 - 1e-06)));
-}
-
-/* Force [N] of a stop pressed by `over` [m]. */
-static double kernel_end_stop_press(double force, double over)
-{
-    double depth;
-    if (over <= 0.0)
-    {
-        return 0.0;
-    }
-    depth = over / 0.01;
-    return force * depth * sqrt(depth);
-}
-
-/* Force [N] at the stroke `z` [m]. */
-static double kernel_end_stop_elastic(struct kernel_Parameters* p, double z)
-{
-    return kernel_end_stop_press(p->F_stop_re, z - p->onset_re) - kernel_end_stop_press(p->F_stop_co, (-z) - p->onset_co);
-}
-
-/* The force settles within milliseconds. */
-static int64_t kernel_fluid_lag_parts(struct kernel_Parameters* p, double dt)
-{
-    return kernel_parts_of(dt);
-}
-
-/* Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N]. */
-static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0001, double* result_2_0001, struct kernel_Parameters* p, double F)
-{
-    double rod;
-    double pressure;
-    double area;
-    rod = 0.25 * M_PI * p->D_PR * p->D_PR;
-    pressure = 100000.0 + ((p->gas_preload > 0 ? p->F_0 / rod : 0.0));
-    area = (F >= 0.0 ? 0.25 * M_PI * p->D_li * p->D_li - rod : rod);
-    (*result_0_0001) = (F >= 0.0 ? p->C_fluid : p->C_fluid_co);
-    (*result_1_0001) = p->V_air * 100000.0 / (pressure * area);
-    (*result_2_0001) = pressure * area;
-    return 0;
-}
-
-/* Stroke [m] by which the column gives under the force `F` [N], with its sign. */
-static double kernel_fluid_lag_given(struct kernel_Parameters* p, double F)
-{
-    double C;
-    double way;
-    double F_half;
-    kernel_fluid_lag_column(&C, &way, &F_half, p, F);
-    return C * F + way * F / (fabs(F) + F_half);
-}
-
-/* Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]; for an element in series. */
-static double kernel_fluid_lag_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
-{
-    return (kernel_fluid_lag_given(p, F) - kernel_fluid_lag_given(p, s->F_held_re - s->F_held_co)) / dt;
-}
-
-/* The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
-   `side` is 1 in rebound and -1 in compression, `k` the degradation of the branch. */
-static double kernel_fluid_lag_inverse(struct kernel_Parameters* p, double w, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
-{
-    double C;
-    double way;
-    double F_half;
-    int64_t i;
-    double u;
-    double F;
-    double slope;
-    double rest;
-    double a;
-    double b;
-    double c;
-    double root;
-    double found;
-    kernel_fluid_lag_column(&C, &way, &F_half, p, side);
-    i = 0;
-    while((i < 20 - 1) && ((*cspan_at(&velocities, i)) + (C + way / (k * (*cspan_at(&forces, i)) + F_half)) * k * (*cspan_at(&forces, i)) / dt < w))
-    {
-        i += 1;
-    }
-    u = 0.0;
-    F = 0.0;
-    if (i > 0)
-    {
-        u = (*cspan_at(&velocities, i - 1));
-        F = k * (*cspan_at(&forces, i - 1));
-    }
-    slope = (k * (*cspan_at(&forces, i)) - F) / ((*cspan_at(&velocities, i)) - u);
-    /* F = F_i + slope (u' - u_i) put into the equation makes a F^2 + b F - c = 0, of which one root is not negative. */
-    rest = F + slope * (w - u);
-    a = 1.0 + slope * C / dt;
-    b = a * F_half + slope * way / dt - rest;
-    c = double_max(2, 0.0, rest * F_half);
-    root = sqrt(b * b + 4.0 * a * c);
-    found = (b > 0.0 ? 2.0 * c / (b + root) : (root - b) / (2.0 * a));
-    return double_max(2, 0.0, w - (C + way / (found + F_half)) * found / dt);
-}
-
-/* The fluid force with the memory of the oil columns; a step without time leaves it, but for the first. */
-static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
-{
-    double half;
-    double before;
-    double w;
-    double u;
-    double F;
-    double through;
-    if (dt <= 0.0)
-    {
-        if (s->elapsed > 0.0)
-        {
-            s->F_fluid = s->F_held_re - s->F_held_co;
-            s->F_valve = s->F_fluid;
-            s->F_mean = s->F_fluid;
-        }
-        return;
-    }
-    half = 0.5 * (s->goal_v0 + s->goal_v1);
-    before = kernel_fluid_lag_given(p, s->F_held_re) / dt;
-    w = s->goal_v1 + before;
-    u = (w > 0.0 ? kernel_fluid_lag_inverse(p, w, s->k_re, 1.0, p->v_re, p->F_re, dt) : 0.0);
-    F = kernel_valve_force(p, u, s->k_re, s->k_co);
-    /* The valves see what the column does not give; k_degr may have jumped in between. */
-    through = double_max(2, 0.0, half + before - kernel_fluid_lag_given(p, F) / dt);
-    s->F_mean = kernel_fluid_force(p, through) * ((dz > 0.0 ? s->k_mean : s->k_re));
-    s->F_fluid = F;
-    s->W_step = F * u * dt;
-    before = kernel_fluid_lag_given(p, -s->F_held_co) / dt;
-    w = s->goal_v1 + before;
-    u = (w < 0.0 ? -kernel_fluid_lag_inverse(p, -w, s->k_co, -1.0, p->v_co, p->F_co, dt) : 0.0);
-    F = kernel_valve_force(p, u, s->k_re, s->k_co);
-    through = double_min(2, 0.0, half + before - kernel_fluid_lag_given(p, F) / dt);
-    if (through < 0.0)
-    {
-        s->F_mean += kernel_fluid_force(p, through) * ((dz < 0.0 ? s->k_mean : s->k_co));
-    }
-    s->F_held_re = s->F_fluid;
-    s->F_held_co = -F;
-    s->F_fluid += F;
-    s->F_valve = s->F_fluid;
-    s->W_step += F * u * dt;
-}
-
-/* Remember the force where it is not that of the columns: at the start, or with another element in series. */
-static void kernel_fluid_lag_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
-{
-    if (s->F_valve != s->F_held_re - s->F_held_co)
-    {
-        s->F_held_re = double_max(2, 0.0, s->F_valve);
-        s->F_held_co = double_max(2, 0.0, -s->F_valve);
-    }
-}
-
-/* Give the oil and the gas of the decayed foam back; the volumes of the chambers stay. */
-static void kernel_foam_decay_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
-{
-    double share;
-    double gone;
-    double oil;
-    share = 1.0 - exp((-p->foam_decay_rate) * dt);
-    /* A trace of 1e-9 mL would still count as foam. */
-    gone = (s->V1_foam < 1e-15 ? s->V1_foam : share * s->V1_foam);
-    oil = (s->V1_foam < 1e-15 ? s->V1_foam_oil : share * s->V1_foam_oil);
-    s->V1_foam -= gone;
-    s->V1_foam_oil -= oil;
-    s->V1_oil += oil;
-    s->V1_gas += double_max(2, 0.0, gone - oil);
-    gone = (s->V2_foam < 1e-15 ? s->V2_foam : share * s->V2_foam);
-    oil = (s->V2_foam < 1e-15 ? s->V2_foam_oil : share * s->V2_foam_oil);
-    s->V2_foam -= gone;
-    s->V2_foam_oil -= oil;
-    s->V2_oil += oil;
-    s->V2_gas += double_max(2, 0.0, gone - oil);
-    /* The reserve's gas is the rest of its volume. */
-    gone = (s->V3_foam < 1e-15 ? s->V3_foam : share * s->V3_foam);
-    oil = (s->V3_foam < 1e-15 ? s->V3_foam_oil : share * s->V3_foam_oil);
-    s->V3_foam -= gone;
-    s->V3_foam_oil -= oil;
-    s->V3_oil += oil;
-}
-
-/* Turn gas back into oil. */
-static void kernel_gas_redissolution_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
-{
-    double back;
-    double gas;
-    double part;
-    back = s->V_cav * (1.0 - exp((-p->redissolution_rate) * dt));
-    s->V_cav -= back;
-    gas = s->V1_gas + s->V2_gas;
-    if (gas <= back)
-    {
-        s->V1_oil += s->V1_gas;
-        s->V2_oil += s->V2_gas;
-        s->V3_oil += back - gas;
-        s->V1_gas = 0.0;
-        s->V2_gas = 0.0;
-        return;
-    }
-    part = back / gas;
-    s->V1_oil += part * s->V1_gas;
-    s->V2_oil += part * s->V2_gas;
-    s->V1_gas -= part * s->V1_gas;
-    s->V2_gas -= part * s->V2_gas;
-}
-
-/* Force [N] at the stroke `z` [m]; with preload the gas spring of the parameter set is measured, not assumed. */
-static double kernel_gas_spring_elastic(struct kernel_Parameters* p, double z)
-{
-    if (p->gas_preload > 0)
-    {
-        return 0.0;
-    }
-    return p->c_residual * z - p->F_residual;
-}
-
-/* The deflection settles within milliseconds, and k_degr is that of the part before. */
-static int64_t kernel_mount_compliance_parts(struct kernel_Parameters* p, double dt)
-{
-    return kernel_parts_of(dt);
-}
-
-static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
-{
-    double value;
-    value = 0.0;
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
-    {
-        value += kernel_fluid_lag_series(p, s, F, dt);
-    }
-    return value;
-}
-
-static double kernel_effects_elastic(struct kernel_Parameters* p, double z)
-{
-    double value;
-    value = 0.0;
-    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
-    {
-        value += kernel_end_stop_elastic(p, z);
-    }
-    if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
-    {
-        value += kernel_gas_spring_elastic(p, z);
-    }
-    return value;
-}
-
-/* Factor of the friction force [1] at the velocity `v` [m/s]. */
-static double kernel_side_load_friction_scale_friction(struct kernel_Parameters* p, double v)
-{
-    double x;
-    x = v / p->v_side;
-    return 1.0 + p->side_load * (1.0 - exp((-x) * x)) / (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
-}
-
-static double kernel_effects_scale_friction(struct kernel_Parameters* p, double v)
-{
-    double value;
-    value = 1.0;
-    if (p->side_load != 0.0)
-    {
-        value *= kernel_side_load_friction_scale_friction(p, v);
-    }
-    return value;
-}
-
-/* Force of the rubber beyond that of the damper [N] if the step ends with the speed `u` [m/s] at the valves. */
-static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt, double u)
-{
-    double F;
-    double speed;
-    double rate;
-    double x;
-    double goal;
-    double friction;
-    double gas;
-    F = kernel_valve_force(p, u, s->k_re, s->k_co);
-    speed = u + kernel_effects_series(p, s, F, dt);
-    rate = v - speed;
-    x = s->x_mount + rate * dt;
-    goal = z - x;
-    friction = kernel_effects_scale_friction(p, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z);
-    gas = d->c_gas * goal + kernel_effects_elastic(p, goal) - kernel_effects_elastic(p, 0.0);
-    return (x + p->tau_mount * rate) / p->C_mount - F - friction - gas - p->m_rod * (speed - s->v_piston) / dt;
-}
-
-/* The speed [m/s] at the valves for which rubber and damper agree: bracketed about the last one, then regula falsi. */
-static double kernel_mount_compliance_speed(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt)
-{
-    double low;
-    double r_low;
-    double way;
-    double high;
-    double r_high;
-    int64_t n;
-    double u;
-    double r;
-    low = s->u_valve;
-    r_low = kernel_mount_compliance_excess(p, d, s, z, v, dt, low);
-    if (r_low == 0.0)
-    {
-        return low;
-    }
-    /* The excess falls with the speed. */
-    way = ((r_low > 0.0 ? 1.0 : -1.0)) * double_max(2, 0.05 * fabs(v - low), 0.001);
-    high = low + way;
-    r_high = kernel_mount_compliance_excess(p, d, s, z, v, dt, high);
-    n = 0;
-    while((r_high * r_low > 0.0) && (n < 60))
-    {
-        low = high;
-        r_low = r_high;
-        way *= 3.0;
-        high += way;
-        r_high = kernel_mount_compliance_excess(p, d, s, z, v, dt, high);
-        n += 1;
-    }
-    n = 0;
-    while((n < 60) && (fabs(r_high) > 1e-06) && (r_low != r_high))
-    {
-        u = high - r_high * (high - low) / (r_high - r_low);
-        r = kernel_mount_compliance_excess(p, d, s, z, v, dt, u);
-        if (r * r_high < 0.0)
-        {
-            low = high;
-            r_low = r_high;
-        }
-        else
-        {
-            r_low *= 0.5;
-        }
-        high = u;
-        r_high = r;
-        n += 1;
-    }
-    return high;
-}
-
-/* Stroke and velocity of the piston; in a step without time the deflection stays. */
-static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
-{
-    if (s->elapsed > 0.0)
-    {
-        s->goal_v0 = s->v_piston;
-        s->goal_v1 = s->v_piston;
-    }
-    else
-    {
-        s->v_piston = v0;
-    }
-    if (dt > 0.0)
-    {
-        s->u_valve = kernel_mount_compliance_speed(p, d, s, z, v1, dt);
-        s->goal_v1 = s->u_valve + kernel_effects_series(p, s, kernel_valve_force(p, s->u_valve, s->k_re, s->k_co), dt);
-        s->x_mount += (v1 - s->goal_v1) * dt;
-        s->F_mount = kernel_valve_force(p, s->u_valve, s->k_re, s->k_co);
-        s->F_rod = p->m_rod * (s->goal_v1 - s->v_piston) / dt;
-    }
-    /* An elastic mount cannot push the piston out of the tube. */
-    s->goal_z = double_max(2, 1e-06 - d->half_length, double_min(2, d->half_length - 1e-06, z - s->x_mount));
-}
-
-/* The force that the rubber lets through, and the rubber's own loss. */
-static void kernel_mount_compliance_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
-{
-    double rate;
-    if ((dt <= 0.0) && (s->elapsed == 0.0))
-    {
-        return;
-    }
-    s->F_valve = s->F_mount;
-    s->F_fluid = s->F_mount + s->F_rod;
-    s->F_mean += s->F_rod;
-    if (dt <= 0.0)
-    {
-        return;
-    }
-    rate = v - s->goal_v1;
-    s->v_piston = s->goal_v1;
-    s->W_step = s->F_mount * (dz - (s->goal_v1 - s->u_valve) * dt) + p->tau_mount / p->C_mount * rate * rate * dt;
-}
-
-/* The true level [1]. */
-static double kernel_oil_level_error_level(struct kernel_Parameters* p, double level)
-{
-    return (p->gas_preload == 0 ? double_max(2, 0.0, double_min(2, 1.0, level + p->level_error)) : level);
-}
-
-/* Cavitation needs oil lost (reading 2): of the true level, not of the recorded one. */
-static void kernel_oil_level_error_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
-{
-    bool lost;
-    if ((p->gas_preload == 0) && (p->cavitation_needs == 2))
-    {
-        lost = kernel_oil_level_error_level(p, p->oil_level) < 1.0;
-        d->Y_Co = (lost ? p->Y_Co_cav : 0.0);
-        d->Y_Re = (lost ? p->Y_Re_cav : 0.0);
-    }
-}
-
-/* Cool down over `dt` [s]. */
-static void kernel_oil_temperature_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
-{
-    s->heat *= exp((-dt) / p->cooling_time);
-}
-
-/* Share of the fluid force that is left [1]. */
-static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
-{
-    return exp((-p->fade_heat) * (p->H_start + s->heat));
-}
-
-/* Take up the step's work, less what of it has already gone. */
-static void kernel_oil_temperature_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
-{
-    double share;
-    double kept;
-    share = dt / p->cooling_time;
-    kept = (share > 1e-09 ? (1.0 - exp(-share)) / share : 1.0);
-    /* Where stroke and velocity of a record do not agree, a step can do negative work. */
-    s->heat = double_max(2, 0.0, s->heat + s->W_step * kept);
-}
-
-/* Take the oil for the stroke `way` >= 0 [m]. */
-static void kernel_seal_leak_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
-{
-    double left;
-    double oil;
-    left = p->leak_film * way;
-    if ((p->leak_power != 1.0) && (dt > 0.0))
-    {
-        left = p->leak_film * dt * pow(way / dt, p->leak_power);
-    }
-    oil = double_min(2, left, s->V3_oil);
-    s->V3_oil -= oil;
-    s->V_lost += oil;
-    left -= oil;
-    if (left > 0.0)
-    {
-        oil = double_min(2, left, s->V2_oil);
-        s->V2_oil -= oil;
-        s->V2_gas += oil;
-        s->V_lost += oil;
-        left -= oil;
-    }
-    if (left > 0.0)
-    {
-        oil = double_min(2, left, s->V3_foam_oil);
-        s->V3_foam_oil -= oil;
-        s->V3_foam = (s->V3_foam_oil > 0.0 ? s->V3_foam - oil : 0.0);
-        s->V_lost += oil;
-        left -= oil;
-    }
-    if (left > 0.0)
-    {
-        oil = double_min(2, left, s->V1_oil);
-        s->V1_oil -= oil;
-        s->V1_gas += oil;
-        s->V_lost += oil;
-    }
 }
 
 /* Depth [m] of the gas in the driving chamber. */
@@ -1301,128 +1340,6 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
     }
 }
 
-/* Factor of the fluid force [1] in the direction of `v`. */
-static double kernel_valve_wear_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
-{
-    return 1.0 + ((v >= 0.0 ? p->wear_re : p->wear_co));
-}
-
-static int64_t kernel_effects_active(struct kernel_Parameters* p)
-{
-    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
-    {
-        return 1;
-    }
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
-    {
-        return 1;
-    }
-    if (p->foam_decay_rate != 0.0)
-    {
-        return 1;
-    }
-    if (p->redissolution_rate != 0.0)
-    {
-        return 1;
-    }
-    if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
-    {
-        return 1;
-    }
-    if (p->C_mount != 0.0)
-    {
-        return 1;
-    }
-    if (p->level_error != 0.0)
-    {
-        return 1;
-    }
-    if (p->fade_heat != 0.0)
-    {
-        return 1;
-    }
-    if (p->leak_film != 0.0)
-    {
-        return 1;
-    }
-    if (p->side_load != 0.0)
-    {
-        return 1;
-    }
-    if (p->build_up != 0.0)
-    {
-        return 1;
-    }
-    if ((p->wear_re != 0.0) || (p->wear_co != 0.0))
-    {
-        return 1;
-    }
-    return 0;
-}
-
-static void kernel_effects_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
-{
-    if (p->level_error != 0.0)
-    {
-        kernel_oil_level_error_derive(p, d);
-    }
-    return;
-}
-
-static double kernel_effects_level(struct kernel_Parameters* p, double value)
-{
-    if (p->level_error != 0.0)
-    {
-        value = kernel_oil_level_error_level(p, value);
-    }
-    return value;
-}
-
-static int64_t kernel_effects_parts(struct kernel_Parameters* p, double dt)
-{
-    int64_t value;
-    value = 1;
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
-    {
-        value = int64_t_max(2, value, kernel_fluid_lag_parts(p, dt));
-    }
-    if (p->C_mount != 0.0)
-    {
-        value = int64_t_max(2, value, kernel_mount_compliance_parts(p, dt));
-    }
-    return value;
-}
-
-static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
-{
-    if (p->C_mount != 0.0)
-    {
-        kernel_mount_compliance_motion(p, d, s, z, v0, v1, dt);
-    }
-    return;
-}
-
-static void kernel_effects_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
-{
-    if (p->foam_decay_rate != 0.0)
-    {
-        kernel_foam_decay_phases(p, s, way, dt);
-    }
-    if (p->redissolution_rate != 0.0)
-    {
-        kernel_gas_redissolution_phases(p, s, way, dt);
-    }
-    if (p->fade_heat != 0.0)
-    {
-        kernel_oil_temperature_phases(p, s, way, dt);
-    }
-    if (p->leak_film != 0.0)
-    {
-        kernel_seal_leak_phases(p, s, way, dt);
-    }
-    return;
-}
-
 static void kernel_effects_transition(struct kernel_Parameters* p, struct kernel_State* s, struct kernel_Flow* f, double v, double dz)
 {
     if (p->build_up != 0.0)
@@ -1430,6 +1347,18 @@ static void kernel_effects_transition(struct kernel_Parameters* p, struct kernel
         kernel_smooth_transition_transition(p, s, f, v, dz);
     }
     return;
+}
+
+/* Share of the fluid force that is left [1]. */
+static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
+{
+    return exp((-p->fade_heat) * (p->H_start + s->heat));
+}
+
+/* Factor of the fluid force [1] in the direction of `v`. */
+static double kernel_valve_wear_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
+{
+    return 1.0 + ((v >= 0.0 ? p->wear_re : p->wear_co));
 }
 
 static double kernel_effects_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
@@ -1447,6 +1376,112 @@ static double kernel_effects_scale_fluid(struct kernel_Parameters* p, struct ker
     return value;
 }
 
+/* The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
+   `side` is 1 in rebound and -1 in compression, `k` the degradation of the branch. */
+static double kernel_fluid_lag_inverse(struct kernel_Parameters* p, double w, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
+{
+    double C;
+    double way;
+    double F_half;
+    int64_t i;
+    double u;
+    double F;
+    double slope;
+    double rest;
+    double a;
+    double b;
+    double c;
+    double root;
+    double found;
+    kernel_fluid_lag_column(&C, &way, &F_half, p, side);
+    i = 0;
+    while((i < 20 - 1) && ((*cspan_at(&velocities, i)) + (C + way / (k * (*cspan_at(&forces, i)) + F_half)) * k * (*cspan_at(&forces, i)) / dt < w))
+    {
+        i += 1;
+    }
+    u = 0.0;
+    F = 0.0;
+    if (i > 0)
+    {
+        u = (*cspan_at(&velocities, i - 1));
+        F = k * (*cspan_at(&forces, i - 1));
+    }
+    slope = (k * (*cspan_at(&forces, i)) - F) / ((*cspan_at(&velocities, i)) - u);
+    /* F = F_i + slope (u' - u_i) put into the equation makes a F^2 + b F - c = 0, of which one root is not negative. */
+    rest = F + slope * (w - u);
+    a = 1.0 + slope * C / dt;
+    b = a * F_half + slope * way / dt - rest;
+    c = double_max(2, 0.0, rest * F_half);
+    root = sqrt(b * b + 4.0 * a * c);
+    found = (b > 0.0 ? 2.0 * c / (b + root) : (root - b) / (2.0 * a));
+    return double_max(2, 0.0, w - (C + way / (found + F_half)) * found / dt);
+}
+
+/* The fluid force with the memory of the oil columns; a step without time leaves it, but for the first. */
+static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
+{
+    double half;
+    double before;
+    double w;
+    double u;
+    double F;
+    double through;
+    if (dt <= 0.0)
+    {
+        if (s->elapsed > 0.0)
+        {
+            s->F_fluid = s->F_held_re - s->F_held_co;
+            s->F_valve = s->F_fluid;
+            s->F_mean = s->F_fluid;
+        }
+        return;
+    }
+    half = 0.5 * (s->goal_v0 + s->goal_v1);
+    before = kernel_fluid_lag_given(p, s->F_held_re) / dt;
+    w = s->goal_v1 + before;
+    u = (w > 0.0 ? kernel_fluid_lag_inverse(p, w, s->k_re, 1.0, p->v_re, p->F_re, dt) : 0.0);
+    F = kernel_valve_force(p, u, s->k_re, s->k_co);
+    /* The valves see what the column does not give; k_degr may have jumped in between. */
+    through = double_max(2, 0.0, half + before - kernel_fluid_lag_given(p, F) / dt);
+    s->F_mean = kernel_fluid_force(p, through) * ((dz > 0.0 ? s->k_mean : s->k_re));
+    s->F_fluid = F;
+    s->W_step = F * u * dt;
+    before = kernel_fluid_lag_given(p, -s->F_held_co) / dt;
+    w = s->goal_v1 + before;
+    u = (w < 0.0 ? -kernel_fluid_lag_inverse(p, -w, s->k_co, -1.0, p->v_co, p->F_co, dt) : 0.0);
+    F = kernel_valve_force(p, u, s->k_re, s->k_co);
+    through = double_min(2, 0.0, half + before - kernel_fluid_lag_given(p, F) / dt);
+    if (through < 0.0)
+    {
+        s->F_mean += kernel_fluid_force(p, through) * ((dz < 0.0 ? s->k_mean : s->k_co));
+    }
+    s->F_held_re = s->F_fluid;
+    s->F_held_co = -F;
+    s->F_fluid += F;
+    s->F_valve = s->F_fluid;
+    s->W_step += F * u * dt;
+}
+
+/* The force that the rubber lets through, and the rubber's own loss. */
+static void kernel_mount_compliance_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
+{
+    double rate;
+    if ((dt <= 0.0) && (s->elapsed == 0.0))
+    {
+        return;
+    }
+    s->F_valve = s->F_mount;
+    s->F_fluid = s->F_mount + s->F_rod;
+    s->F_mean += s->F_rod;
+    if (dt <= 0.0)
+    {
+        return;
+    }
+    rate = v - s->goal_v1;
+    s->v_piston = s->goal_v1;
+    s->W_step = s->F_mount * (dz - (s->goal_v1 - s->u_valve) * dt) + p->tau_mount / p->C_mount * rate * rate * dt;
+}
+
 static void kernel_effects_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
 {
     if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
@@ -1460,6 +1495,27 @@ static void kernel_effects_force(struct kernel_Parameters* p, struct kernel_Stat
     return;
 }
 
+/* Remember the force where it is not that of the columns: at the start, or with another element in series. */
+static void kernel_fluid_lag_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
+{
+    if (s->F_valve != s->F_held_re - s->F_held_co)
+    {
+        s->F_held_re = double_max(2, 0.0, s->F_valve);
+        s->F_held_co = double_max(2, 0.0, -s->F_valve);
+    }
+}
+
+/* Take up the step's work, less what of it has already gone. */
+static void kernel_oil_temperature_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
+{
+    double share;
+    double kept;
+    share = dt / p->cooling_time;
+    kept = (share > 1e-09 ? (1.0 - exp(-share)) / share : 1.0);
+    /* Where stroke and velocity of a record do not agree, a step can do negative work. */
+    s->heat = double_max(2, 0.0, s->heat + s->W_step * kept);
+}
+
 static void kernel_effects_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
 {
     if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
@@ -1471,62 +1527,6 @@ static void kernel_effects_finish(struct kernel_Parameters* p, struct kernel_Sta
         kernel_oil_temperature_finish(p, s, dt);
     }
     return;
-}
-
-static void kernel_effects_reset(struct kernel_State* s)
-{
-    s->z_rod = 0.0;
-    s->goal_z = 0.0;
-    s->goal_v0 = 0.0;
-    s->goal_v1 = 0.0;
-    s->k_flow = 1.0;
-    s->k_re = 1.0;
-    s->k_co = 1.0;
-    s->impulse = 0.0;
-    s->F_valve = 0.0;
-    s->F_mean = 0.0;
-    s->k_mean = 1.0;
-    s->W_step = 0.0;
-    s->elapsed = 0.0;
-    s->F_held_re = 0.0;
-    s->F_held_co = 0.0;
-    s->x_mount = 0.0;
-    s->v_piston = 0.0;
-    s->u_valve = 0.0;
-    s->F_mount = 0.0;
-    s->F_rod = 0.0;
-    s->heat = 0.0;
-    s->V_lost = 0.0;
-    s->k_side = 0.0;
-    s->k_mixed = 1.0;
-    s->k_full_re = 1.0;
-    s->k_full_co = 1.0;
-    s->x_free = 0.0;
-}
-
-/* Fill `d` from `p`; to be called again after a parameter has changed. */
-static void kernel_set_up(struct kernel_Parameters* p, struct kernel_Derived* d)
-{
-    kernel_prepare(p, d);
-    d->extended = kernel_effects_active(p);
-    if (d->extended > 0)
-    {
-        kernel_effects_derive(p, d);
-    }
-}
-
-/* The state at rest at the stroke `z` [m]. */
-static void kernel_start(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z)
-{
-    if (d->extended == 0)
-    {
-        kernel_fill(p, d, s, z);
-        return;
-    }
-    kernel_pour(d, s, z, kernel_effects_level(p, p->oil_level) * p->V_oil);
-    kernel_effects_reset(s);
-    s->z_rod = z;
-    s->F_gas += kernel_effects_elastic(p, z);
 }
 
 /* The kernel's step with the effects around it. */
@@ -1618,17 +1618,6 @@ static bool kernel_advance(struct kernel_Parameters* p, struct kernel_Derived* d
         return kernel_step(p, d, s, f, z, v0, v1);
     }
     return kernel_extended_step(p, d, s, f, z, v0, v1, dt);
-}
-
-/* `advance` in one part, for a caller that has divided the step itself. */
-static bool kernel_advance_whole(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1, double dt)
-{
-    if (d->extended == 0)
-    {
-        return kernel_step(p, d, s, f, z, v0, v1);
-    }
-    s->z_rod = z;
-    return kernel_extended_part(p, d, s, f, z, v0, v1, dt);
 }
 
 #endif

@@ -8,7 +8,7 @@ from fmu_src.table import Variable, variables
 from twintube.parameters import Damper
 
 FOLDER = Path(__file__).parent
-FIXED = ("fmi2.c", "unit.h", "checks.h", "damper.h", "state.h", "kernel.h", "subset.h")
+FIXED = ("fmi2.c", "unit.h", "checks.h", "damper.h", "access.h", "state.h", "kernel.h", "subset.h")
 COMPILED = "fmi2.c"  # it includes all others
 CAPABILITIES = {
     "canInterpolateInputs": "true",

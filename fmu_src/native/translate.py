@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
 
@@ -26,6 +27,7 @@ MODULE = "kernel"
 MODEL = "model.py"
 RECORDS = {"Parameters": effects.Parameters, "Derived": Derived, "State": effects.State, "Flow": Flow}
 ARGUMENTS = {"p": "Parameters", "d": "Derived", "s": "State", "f": "Flow"}
+ENTRIES = ("set_up", "start", "advance")  # what the wrapper calls
 INTEGERS = ("effects_active", "effects_parts")  # of the functions made from the effects' files, what returns an int
 
 
@@ -77,8 +79,8 @@ def functions(text: str) -> dict[str, str]:
     return found
 
 
-def ordered(found: dict[str, str]) -> list[str]:
-    """The names so that every function stands below those that it calls; raises ValueError on a recursion."""
+def ordered(found: dict[str, str], entries: Sequence[str]) -> list[str]:
+    """The entries and what they call, every function below those that it calls; raises ValueError on a recursion."""
     done: list[str] = []
 
     def place(name: str, above: tuple[str, ...]) -> None:
@@ -90,7 +92,7 @@ def ordered(found: dict[str, str]) -> list[str]:
                     place(node.func.id, (*above, name))
             done.append(name)
 
-    for name in found:
+    for name in entries:
         place(name, ())
     return done
 
@@ -104,7 +106,7 @@ def joined_source() -> str:
     for text in texts:
         found |= functions(text)
     parts = ["import math", *(record_source(name, record) for name, record in RECORDS.items())]
-    parts += [found[name] for name in ordered(found)]
+    parts += [found[name] for name in ordered(found, ENTRIES)]
     return "\n\n\n".join(parts) + "\n"
 
 

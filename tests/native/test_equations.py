@@ -154,6 +154,6 @@ def test_translation_repeats() -> None:
 
 def test_functions_stand_below_those_that_they_call() -> None:
     found = {"a": "def a(x):\n    return b(x)", "b": "def b(x):\n    return x"}
-    assert translate.ordered(found) == ["b", "a"]
+    assert translate.ordered(found | {"c": "def c(x):\n    return x"}, ["a"]) == ["b", "a"]
     with pytest.raises(ValueError, match="b calls itself"):
-        translate.ordered(found | {"b": "def b(x):\n    return b(x)"})
+        translate.ordered(found | {"b": "def b(x):\n    return b(x)"}, ["a"])
