@@ -18,8 +18,9 @@ from twintube.diagnose.fit import Fit, Free, Problem
 ALARM = 0.01  # of a cause where there is none, by noise
 LEAST_MISFIT = 0.5  # below the noise: no record gains from being fitted better than that
 WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: below it the model's numerics decide
-NEXT = 0.5  # least share of what is left that a further cause must explain: less is the first one's formulation
-BESIDE = 0.1  # least share of the whole misfit that a further cause must explain
+NEXT = (
+    1 / 3
+)  # least share of the squared force error left that a further cause must explain: less is the first's formulation
 RIGHT = 0.1  # log-misfit per sample up to which nothing is missing: 5 % above the noise
 FIRST, FURTHER = 9, 4  # candidates for the first and a further cause that are fitted: those with the best starts
 ROUNDS = 3
@@ -122,22 +123,16 @@ class Selector:
         costs = [float(np.sum(self.whole.shared(fit.values) ** 2)) for fit in option.fits]
         return self.whole.fit(starts[int(np.argmin(costs))], {})
 
-    def worth(self, before: Option, after: Option, whole: float | None = None) -> bool:
-        """Whether an improvement of the held-out misfit is more than noise, numerics and formulation make.
-
-        `whole` is the misfit without any cause, for a cause beside others.
-        """
+    def worth(self, before: Option, after: Option) -> bool:
+        """Whether an improvement of the held-out misfit is more than noise, numerics and formulation make."""
         by_record = self.logs(before.misfit) - self.logs(after.misfit)
         gained = float(by_record.sum())
         if gained <= self.limit or gained <= WORTH * self.count:
             return False
         if len(by_record) > FEW and gained - float(by_record.max()) <= self.limit:
             return False  # one record alone decides
-        if whole is None:
-            return True
         # Many records a little better and some far worse is a formulation, not a second cause.
-        better = after.squares <= before.squares
-        return better and gained >= BESIDE * whole and removed(before.score, after.score, self.count) >= NEXT
+        return not before.names or after.squares <= (1 - NEXT) * before.squares
 
     def acts(self, option: Option) -> bool:
         """Whether the new cause of an option is off its neutral value in every fold."""
@@ -156,13 +151,14 @@ class Selector:
         current, rounds = start, []
         for n in range(ROUNDS):
             options = self.tried(current, f"round {n + 1}", FURTHER if n else FIRST, progress, () if n else (recalibrated,))
-            rounds.append(options)
-            if not self.acts(options[0]) or not self.worth(current, options[0], start.score if n else None):
+            taken = next((o for o in options if self.acts(o) and self.worth(current, o)), None)
+            rounds.append(options if taken is None else [taken, *(o for o in options if o is not taken)])
+            if taken is None:
                 break
-            current = options[0]
+            current = taken
             if current.score <= RIGHT * self.count:
                 break
-        current = self.exchanged(self.pruned(current, start.score, progress), progress)
+        current = self.exchanged(self.pruned(current, progress), progress)
         return Selection(start, rounds, list(current.names), current, recalibrated, self.count, self.limit)
 
     def tried(
@@ -191,7 +187,7 @@ class Selector:
                 current = best
         return current
 
-    def pruned(self, current: Option, whole: float, progress: Callable[[str], None]) -> Option:
+    def pruned(self, current: Option, progress: Callable[[str], None]) -> Option:
         """Without the causes that the others make superfluous, such as a calibration that stood in for an effect."""
         while len(current.names) > 1:
             without = []
@@ -200,7 +196,7 @@ class Selector:
                 rest = [other for other in current.names if other != name]
                 without.append(self.option(rest, [self.free(rest, fit.values) for fit in current.fits]))
             best = min(without, key=lambda o: o.score)
-            if self.worth(best, current, whole):
+            if self.worth(best, current):
                 return current
             current = best
         return current
