@@ -69,7 +69,7 @@ def outcome(kind: str, seed: int, strength: float | None) -> Outcome:
         try:
             found = diagnose(folder)
         except DataError as error:
-            refused = kind == "unit_error" and "unit" in str(error)
+            refused = kind == "unit_error" and "mixed up" in str(error)
             verdict, named = ("measurement_fault", (kind,)) if refused else ("refused", ())
             return Outcome(kind, seed, hidden.strength, verdict, named, (), np.nan, np.nan, time.perf_counter() - start)
         seconds = time.perf_counter() - start
