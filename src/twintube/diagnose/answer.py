@@ -93,7 +93,7 @@ def rivals(selection: Selection) -> list[Option]:
     if best.names[-1] == RECALIBRATE or not selection.chosen:
         return []
     margin = max(selection.limit, CLOSE * max(selection.start.score - best.score, 0.0))
-    return [o for o in others if o.score - best.score <= margin and o.names[-1] != RECALIBRATE][:3]
+    return [o for o in others if 0.0 <= o.score - best.score <= margin and o.names[-1] != RECALIBRATE][:3]
 
 
 def apart(candidate: Candidate) -> str:

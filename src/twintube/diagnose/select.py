@@ -21,6 +21,7 @@ WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: bel
 NEXT = (
     1 / 3
 )  # least share of the squared force error left that a further cause must explain: less is the first's formulation
+NEAR = 0.75  # share of the best improvement from which another cause may be preferred for its squared force error
 RIGHT = 0.1  # log-misfit per sample up to which nothing is missing: 5 % above the noise
 FIRST, FURTHER = 9, 4  # candidates for the first and a further cause that are fitted: those with the best starts
 ROUNDS = 3
@@ -151,7 +152,7 @@ class Selector:
         current, rounds = start, []
         for n in range(ROUNDS):
             options = self.tried(current, f"round {n + 1}", FURTHER if n else FIRST, progress, () if n else (recalibrated,))
-            taken = next((o for o in options if self.acts(o) and self.worth(current, o)), None)
+            taken = self.taken(current, options)
             rounds.append(options if taken is None else [taken, *(o for o in options if o is not taken)])
             if taken is None:
                 break
@@ -160,6 +161,16 @@ class Selector:
                 break
         current = self.exchanged(self.pruned(current, progress), progress)
         return Selection(start, rounds, list(current.names), current, recalibrated, self.count, self.limit)
+
+    def taken(self, current: Option, options: Sequence[Option]) -> Option | None:
+        """The option that becomes the next model: the best one, or one nearly as good that predicts forces far better."""
+        worthy = [o for o in options if self.acts(o) and self.worth(current, o)]
+        if not worthy:
+            return None
+        best = worthy[0]
+        near = [o for o in worthy if current.score - o.score >= NEAR * (current.score - best.score)]
+        calm = [o for o in near if o.squares <= (1 - NEXT) * best.squares]
+        return min(calm, key=lambda o: o.squares, default=best)
 
     def tried(
         self, current: Option, label: str, most: int, progress: Callable[[str], None], known: Sequence[Option] = ()
