@@ -21,6 +21,7 @@ WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: bel
 NEXT = (
     1 / 3
 )  # least share of the squared force error left that a further cause must explain: less is the first's formulation
+HALF, BESIDE = 0.5, 0.1  # or of the misfit left and of the whole misfit, where the squared error does not rise
 NEAR = 0.75  # share of the best improvement from which another cause may be preferred for its squared force error
 RIGHT = 0.1  # log-misfit per sample up to which nothing is missing: 5 % above the noise
 FIRST, FURTHER = 9, 4  # candidates for the first and a further cause that are fitted: those with the best starts
@@ -72,6 +73,7 @@ class Selector:
         self.limit = float(norm.isf(ALARM / (len(candidates) + 1))) ** 2
         self.counts = np.concatenate([fold.held.counts for fold in folds])
         self.count = int(self.counts.sum())
+        self.unexplained = np.inf  # score of the model without any cause
 
     def logs(self, misfit: Array) -> Array:
         """Twice the negative log-likelihood (h,) of each held-out record, with a variance not below its noise's."""
@@ -88,6 +90,7 @@ class Selector:
     def bare(self) -> Option:
         """The model with nothing but the nuisances; balances the records for what follows."""
         found = self.option((), [nuisances(self.whole)] * len(self.folds))
+        self.unexplained = found.score
         for fold, fit in zip(self.folds, found.fits, strict=True):
             fold.fitted.balance(fit.misfit)
         self.whole.balance(self.whole.misfits(self.whole.residual(found.fits[0].values)))
@@ -132,8 +135,12 @@ class Selector:
             return False
         if len(by_record) > FEW and gained - float(by_record.max()) <= self.limit:
             return False  # one record alone decides
+        if not before.names:
+            return True
         # Many records a little better and some far worse is a formulation, not a second cause.
-        return not before.names or after.squares <= (1 - NEXT) * before.squares
+        left = removed(before.score, after.score, self.count)
+        clear = left >= HALF and gained >= BESIDE * self.unexplained and after.squares <= before.squares
+        return clear or after.squares <= (1 - NEXT) * before.squares
 
     def acts(self, option: Option) -> bool:
         """Whether the new cause of an option is off its neutral value in every fold."""
