@@ -62,7 +62,8 @@ class DamperFmu:
         self._in = (c_double * 2)()
         self._out_refs = (c_uint * len(OUTPUTS))(*(variables[name].valueReference for name in OUTPUTS))
         self._out = (c_double * len(OUTPUTS))()
-        self._volume_refs = [variables[name].valueReference for name in VOLUMES]
+        self._volume_refs = (c_uint * len(VOLUMES))(*(variables[name].valueReference for name in VOLUMES))
+        self._volumes = (c_double * len(VOLUMES))()
 
     def _log(self, _environment: object, _instance: object, status: int, _category: object, message: bytes) -> None:
         self.messages.append(f"{STATUS[status]}: {message.decode()}")
@@ -96,5 +97,5 @@ class DamperFmu:
 
     def volumes(self) -> list[float]:
         """The nine phase volumes [m3] in the order of VOLUMES."""
-        values: list[float] = self.fmu.getReal(self._volume_refs)
-        return values
+        self._get(self._component, self._volume_refs, len(VOLUMES), self._volumes)
+        return list(self._volumes)
