@@ -1,4 +1,4 @@
-/* Made by fmu_src/native/translate.py from the Python sources 2be19c3212d18cfd; do not edit. */
+/* Made by fmu_src/native/translate.py from the Python sources 528789a6426ae82d; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -66,6 +66,8 @@ struct kernel_Parameters {
     double fade_heat;
     double cooling_time;
     double H_start;
+    double friction_slope;
+    double friction_bow;
     double leak_film;
     double leak_power;
     double side_load;
@@ -221,6 +223,10 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
         return 1;
     }
     if (p->fade_heat != 0.0)
+    {
+        return 1;
+    }
+    if ((p->friction_slope != 0.0) || (p->friction_bow != 0.0))
     {
         return 1;
     }
@@ -566,21 +572,31 @@ static double kernel_dahl(struct kernel_Parameters* p, struct kernel_Derived* d,
     return direction * d->F_FrS * (1.0 - side * size);
 }
 
+/* Factor of the friction force [1] at the stroke `z` [m]. */
+static double kernel_position_friction_scale_friction(struct kernel_Parameters* p, double z, double v)
+{
+    return double_max(2, 0.0, 1.0 + z * (p->friction_slope + z * p->friction_bow));
+}
+
 /* Factor of the friction force [1] at the velocity `v` [m/s]. */
-static double kernel_side_load_friction_scale_friction(struct kernel_Parameters* p, double v)
+static double kernel_side_load_friction_scale_friction(struct kernel_Parameters* p, double z, double v)
 {
     double x;
     x = v / p->v_side;
     return 1.0 + p->side_load * (1.0 - exp((-x) * x)) / (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
 }
 
-static double kernel_effects_scale_friction(struct kernel_Parameters* p, double v)
+static double kernel_effects_scale_friction(struct kernel_Parameters* p, double z, double v)
 {
     double value;
     value = 1.0;
+    if ((p->friction_slope != 0.0) || (p->friction_bow != 0.0))
+    {
+        value *= kernel_position_friction_scale_friction(p, z, v);
+    }
     if (p->side_load != 0.0)
     {
-        value *= kernel_side_load_friction_scale_friction(p, v);
+        value *= kernel_side_load_friction_scale_friction(p, z, v);
     }
     return value;
 }
@@ -606,7 +622,7 @@ static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct
     rate = v - speed;
     x = s->x_mount + rate * dt;
     goal = z - x;
-    friction = kernel_effects_scale_friction(p, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z);
+    friction = kernel_effects_scale_friction(p, goal, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z);
     gas = d->c_gas * goal + kernel_effects_elastic(p, goal) - kernel_effects_elastic(p, 0.0);
     return (x + p->tau_mount * rate) / p->C_mount - F - friction - gas - p->m_rod * (speed - s->v_piston) / dt;
 }
@@ -1566,7 +1582,7 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     }
     F_1 = kernel_fluid_force(p, v);
     s->F_fluid = F_1 * s->k_degr;
-    s->F_friction *= kernel_effects_scale_friction(p, v);
+    s->F_friction *= kernel_effects_scale_friction(p, s->z, v);
     s->F_gas += kernel_effects_elastic(p, s->z);
     /* As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end. */
     s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, dz);

@@ -27,6 +27,7 @@ EFFECTS = (
     "side_load_friction",
     "valve_wear",
     "oil_level_error",
+    "position_friction",
 )
 FAULTS = ("force_offset", "force_gain", "sign_flip", "channel_delay", "unit_error")
 OUTSIDE = ("rig_resonance", "backlash", "mains_hum", "clipping")
@@ -147,6 +148,11 @@ def side_load_friction(d: Dice, s: Secret) -> None:
     s.truth |= {"in_quasi_static": also}
 
 
+def position_friction(d: Dice, s: Secret) -> None:
+    """A rod pulled sideways: guide and piston carry it with a lever that changes with the stroke."""
+    s.always |= {"lever": d.strength, "span": d.between(0.075, 0.1), "overhang": d.between(0.04, 0.07)}
+
+
 def valve_wear(d: Dice, s: Secret) -> None:
     """Each branch changed by a factor of its own that depends on the velocity."""
     for branch in ("re", "co"):
@@ -223,6 +229,7 @@ DRAWS: dict[str, Callable[[Dice, Secret], None]] = {
         side_load_friction,
         valve_wear,
         oil_level_error,
+        position_friction,
         recalibrate,
         channel_delay,
         unit_error,

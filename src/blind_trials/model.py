@@ -277,6 +277,11 @@ def friction(c: Tube, h: Hidden, y: Array, dz: float, v: float) -> float:
             y[DAHL] += way * c.sigma * math.copysign(abs(gap) ** c.delta, gap)
     scale = c.k_high + (1.0 - c.k_high) * math.exp(-abs(v) / c.v_S)
     side = h.side * math.tanh(v / h.side_v) if h.side > 0.0 else 0.0
+    if h.lever > 0.0:
+        # Guide and piston carry the pull times (overhang + span) / span and overhang / span.
+        z = y[PISTON]
+        pressed = 1.0 + 2.0 * (h.overhang + z) / (h.span - z)
+        scale *= 1.0 + h.lever * (pressed / (1.0 + 2.0 * h.overhang / h.span) - 1.0)
     return float(scale * y[DAHL] + side)
 
 

@@ -78,6 +78,9 @@ class Hidden(NamedTuple):
     stop_loss: float = 0.0  # [1] hysteresis
     side: float = 0.0  # [N]
     side_v: float = 0.01  # [m/s] over which it reverses
+    lever: float = 0.0  # [1] share of the friction that a side pull on the rod makes
+    span: float = 0.1  # [m] from guide to piston at the stroke 0
+    overhang: float = 0.05  # [m] from the pull to the guide at the stroke 0
     wear_re: float = 0.0  # [1] change of the rebound force at high velocity
     wear_re_slow: float = 0.0  # [1] at low velocity
     wear_co: float = 0.0  # [1]

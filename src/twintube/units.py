@@ -12,6 +12,8 @@ UNITS: dict[str, tuple[str, dict[str, str]]] = {
     "1/s": ("Rate", {"s": "-1"}),
     "m2": ("Area", {"m": "2"}),
     "m/N": ("Compliance", {"kg": "-1", "s": "2"}),
+    "1/m": ("RelativeChangePerLength", {"m": "-1"}),
+    "1/m2": ("RelativeChangePerSquareLength", {"m": "-2"}),
     "1/J": ("RelativeChangePerEnergy", {"kg": "-1", "m": "-2", "s": "2"}),
     "J": ("Energy", {"kg": "1", "m": "2", "s": "-2"}),
 }

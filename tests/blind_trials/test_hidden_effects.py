@@ -39,7 +39,7 @@ def drawn(kind, **changes):
 
 
 def test_every_kind_has_a_draw():
-    assert set(DRAWS) == set(KINDS) and len(EFFECTS) == 12
+    assert set(DRAWS) == set(KINDS) and len(EFFECTS) == 13
 
 
 def test_strength_zero_hides_nothing():
@@ -135,6 +135,16 @@ def test_side_load_rubs_against_the_motion():
     extra = more.force - Run(1.0, 0.131, True).force
     assert extra[more.v > 0.05] == pytest.approx(80.0, abs=0.1)
     assert extra[more.v < -0.05] == pytest.approx(-80.0, abs=0.1)
+
+
+def test_a_side_pull_rubs_more_with_the_rod_out():
+    more = Run(1.0, 0.131, True, lever=1.0, span=0.09, overhang=0.05)
+    plain = Run(1.0, 0.131, True)
+    extra = np.sign(plain.v) * (more.force - plain.force)
+    fast = np.abs(plain.v) > 0.05
+    out, inside = extra[fast & (plain.z > 0.03)], extra[fast & (plain.z < -0.03)]
+    assert out.min() > 8.0 and inside.max() < -4.0
+    assert np.abs(extra[fast & (np.abs(plain.z) < 1e-3)]).max() < 1.0
 
 
 def test_wear_changes_each_branch_by_its_own_factor():

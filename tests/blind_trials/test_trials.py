@@ -22,7 +22,7 @@ def same(a, b):
 
 
 def test_the_catalogue_is_the_contract_s():
-    assert len(EFFECTS) == 12 and len(FAULTS) == 5 and len(OUTSIDE) >= 4
+    assert len(EFFECTS) == 13 and len(FAULTS) == 5 and len(OUTSIDE) >= 4
     assert len(set(KINDS)) == len(KINDS) == len(EFFECTS) + len(FAULTS) + 2 + len(OUTSIDE)
 
 

@@ -27,7 +27,7 @@ from twintube.variables import State as PaperState
 SRC = Path(__file__).parents[2] / "src" / "twintube"
 CONTRACT = (
     "oil_temperature mount_compliance fluid_lag smooth_transition foam_decay gas_redissolution gas_spring seal_leak "
-    "end_stop side_load_friction valve_wear oil_level_error"
+    "end_stop side_load_friction valve_wear oil_level_error position_friction"
 ).split()
 
 

@@ -1,11 +1,11 @@
-"""Side load, valve wear and a wrong fill: the paper's model with another number."""
+"""Side load, place-dependent friction, valve wear and a wrong fill: the paper's model with another number."""
 
 import numpy as np
 import pytest
 
 from twintube.parameters import Damper, load
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate
+from twintube.rig import AMPLITUDE, harmonic_block
+from twintube.simulate import simulate, work_between
 
 
 def test_side_load_multiplies_the_friction_and_its_work(sa8: Damper) -> None:
@@ -25,6 +25,26 @@ def test_slow_ramps_show_no_side_load(sa8: Damper) -> None:
     v = np.full(len(z), 1e-5)
     plain, loaded = (simulate(x, z, v).F_friction for x in (sa8, sa8.with_(side_load=5.0)))
     assert loaded == pytest.approx(plain, rel=0.02, abs=1e-3)
+
+
+def test_friction_follows_the_position_and_never_pushes(sa8: Damper) -> None:
+    block = harmonic_block(0.262)
+    slope, bow = 30.0, 500.0
+    plain, leaning = (
+        simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(friction_slope=slope, friction_bow=bow))
+    )
+    factor = np.maximum(0.0, 1.0 + slope * block.stroke + bow * block.stroke**2)
+    assert leaning.F_friction == pytest.approx(factor * plain.F_friction, abs=1e-9)
+    assert np.array_equal(leaning.F_fluid, plain.F_fluid)
+    # Over a whole oscillation the slope does no net work, the bow adds that of the mean square stroke along the way.
+    _, sloped, bowed = (
+        work_between(sa8.with_(**x), block.stroke, block.velocity, block.marks)
+        for x in ({}, {"friction_slope": 10.0}, {"friction_bow": 500.0})
+    )
+    rest = work_between(sa8.with_(F_FrS=0.0), block.stroke, block.velocity, block.marks)
+    rubbed = work_between(sa8, block.stroke, block.velocity, block.marks) - rest
+    assert sloped - rest == pytest.approx(rubbed, rel=0.02)
+    assert (bowed - rest)[-1] / rubbed[-1] == pytest.approx(1.0 + 500.0 * AMPLITUDE**2 / 3.0, rel=0.03)
 
 
 def test_wear_scales_each_branch_and_its_work() -> None:

@@ -14,7 +14,7 @@ names; the interpreter executes its text, `compiled.py` joins it to the kernel.
     phases          (p, s, way, dt)                   changes of the phases, before kernel.step
     transition      (p, s, f, v, dz)                  s.k_degr, f.k_degr, f.k_mean after kernel.step
     scale_fluid     (p, s, v) -> factor               of the fluid force in the direction of v
-    scale_friction  (p, v) -> factor                  of the friction force at the velocity v
+    scale_friction  (p, z, v) -> factor               of the friction force at the stroke z and the velocity v
     elastic         (p, z) -> force [N]               beside the gas force, no work
     series          (p, s, F, dt) -> speed [m/s]      taken up in series with the valves at the fluid force F
     force           (p, s, v, dz, dt)                 s.F_fluid, s.F_valve, s.F_mean, s.W_step of a force with memory
@@ -40,7 +40,7 @@ HOOKS = {
     "phases": ("p, s, way, dt", "call"),
     "transition": ("p, s, f, v, dz", "call"),
     "scale_fluid": ("p, s, v", "product"),
-    "scale_friction": ("p, v", "product"),
+    "scale_friction": ("p, z, v", "product"),
     "elastic": ("p, z", "sum"),
     "series": ("p, s, F, dt", "sum"),
     "force": ("p, s, v, dz, dt", "call"),

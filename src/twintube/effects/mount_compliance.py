@@ -56,7 +56,7 @@ def mount_compliance_excess(p: Parameters, d: Derived, s: State, z: float, v: fl
     rate = v - speed
     x = s.x_mount + rate * dt
     goal = z - x
-    friction = effects_scale_friction(p, v) * stribeck(p, v) * dahl(p, d, s.F_D, goal - s.z)
+    friction = effects_scale_friction(p, goal, v) * stribeck(p, v) * dahl(p, d, s.F_D, goal - s.z)
     gas = d.c_gas * goal + effects_elastic(p, goal) - effects_elastic(p, 0.0)
     return (x + p.tau_mount * rate) / p.C_mount - F - friction - gas - p.m_rod * (speed - s.v_piston) / dt
 
