@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from tests.data.test_formats import MAPPING, REAL
-from twintube.data import load_dataset
-from twintube.identify import Harmonic, harmonic
+from twintube.data import LoadedDataset, load_dataset
+from twintube.diagnose.engine import diagnose
+from twintube.identify import Harmonic, harmonic, identify_dataset
+from twintube.identify.averaging import asked, averaging, through
 from twintube.identify.sines import identify_sines
-from twintube.parameters import load, to_toml
-from twintube.simulate import simulate
+from twintube.identify.validation import predicted
+from twintube.parameters import Damper, load, to_toml
 
 # The labcontrol damper's gas pushes the rod out only if both signs are turned; its stroke is about 10 mm off centre.
 TURNED = 'stroke_sign = -1\nforce_sign = -1\nstroke_offset = "10 mm"\n'
@@ -29,34 +31,74 @@ def rms(x: np.ndarray) -> float:
     return float(np.sqrt(np.mean(x**2)))
 
 
-@pytest.mark.skipif(not REAL.is_dir(), reason="no measured data beside the repository")
-@pytest.mark.parametrize(
-    ("source", "pattern", "head"), [("mr_maurel", "*.txt", COLUMNS), ("mr_labcontrol", "*.mat", MAPPING + TURNED)]
-)
-def test_held_out_records_are_predicted(
-    tmp_path: Path, source: str, pattern: str, head: str, record_property: Callable[[str, object], None]
-) -> None:
-    base = load("SA1")
-    wide = base.with_(h_l=0.35, V_oil=base.parameters.V_oil + 1e-5)
-    (tmp_path / "wide.toml").write_text(to_toml(wide))
-    toml = f'title = "{source}"\ndamper = "wide.toml"\n{head}'
+def measured(tmp_path: Path, source: str, damper: Damper) -> LoadedDataset:
+    """A source as a dataset folder for `damper`."""
+    pattern, head = {"mr_maurel": ("*.txt", COLUMNS), "mr_labcontrol": ("*.mat", MAPPING + TURNED)}[source]
+    (tmp_path / "damper.toml").write_text(to_toml(damper))
+    toml = f'title = "{source}"\ndamper = "damper.toml"\n{head}'
     for file in sorted((REAL / source).glob(pattern)):
         toml += f'[[record]]\nfile = "{file.as_posix()}"\nmeasurement = "harmonic"\noil_level = 1.0\ngas_preload = true\n'
     (tmp_path / "dataset.toml").write_text(toml)
-    dataset = load_dataset(tmp_path)
+    return load_dataset(tmp_path)
+
+
+def wide() -> Damper:
+    """A damper with room for the strokes of the sources; what is identified does not depend on its oil."""
+    base = load("SA1")
+    return base.with_(h_l=0.35, V_oil=base.parameters.V_oil + 1e-5)
+
+
+def held_out_errors(damper: Damper, records: list[Harmonic]) -> list[float]:
+    """Force error [N] of each record, predicted from the others."""
+    found = []
+    for i, record in enumerate(records):
+        fit = identify_sines(damper, [other for j, other in enumerate(records) if j != i])
+        a, b = record.marks[0], record.marks[-1]
+        found.append(rms((predicted(fit.damper, record, fit.offset) - record.force)[a:b]))
+    return found
+
+
+needs_real = pytest.mark.skipif(not REAL.is_dir(), reason="no measured data beside the repository")
+
+
+@needs_real
+@pytest.mark.parametrize("source", ["mr_maurel", "mr_labcontrol"])
+def test_held_out_records_are_predicted(tmp_path: Path, source: str, record_property: Callable[[str, object], None]) -> None:
+    dataset = measured(tmp_path, source, wide())
     records = [harmonic(record) for record in dataset.records]
-    model, means = [], []
+    model, means = held_out_errors(dataset.damper, records), []
     for i, held_out in enumerate(records):
-        others = [record for j, record in enumerate(records) if j != i]
-        fit = identify_sines(dataset.damper, others)
-        found = simulate(fit.damper, held_out.stroke, held_out.velocity).force + fit.offset
-        a, b = held_out.marks[0], held_out.marks[-1]
-        model.append(rms((found - held_out.force)[a:b]))
-        mean = np.mean([mean_loop(other) for other in others], axis=0)
+        mean = np.mean([mean_loop(other) for j, other in enumerate(records) if j != i], axis=0)
         cycles = zip(held_out.marks[:-1], held_out.marks[1:], strict=True)
         said = np.concatenate(
             [np.interp(np.arange(n) / n, np.linspace(0, 1, 200), mean) for n in (d - c for c, d in cycles)]
         )
-        means.append(rms(said - held_out.force[a:b]))
+        means.append(rms(said - held_out.force[held_out.marks[0] : held_out.marks[-1]]))
     record_property("model_rms_N", model)
     assert np.mean(model) < np.mean(means)
+
+
+@needs_real
+def test_the_smoothing_of_a_source_is_found_and_helps_where_nothing_was_fitted(
+    tmp_path: Path, record_property: Callable[[str, object], None]
+) -> None:
+    """Its force is a moving mean over a tenth of each oscillation, from 0.1 to 3 Hz alike."""
+    dataset = measured(tmp_path, "mr_maurel", wide())
+    records = [harmonic(record) for record in dataset.records]
+    found = averaging(records)
+    assert found is not None and found.seen == found.of >= 4
+    shares = [one[0] for one in map(asked, records) if one is not None]
+    assert np.ptp(shares) < 0.05 * np.mean(shares)
+    plain, seen = (held_out_errors(dataset.damper, some) for some in (records, through(records, found)))
+    record_property("held_out_rms_N", (plain, seen))
+    assert np.mean(np.square(seen)) < 0.85 * np.mean(np.square(plain))
+
+
+@needs_real
+@pytest.mark.parametrize(("source", "verdict"), [("mr_maurel", "measurement_fault"), ("mr_labcontrol", "unexplained")])
+def test_diagnosis_of_real_dampers(tmp_path: Path, source: str, verdict: str) -> None:
+    identified = identify_dataset(measured(tmp_path, source, wide())).identification.damper
+    measured(tmp_path, source, identified)
+    found = diagnose(tmp_path)
+    assert found.verdict == verdict
+    assert ("force_averaging" in [cause.effect for cause in found.causes]) == (source == "mr_maurel")

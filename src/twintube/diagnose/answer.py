@@ -42,12 +42,15 @@ def answer(
     close = close if verdict == "ambiguous" else []
     causes = [cause(selector.candidates[name], extended, gains(fitted), gains(held)) for name in named]
     kept = selection.chosen if named or verdict == "recalibrate" else []
+    nearest = [selector.candidates[name].title for name in effective] if verdict == "unexplained" else []
     residuals = maps(records)
     where = [describe(residuals, left=True)] if verdict == "unexplained" else []
     return Diagnosis(
         title=dataset.title,
         verdict=verdict,
-        sentence=sentence(verdict, causes, close, outside, removed(selection.start.score, selection.final.score, n)),
+        sentence=sentence(
+            verdict, causes, close, outside, nearest, removed(selection.start.score, selection.final.score, n)
+        ),
         causes=causes,
         alternatives=[
             Alternative(o.names[-1], removed(selection.start.score, o.score, n), apart(selector.candidates[o.names[-1]]))
@@ -205,9 +208,18 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
 
 
 def sentence(
-    verdict: str, causes: Sequence[Cause], close: Sequence[Option], outside: Sequence[Signature], explained: float
+    verdict: str,
+    causes: Sequence[Cause],
+    close: Sequence[Option],
+    outside: Sequence[Signature],
+    nearest: Sequence[str],
+    explained: float,
 ) -> str:
-    """The verdict in one sentence; `explained` is the share of the squared error, in the geometric mean over the records."""
+    """The verdict in one sentence; `explained` is the share of the squared error, in the geometric mean over the records.
+
+    `nearest` are the titles of what is chosen and explains too little to be named.
+    """
+    gain = f"{100 * explained:.0f} % of the explainable squared error of a typical held-out record goes away"
     if outside:
         return f"No known cause explains the records: {outside[0].text}."
     if verdict == "none":
@@ -215,12 +227,17 @@ def sentence(
     if verdict == "recalibrate":
         return "No effect is missing: other values of the degradation parameters explain the records."
     if verdict == "unexplained":
-        return "The simulation is wrong in a way that no known cause explains."
-    what = " and ".join(c.title[0].lower() + c.title[1:] for c in causes)
-    gain = f"{100 * explained:.0f} % of the explainable squared error of a typical held-out record goes away"
+        near = f"; with what comes nearest, {joined(nearest)}, {gain}" if nearest else ""
+        return f"The simulation is wrong in a way that no known cause explains{near}."
+    what = joined([cause.title for cause in causes])
     if verdict == "ambiguous":
         others = " or ".join(o.names[-1].replace("_", " ") for o in close)
         return f"Two causes explain the records alike, {what}, and {others}: they cannot be told apart here ({gain})."
     if verdict == "measurement_fault":
         return f"The measurement is faulty: {what} ({gain})."
     return f"The cause: {what}. {gain}."
+
+
+def joined(titles: Sequence[str]) -> str:
+    """Titles in the middle of a sentence."""
+    return " and ".join(title[0].lower() + title[1:] for title in titles)

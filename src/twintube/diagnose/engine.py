@@ -10,7 +10,7 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.diagnose.answer import answer, gains, predictions, worst
 from twintube.diagnose.candidates import candidates
-from twintube.diagnose.faults import Fault, read, scaled, unit_error
+from twintube.diagnose.faults import Fault, force_averaging, read, scaled, unit_error
 from twintube.diagnose.fit import Problem
 from twintube.diagnose.prepare import Case, prepare
 from twintube.diagnose.result import Cause, Diagnosis, Found, Gain
@@ -34,13 +34,15 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
         remarks.append("no record of the intact damper: what is wrong in every state looks like an effect of the oil loss")
     problem = recorded = Problem(dataset.damper, cases)
     wrong, problem = unit_error(problem)
+    smoothed, problem, told = force_averaging(dataset.records, problem)
+    remarks += told
     if fault is not None:
         recorded = recorded.with_cases([scaled(case, fault.factor, 1.0) for case in cases])
     selector = made(problem, folds)
     selection = selector.run(progress)
     progress("all records")
     found = answer(dataset, problem, selector, selection, signatures(dataset.records))
-    for one in (wrong, fault):
+    for one in (smoothed, wrong, fault):
         if one is not None:
             found = faulty(found, one, repaired(recorded, problem))
     return replace(found, remarks=[*remarks, *found.remarks], seconds=time.monotonic() - began)
@@ -96,7 +98,7 @@ def repaired(recorded: Problem, problem: Problem) -> Gain:
 def faulty(found: Diagnosis, fault: Fault, gain: Gain) -> Diagnosis:
     """The diagnosis of a measurement with a fault that was put right before anything was fitted."""
     factor = Found(fault.factor, fault.factor, fault.factor, "1")
-    first = Cause(fault.effect, fault.title, fault.explanation, {"factor": factor}, gain)
+    first = Cause(fault.effect, fault.title, fault.explanation, {fault.name: factor}, gain)
     text = f"The measurement is faulty: {fault.explanation[0].lower()}{fault.explanation[1:]}"
     return replace(
         found,

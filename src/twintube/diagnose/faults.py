@@ -1,14 +1,17 @@
-"""Faults of the measurement that are looked for before any physics: a turned sign, a wrong unit."""
+"""Faults of the measurement that are looked for before any physics: a turned sign, a wrong unit, a smoothed force."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from twintube.checks import tube_limit
-from twintube.data import LoadedDataset, check_dataset, flipped_dataset, load_dataset
+from twintube.data import LoadedDataset, Record, check_dataset, flipped_dataset, load_dataset
 from twintube.diagnose.fit import Problem
 from twintube.diagnose.prepare import Case
+from twintube.diagnose.signature import oscillating
+from twintube.identify.averaging import averaging, through
 
 # Factors by which a channel is wrong if its unit is another one than stated.
 FORCE_UNITS = {"kN for N": 1e3, "N for kN": 1e-3, "lbf for N": 4.4482216, "N for lbf": 1 / 4.4482216,
@@ -28,10 +31,11 @@ BETTER = 1.5  # log-misfit per sample that another unit must gain: a factor of t
 class Fault:
     """A fault that was put right before the diagnosis went on."""
 
-    effect: str  # sign_flip or unit_error
+    effect: str  # sign_flip, unit_error or force_averaging
     title: str
     explanation: str
     factor: float
+    name: str = "factor"
 
 
 def read(path: str | Path) -> tuple[LoadedDataset, Fault | None]:
@@ -76,6 +80,23 @@ def unit_error(problem: Problem) -> tuple[Fault | None, Problem]:
         return None, problem
     factor = (FORCE_UNITS | STROKE_UNITS)[name.partition(": ")[2]]
     return Fault("unit_error", f"Unit of the {name}", f"The {name.replace(': ', ' channel holds ')}.", factor), chosen
+
+
+def force_averaging(records: Sequence[Record], problem: Problem) -> tuple[Fault | None, Problem, list[str]]:
+    """Whether the force was smoothed after the measurement, the problem seen through the same mean, and remarks.
+
+    A parameter set identified from forces that it took for unsmoothed has the smoothing in its F-v curve.
+    """
+    blocks = oscillating(records)
+    found = averaging([block for _, block in blocks])
+    if found is None:
+        return None, problem, []
+    windows = {block.name: block.averaged for block in through([block for _, block in blocks], found)}
+    other = problem.with_cases([replace(case, averaged=windows.get(case.name, 0.0)) for case in problem.cases])
+    text = found.text[0].upper() + found.text[1:] + "."
+    if relative(other) >= relative(problem):
+        return None, problem, [f"{text} The parameter set is better without it: identify the damper from these records"]
+    return Fault("force_averaging", "Averaged force channel", text, found.share, "share_of_oscillation"), other, []
 
 
 def relative(problem: Problem) -> float:

@@ -14,6 +14,7 @@ from scipy.optimize import least_squares
 from twintube import compiled, effects
 from twintube.arrays import Array
 from twintube.diagnose.prepare import Case
+from twintube.identify.averaging import averaged_means
 from twintube.identify.objective import tolerant
 from twintube.parameters import Damper
 from twintube.variables import Derived, Flow, blank
@@ -95,6 +96,8 @@ class Problem:
         force, work = np.empty(len(self.z)), np.empty(len(self.z))
         done = compiled.module().run_means(*rows, self.states, self.t, self.z, self.v, self.starts, PARTS, force, work)
         force[self.starts[done] :] = 1e9
+        for case, a, b in zip(self.cases, self.starts[:-1], self.starts[1:], strict=True):
+            force[a:b] = averaged_means(case.time, force[a:b], case.averaged)
         return force
 
     def forces(self, values: Mapping[str, float]) -> Array:

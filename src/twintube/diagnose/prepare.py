@@ -38,6 +38,7 @@ class Case:
     stretch: NDArray[np.int64]  # number of the stretch between rests
     noise: Array  # (n,) standard deviation [N] of each interval's mean force
     peak: float  # largest measured force [N], outliers apart
+    averaged: float = 0.0  # [s] of the moving mean that the force channel went through
 
     @property
     def intact(self) -> bool:

@@ -17,6 +17,7 @@ from scipy.fft import next_fast_len, rfft, rfftfreq
 
 from twintube.arrays import Array
 from twintube.data import Record
+from twintube.identify.averaging import NYQUIST, spectrum
 from twintube.identify.objective import Harmonic
 from twintube.identify.oscillations import beginnings, harmonic, segments, smooth_velocity
 from twintube.simulate import InputError
@@ -38,13 +39,11 @@ SLACK = 2.0  # above the threshold of a known background: that of few frequencie
 STRONG = 0.02  # of the strongest line of a record: weaker ones may be its side lobes
 SAME_LINE = 2e-3  # relative; mains keep their frequency within 0.1 Hz of 50
 MAINS = (50, 60)  # [Hz]
-NYQUIST = 0.48  # of the sampling rate, up to which a frequency is sought
 PHASES = 64  # parts of an oscillation, each with a scatter of its own: force jumps wander
 OUTLIER = 4.0  # scatters at which a sample is cut
 LEAST_TURNS = 5  # oscillations of one period
 FADE = 3.0  # of these, in which a force fades
 
-LOOP = 1024  # phases of the mean oscillation
 STEP = 1.03  # from one frequency sought for a resonance to the next
 NEAR = 0.2  # of the frequency, in which the middle of the resonance is sought
 INSIDE, OUTSIDE = 1.05, (1.5, 2.2)  # its band reaches to these factors, those beside it lie between these
@@ -72,16 +71,22 @@ class Signature:
 
 def signatures(records: Sequence[Record]) -> list[Signature]:
     """All that is seen in the records of a dataset, at most one of a name."""
-    blocks = []
-    for record in records:
-        try:
-            if record.measurement == "harmonic":
-                blocks.append((record, harmonic(record)))
-        except InputError:  # no full oscillation
-            continue
+    blocks = oscillating(records)
     vibration, frequencies = line(records)
     found = [saturation(records), vibration, ringing([block for _, block in blocks], frequencies), backlash(blocks)]
     return [one for one in found if one is not None]
+
+
+def oscillating(records: Sequence[Record]) -> list[tuple[Record, Harmonic]]:
+    """The harmonic records with their blocks, without those that hold no full oscillation."""
+    found = []
+    for record in records:
+        try:
+            if record.measurement == "harmonic":
+                found.append((record, harmonic(record)))
+        except InputError:
+            continue
+    return found
 
 
 def saturation(records: Sequence[Record]) -> Signature | None:
@@ -260,17 +265,6 @@ def ringing(blocks: Sequence[Harmonic], lines: Sequence[float] = ()) -> Signatur
         f"({size:.0f} N RMS): the rig or the mounting of the load cell has a resonance"
     )
     return Signature("ringing", text, size)
-
-
-def spectrum(block: Harmonic) -> tuple[Array, Array, Array]:
-    """Frequencies [Hz], amplitudes and their noise [N] of the harmonics (n,) of the mean oscillation."""
-    t, marks = block.time, block.marks
-    phase = np.arange(LOOP) / LOOP
-    loops = [np.interp(t[a] + phase * (t[b] - t[a]), t, block.force) for a, b in itertools.pairwise(marks)]
-    harmonics = rfft(np.array(loops), axis=1) * 2 / LOOP
-    number = np.arange(1, int(min(LOOP, float(np.median(np.diff(marks)))) * NYQUIST))
-    noise = np.sqrt(harmonics.var(axis=0) / (len(loops) - 1))
-    return number / float(np.median(np.diff(t[marks]))), np.abs(harmonics.mean(axis=0))[number], noise[number]
 
 
 def resonance(spectra: Sequence[tuple[Array, Array, Array]], middle: float) -> tuple[float, int, float]:

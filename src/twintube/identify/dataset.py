@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from twintube.data import LoadedDataset
+from twintube.identify.averaging import averaging, through
 from twintube.identify.objective import TABLE_6, Harmonic
 from twintube.identify.oscillations import harmonic
 from twintube.identify.validation import Validated, intact, validate_drives, validate_harmonic
@@ -48,6 +49,10 @@ def identify_dataset(
         raise InputError(f"{dataset.title}: no harmonic record to identify from")
     stated = {r.name: r.split for r in dataset.records}
     split, remarks = splits(found, stated)
+    smoothed = averaging(found)
+    if smoothed is not None:
+        found = through(found, smoothed)
+        remarks.append(f"{smoothed.text}; the model is seen through the same mean where sines are fitted and validated")
     fitted = [h for h, kind in zip(found, split, strict=True) if kind == "fit"]
     if not fitted:
         raise InputError(f"{dataset.title}: all harmonic records are held out, none is left to identify from")

@@ -41,6 +41,7 @@ class Harmonic:
     force: Array
     marks: NDArray[np.int64]
     name: str = ""
+    averaged: float = 0.0  # [s] of the moving mean that the force channel went through, see averaging.py
 
     @property
     def top_speed(self) -> float:

@@ -13,6 +13,7 @@ from scipy.linalg import qr
 from scipy.optimize import lsq_linear, minimize_scalar
 
 from twintube.arrays import Array
+from twintube.identify.averaging import averaged
 from twintube.identify.objective import Harmonic
 from twintube.kernel import stribeck
 from twintube.parameters import Damper, continued
@@ -59,25 +60,32 @@ def ramps(velocity: Array, knots: Array) -> Array:
 def identify_sines(damper: Damper, records: Sequence[Harmonic]) -> SineFit:
     """The damper with F-v curve, friction and gas spring from harmonic records of the intact damper.
 
-    The Stribeck scaling and delta_D = 1 are not determined by sines and stay. Raises InputError without records.
+    The Stribeck scaling and delta_D = 1 are not determined by sines and stay. A force channel that was averaged is fitted
+    by a model averaged alike. Raises InputError without records.
     """
     if not records:
         raise InputError("no intact harmonic record to identify from")
     spans = [slice(int(r.marks[0]), int(r.marks[-1]) + 1, 1 + int(r.marks[-1] - r.marks[0]) // MOST) for r in records]
-    z, v, F = (np.concatenate([getattr(r, n)[s] for r, s in zip(records, spans, strict=True)])
-               for n in ("stroke", "velocity", "force"))  # fmt: skip
+    F = np.concatenate([r.force[s] for r, s in zip(records, spans, strict=True)])
+
+    def seen(columns: Sequence[Array]) -> Array:
+        """What the fit takes of the records' columns, as the force channel shows it."""
+        several = zip(records, columns, spans, strict=True)
+        return np.concatenate([averaged(r.time, column, r.averaged)[s] for r, column, s in several])
+
     sizes = [len(range(*s.indices(s.stop))) for s in spans]
     weight = np.concatenate([np.full(n, 1 / np.sqrt(n)) for n in sizes])
     weight /= np.sqrt(len(records))
     top = max(r.top_speed for r in records)
     knots = np.geomspace(SLOWEST, 1.0, KNOTS) * top
-    scaling = np.array([stribeck(damper.parameters, float(x)) for x in v])
-    fixed = np.column_stack([ramps(v, knots), -ramps(-v, knots), -np.ones_like(z), z])
+    scaling = [np.array([stribeck(damper.parameters, float(x)) for x in r.velocity]) for r in records]
+    fixed = seen([np.column_stack([ramps(r.velocity, knots), -ramps(-r.velocity, knots), -np.ones_like(r.time), r.stroke])
+                  for r in records])  # fmt: skip
     lower = np.concatenate([np.full(2 * KNOTS, RISING * np.abs(F).max() / KNOTS), [-np.inf, 0.0, 0.0]])
 
     def solved(log_length: float) -> tuple[float, NDArray[np.float64]]:
         length = float(np.exp(log_length))
-        rubbing = np.concatenate([saturation(r.stroke, length)[s] for r, s in zip(records, spans, strict=True)]) * scaling
+        rubbing = seen([saturation(r.stroke, length) * scale for r, scale in zip(records, scaling, strict=True)])
         # The triangular factor holds all that least squares needs of thousands of samples.
         R = qr(np.column_stack([fixed, rubbing, F]) * weight[:, None], mode="r")[0][: fixed.shape[1] + 2]
         fit = lsq_linear(R[:, :-1], R[:, -1], bounds=(lower, np.inf))

@@ -7,6 +7,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.data import Record
+from twintube.identify.averaging import averaged
 from twintube.identify.objective import Harmonic, tolerant
 from twintube.identify.oscillations import smooth_velocity
 from twintube.parameters import Damper
@@ -36,12 +37,16 @@ def state(damper: Damper, level: float, preload: bool | int) -> Damper:
     return tolerant(damper.with_(oil_level=level, gas_preload=int(preload)))
 
 
+def predicted(damper: Damper, record: Harmonic, offset: float) -> Array:
+    """What the force channel would show of the model (n,) [N]: with its zero and through its moving mean."""
+    condition = state(damper, record.oil_level, record.gas_preload)
+    force = simulate(condition, record.stroke, record.velocity, record.time).force
+    return averaged(record.time, force + offset, record.averaged)
+
+
 def validate_harmonic(damper: Damper, record: Harmonic, split: str, offset: float = 0.0) -> Validated:
     """Force and works of a harmonic record; `offset` is the zero of the load cell [N]."""
-    found = (
-        simulate(state(damper, record.oil_level, record.gas_preload), record.stroke, record.velocity, record.time).force
-        + offset
-    )
+    found = predicted(damper, record, offset)
     span = slice(int(record.marks[0]), int(record.marks[-1]) + 1)
     measured = record.works()
     cycles = [slice(a, b + 1) for a, b in zip(record.marks[:-1], record.marks[1:], strict=True)]

@@ -9,11 +9,10 @@ from matplotlib.figure import Figure
 from twintube.identify import Harmonic, Result
 from twintube.identify.dataset import is_intact, totals
 from twintube.identify.intact import fv_points
-from twintube.identify.validation import Validated, state
+from twintube.identify.validation import Validated, predicted
 from twintube.kernel import fluid_force
 from twintube.report import style
 from twintube.report.page import Picture, Section, Table, html
-from twintube.simulate import simulate
 
 LOOPS = 8  # records of which the loops are drawn
 
@@ -24,10 +23,7 @@ def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> Figure:
     figure, axes = style.canvas(rows, min(4, len(chosen)), (11.0, 2.9 * rows + 0.4))
     damper, offset = result.identification.damper, result.identification.offset
     for ax, (record, split) in zip(axes.flat, chosen, strict=False):
-        found = (
-            simulate(state(damper, record.oil_level, record.gas_preload), record.stroke, record.velocity, record.time).force
-            + offset
-        )
+        found = predicted(damper, record, offset)
         for colour, name, force in ((style.GREY, "measured", record.force), (style.RED, "simulated", found)):
             for dash, which, (a, b) in (
                 ("-", "first", (record.marks[0], record.marks[1])),
