@@ -1,4 +1,4 @@
-/* Made by fmu_src/native/translate.py from the Python sources 528789a6426ae82d; do not edit. */
+/* Made by fmu_src/native/translate.py from the Python sources 5171f2b6ffdd7b4c; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -536,6 +536,25 @@ static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_S
     return value;
 }
 
+/* Force [N] of the rubber's hysteresis at the stroke `z` [m] and the velocity `v` [m/s]. */
+static double kernel_end_stop_rub(struct kernel_Parameters* p, double z, double v)
+{
+    double pressed;
+    pressed = kernel_end_stop_press(p->F_stop_re, z - p->onset_re) + kernel_end_stop_press(p->F_stop_co, (-z) - p->onset_co);
+    return 0.15 * pressed * tanh(v / 0.01);
+}
+
+static double kernel_effects_rub(struct kernel_Parameters* p, double z, double v)
+{
+    double value;
+    value = 0.0;
+    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
+    {
+        value += kernel_end_stop_rub(p, z, v);
+    }
+    return value;
+}
+
 /* Dahl friction force [N] after the stroke `dz` [m]: the exact solution of equation 2 over the stroke. */
 static double kernel_dahl(struct kernel_Parameters* p, struct kernel_Derived* d, double F_D, double dz)
 {
@@ -622,7 +641,7 @@ static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct
     rate = v - speed;
     x = s->x_mount + rate * dt;
     goal = z - x;
-    friction = kernel_effects_scale_friction(p, goal, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z);
+    friction = kernel_effects_scale_friction(p, goal, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z) + kernel_effects_rub(p, goal, v);
     gas = d->c_gas * goal + kernel_effects_elastic(p, goal) - kernel_effects_elastic(p, 0.0);
     return (x + p->tau_mount * rate) / p->C_mount - F - friction - gas - p->m_rod * (speed - s->v_piston) / dt;
 }
@@ -1582,7 +1601,7 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     }
     F_1 = kernel_fluid_force(p, v);
     s->F_fluid = F_1 * s->k_degr;
-    s->F_friction *= kernel_effects_scale_friction(p, s->z, v);
+    s->F_friction = s->F_friction * kernel_effects_scale_friction(p, s->z, v) + kernel_effects_rub(p, s->z, v);
     s->F_gas += kernel_effects_elastic(p, s->z);
     /* As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end. */
     s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, dz);

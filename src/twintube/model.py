@@ -16,6 +16,7 @@ from twintube.effects import (
     effects_parts,
     effects_phases,
     effects_reset,
+    effects_rub,
     effects_scale_fluid,
     effects_scale_friction,
     effects_transition,
@@ -101,7 +102,7 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
         s.k_co = s.k_degr
     F_1 = fluid_force(p, v)
     s.F_fluid = F_1 * s.k_degr
-    s.F_friction *= effects_scale_friction(p, s.z, v)
+    s.F_friction = s.F_friction * effects_scale_friction(p, s.z, v) + effects_rub(p, s.z, v)
     s.F_gas += effects_elastic(p, s.z)
     # As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end.
     s.k_mean = f.k_mean * effects_scale_fluid(p, s, dz)

@@ -1,19 +1,18 @@
-"""Gas spring and stops: forces of the stroke that do no work."""
-
-from typing import Any
+"""Gas spring and stops: forces of the stroke that do no work, and the hysteresis of rubber, which does."""
 
 import numpy as np
 import pytest
 
+from twintube.effects.end_stop import LOSS
 from twintube.parameters import Damper
-from twintube.rig import harmonic_block
+from twintube.rig import AMPLITUDE, harmonic_block
 from twintube.simulate import simulate
 
 
-@pytest.mark.parametrize("added", [{"c_residual": -500.0, "F_residual": 150.0}, {"F_stop_re": 900.0, "F_stop_co": 500.0}])
-def test_no_work_and_no_other_force(sa8: Damper, added: dict[str, Any]) -> None:
+def test_a_residual_spring_does_no_work_and_is_no_other_force(sa8: Damper) -> None:
     block = harmonic_block(1.048)
-    plain, extended = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(**added)))
+    springy = sa8.with_(c_residual=-500.0, F_residual=150.0)
+    plain, extended = (simulate(x, block.stroke, block.velocity) for x in (sa8, springy))
     assert extended.work == pytest.approx(plain.work, abs=1e-9)
     assert np.array_equal(extended.F_fluid, plain.F_fluid)
     assert np.array_equal(extended.F_friction, plain.F_friction)
@@ -32,3 +31,16 @@ def test_stops_push_back_beyond_their_onset_only(sa8: Damper) -> None:
     plain, extended = (simulate(x, z, 0 * z).F_gas for x in (sa8, sa8.with_(**stops)))
     expected = [-600.0, -600.0 * 0.5**1.5, 0.0, 0.0, 0.0, 1000.0]
     assert extended - plain == pytest.approx(expected, abs=1e-9)
+
+
+def test_rubber_loses_a_share_of_what_it_takes(sa8: Damper) -> None:
+    """Over one press and release: twice LOSS of the work stored, the integral of F_stop x^1.5."""
+    block = harmonic_block(0.131)
+    F_stop, onset = 800.0, 0.03
+    plain, stopped = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(F_stop_re=F_stop, onset_re=onset)))
+    stored = F_stop * 0.01 * ((AMPLITUDE - onset) / 0.01) ** 2.5 / 2.5
+    presses = int(np.sum(np.diff((block.stroke > onset).astype(int)) == 1))
+    assert stopped.work[-1] - plain.work[-1] == pytest.approx(2 * LOSS * presses * stored, rel=0.05)
+    assert np.array_equal(stopped.F_fluid, plain.F_fluid)
+    outside = block.stroke < onset
+    assert np.array_equal(stopped.F_friction[outside], plain.F_friction[outside])

@@ -100,7 +100,11 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
 
 
 def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float]) -> tuple[float, dict[str, float]]:
-    """The point that explains the cases best, and their sum of squares there; one strength after another joins."""
+    """The point that explains the cases best, and their sum of squares there; one strength after another joins.
+
+    The zero of the load cell goes along: at the one of the model without the cause a residual spring would start as a loss.
+    """
+    zero = nuisances(problem)[0]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength]
     best, low = {f.name: f.start for f in candidate.free}, np.inf
@@ -110,7 +114,7 @@ def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float
         others = itertools.product(*(grids[name] for name in shapes)) if len(left) == len(candidate.strength) else [()]
         some = [dict(zip(shapes, other, strict=False)) for other in others]
         points = [best | {name: x} | shape for name in left for x in grids[name] for shape in some]
-        scores = [float(r @ r) for r in problem.residuals([{**fixed, **point} for point in points])]
+        scores = problem.costs([{**fixed, **point} for point in points], zero)
         if min(scores) >= low:
             break
         point, low = points[int(np.argmin(scores))], min(scores)

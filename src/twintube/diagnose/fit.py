@@ -128,6 +128,16 @@ class Problem:
             found += [self.shared(values) for values in some]
         return found
 
+    def costs(self, many: Sequence[Mapping[str, float]], zero: Free) -> list[float]:
+        """Balanced sums of squares of several parameter sets, each with the zero of the load cell that suits it best."""
+        w = self.weight * self.share
+        found = []
+        for values, r in zip(many, self.residuals(many), strict=True):
+            now = values.get(zero.name, zero.start)
+            step = np.clip(-float(w @ r) / float(w @ w), min(0.0, zero.low - now), max(0.0, zero.high - now))
+            found.append(float(np.sum((r + step * w) ** 2)))
+        return found
+
     def balance(self, misfit: Array) -> None:
         """Let every record count alike in what follows: `misfit` (r,) is its mean squared weighted error.
 

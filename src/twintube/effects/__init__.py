@@ -16,6 +16,7 @@ names; the interpreter executes its text, `compiled.py` joins it to the kernel.
     scale_fluid     (p, s, v) -> factor               of the fluid force in the direction of v
     scale_friction  (p, z, v) -> factor               of the friction force at the stroke z and the velocity v
     elastic         (p, z) -> force [N]               beside the gas force, no work
+    rub             (p, z, v) -> force [N]            beside the friction, with the sign of v
     series          (p, s, F, dt) -> speed [m/s]      taken up in series with the valves at the fluid force F
     force           (p, s, v, dz, dt)                 s.F_fluid, s.F_valve, s.F_mean, s.W_step of a force with memory
     finish          (p, s, dt)                        what follows from forces and work
@@ -42,6 +43,7 @@ HOOKS = {
     "scale_fluid": ("p, s, v", "product"),
     "scale_friction": ("p, z, v", "product"),
     "elastic": ("p, z", "sum"),
+    "rub": ("p, z, v", "sum"),
     "series": ("p, s, F, dt", "sum"),
     "force": ("p, s, v, dz, dt", "call"),
     "finish": ("p, s, dt", "call"),
@@ -176,6 +178,7 @@ if TYPE_CHECKING:
     effects_scale_fluid: Callable[..., float]
     effects_scale_friction: Callable[..., float]
     effects_elastic: Callable[..., float]
+    effects_rub: Callable[..., float]
     effects_series: Callable[..., float]
     effects_force: Callable[..., None]
     effects_finish: Callable[..., None]

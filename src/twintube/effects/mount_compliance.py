@@ -8,7 +8,7 @@ rises with it, so there is one root. k_degr is that of the step before, which is
 from dataclasses import dataclass
 
 from twintube import variables
-from twintube.effects import effects_elastic, effects_scale_friction, effects_series
+from twintube.effects import effects_elastic, effects_rub, effects_scale_friction, effects_series
 from twintube.frame import Frame, parts_of, valve_force
 from twintube.kernel.forces import dahl, stribeck
 from twintube.variables import Derived, var
@@ -56,7 +56,7 @@ def mount_compliance_excess(p: Parameters, d: Derived, s: State, z: float, v: fl
     rate = v - speed
     x = s.x_mount + rate * dt
     goal = z - x
-    friction = effects_scale_friction(p, goal, v) * stribeck(p, v) * dahl(p, d, s.F_D, goal - s.z)
+    friction = effects_scale_friction(p, goal, v) * stribeck(p, v) * dahl(p, d, s.F_D, goal - s.z) + effects_rub(p, goal, v)
     gas = d.c_gas * goal + effects_elastic(p, goal) - effects_elastic(p, 0.0)
     return (x + p.tau_mount * rate) / p.C_mount - F - friction - gas - p.m_rod * (speed - s.v_piston) / dt
 
