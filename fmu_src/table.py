@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from dataclasses import Field, dataclass, fields
 from typing import Any
 
-from twintube.effects import Parameters
-from twintube.parameters import Damper
+from twintube.parameters import Damper, elements
 from twintube.variables import Inputs, Outputs, fmi_name
 
 
@@ -38,10 +37,5 @@ def variables(damper: Damper) -> Iterator[Variable]:
         yield Variable(fmi_name(item), "input", item, -1, item.metadata["default"])
     for item in fields(Outputs):
         yield Variable(fmi_name(item), "output", item, -1, None)
-    for item in fields(Parameters):
-        value = getattr(damper.parameters, item.name)
-        if item.metadata["size"] == 1:
-            yield Variable(fmi_name(item), "parameter", item, -1, value)
-        else:
-            for i, part in enumerate(value):
-                yield Variable(f"{fmi_name(item)}[{i + 1}]", "parameter", item, i, part)
+    for name, item, i, value in elements(damper):
+        yield Variable(name, "parameter", item, i, value)

@@ -3,8 +3,8 @@
 import difflib
 import re
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import Field, dataclass, fields, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -51,6 +51,17 @@ class Damper:
 def names() -> list[str]:
     """The named dampers."""
     return sorted(path.stem for path in FOLDER.glob("*.toml"))
+
+
+def elements(damper: Damper) -> Iterator[tuple[str, Field[Any], int, float]]:
+    """Name in the FMU, field of the table, index in an array (-1 where it is none) and value [SI] of every parameter."""
+    for item in fields(Parameters):
+        value, name = getattr(damper.parameters, item.name), fmi_name(item)
+        if item.metadata["size"] == 1:
+            yield name, item, -1, value
+        else:
+            for i, part in enumerate(value):
+                yield f"{name}[{i + 1}]", item, i, part
 
 
 def load(damper: str | Path) -> Damper:

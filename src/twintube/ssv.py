@@ -1,28 +1,12 @@
 """Parameter sets as System Structure Parameter Values (SSP 1.0, file ending .ssv), for importers of the FMU."""
 
-from collections.abc import Iterator
-from dataclasses import fields
 from xml.etree import ElementTree as ET
 
 from twintube import __version__
-from twintube.effects import Parameters
-from twintube.parameters import Damper
+from twintube.parameters import Damper, elements
 from twintube.units import UNITS
-from twintube.variables import fmi_name
 
 STANDARD = "http://ssp-standard.org/SSP1/SystemStructure"
-
-
-def values(damper: Damper) -> Iterator[tuple[str, str, str, str, str]]:
-    """Name in the FMU, meaning, kind, value [SI] and unit of every parameter; arrays element by element."""
-    for item in fields(Parameters):
-        meta, value = item.metadata, getattr(damper.parameters, item.name)
-        unit = meta["unit"] if meta["unit"] in UNITS and not meta["integer"] else ""
-        many = meta["size"] > 1
-        for i, part in enumerate(value if many else [value]):
-            name = f"{fmi_name(item)}[{i + 1}]" if many else fmi_name(item)
-            kind, text = ("Integer", str(int(part))) if meta["integer"] else ("Real", repr(float(part)))
-            yield name, meta["description"], kind, text, unit
 
 
 def to_ssv(damper: Damper) -> str:
@@ -35,12 +19,14 @@ def to_ssv(damper: Damper) -> str:
     )  # fmt: skip
     parameters, units = ET.SubElement(root, "ssv:Parameters"), ET.SubElement(root, "ssv:Units")
     used = set()
-    for name, description, kind, value, unit in values(damper):
-        parameter = ET.SubElement(parameters, "ssv:Parameter", name=name, description=description)
-        number = ET.SubElement(parameter, f"ssv:{kind}", value=value)
-        if unit:
-            number.set("unit", unit)
-            used.add(unit)
+    for name, item, _, value in elements(damper):
+        meta = item.metadata
+        kind, text = ("Integer", str(int(value))) if meta["integer"] else ("Real", repr(float(value)))
+        parameter = ET.SubElement(parameters, "ssv:Parameter", name=name, description=meta["description"])
+        number = ET.SubElement(parameter, f"ssv:{kind}", value=text)
+        if meta["unit"] in UNITS and not meta["integer"]:
+            number.set("unit", meta["unit"])
+            used.add(meta["unit"])
     for symbol, (_, exponents) in UNITS.items():
         if symbol in used:
             ET.SubElement(ET.SubElement(units, "ssc:Unit", name=symbol), "ssc:BaseUnit", exponents)
