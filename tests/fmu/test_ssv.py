@@ -14,8 +14,8 @@ from lxml import etree
 from typer.testing import CliRunner
 
 from twintube.cli import app
-from twintube.parameters import Damper, load, names
-from twintube.ssv import to_ssv, values
+from twintube.parameters import Damper, elements, load, names
+from twintube.ssv import to_ssv
 from vehicle_demo.damper_fmu import DamperFmu
 
 NS = {
@@ -63,7 +63,7 @@ def system(sa8_native: Path, tmp_path: Path) -> Path:
 
 def set_directly(fmu: Path, damper: Damper, steps: list[float]) -> list[float]:
     """Forces of the FMU in fmpy, all parameters set by their names."""
-    start = {name: float(text) for name, _, _, text, _ in values(damper)}
+    start = {name: float(value) for name, _, _, value in elements(damper)}
     with DamperFmu(fmu, **start) as unit:
         forces = [unit.step(*at) for at in zip(STROKES, VELOCITIES, steps, strict=True)]
         assert unit.messages == []
