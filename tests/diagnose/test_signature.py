@@ -7,7 +7,8 @@ from scipy.signal import lsim
 
 from blind_trials.trials import dataset, trial
 from twintube.data import Record
-from twintube.diagnose.signature import peaks, signatures, unrepeated
+from twintube.diagnose.line import peaks, unrepeated
+from twintube.diagnose.signature import signatures
 
 AMPLITUDE = 0.045
 VELOCITIES = (0.1, 0.2, 0.4, 0.7, 1.1, 1.5)

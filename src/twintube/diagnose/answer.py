@@ -10,9 +10,8 @@ from twintube.arrays import Array
 from twintube.data import LoadedDataset
 from twintube.diagnose.candidates import BASE, Candidate
 from twintube.diagnose.fit import Fit, Problem
-from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Tried
+from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Signature, Tried
 from twintube.diagnose.select import CLOSE, RECALIBRATE, RIGHT, WORTH, Option, Selection, Selector, bootstrap, removed
-from twintube.diagnose.signature import Signature
 from twintube.diagnose.where import describe, maps
 from twintube.parameters import Damper
 

@@ -11,6 +11,15 @@ VERDICTS = ("cause", "none", "recalibrate", "ambiguous", "unexplained", "measure
 
 
 @dataclass(frozen=True)
+class Signature:
+    """What was seen: its name, one sentence about it and the force RMS [N] that it stands for."""
+
+    name: str
+    text: str
+    size: float
+
+
+@dataclass(frozen=True)
 class Found:
     """A parameter of a cause with its interval (95 %)."""
 
