@@ -1,8 +1,8 @@
 """Diagnosis: where the simulation differs from measured data, why, and what the extended model gains.
 
-prepare.py (records), faults.py (sign, unit, smoothing), signature.py, line.py (causes outside the catalogue), fit.py (least squares),
-candidates.py (effects and faults), select.py (which of them), answer.py (verdict, gain), where.py (maps), result.py,
-engine.py (all of it).
+prepare.py (records), faults.py (sign, unit, smoothing), signature.py and line.py (causes outside the catalogue), fit.py
+(least squares), candidates.py (effects and faults), select.py (which of them), answer.py (verdict, gain), where.py (maps),
+result.py, engine.py (all of it).
 """
 
 from twintube.diagnose.engine import diagnose
