@@ -21,7 +21,7 @@ from twintube.diagnose.engine import diagnose, known_gain
 PAIRS = ("valve_wear+gas_spring", "oil_temperature+end_stop", "oil_level_error+valve_wear", "side_load_friction+fluid_lag")
 KINDS = (*EFFECTS, *FAULTS, "recalibrate", "none", *PAIRS, *OUTSIDE)
 FIRST_SEED = 100
-STRENGTHS = (0.0625, 0.125, 0.25, 0.5, 1.0)  # of the typical strength, for the detection limit
+STRENGTHS = (0.015625, 0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0)  # of the typical strength, for the detection limit
 FOUND_IN = 0.9
 
 
