@@ -213,10 +213,11 @@ class Selector:
                 progress(f"without {name}")
                 rest = [other for other in current.names if other != name]
                 without.append(self.option(rest, [self.free(rest, fit.values) for fit in current.fits]))
-            best = min(without, key=lambda o: o.score)
-            if self.worth(best, current):
+            # Not only the cause that matters least: a calibration may lower the misfit more and still raise the error.
+            superfluous = [option for option in without if not self.worth(option, current)]
+            if not superfluous:
                 return current
-            current = best
+            current = min(superfluous, key=lambda o: o.score)
         return current
 
 
