@@ -18,9 +18,8 @@ from twintube.diagnose.fit import Fit, Free, Problem
 ALARM = 0.01  # of a cause where there is none, by noise
 LEAST_MISFIT = 0.5  # below the noise: no record gains from being fitted better than that
 WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: below it the model's numerics decide
-NEXT = (
-    1 / 3
-)  # least share of the squared force error left that a further cause must explain: less is the first's formulation
+# Least share of the squared force error left that a further cause must explain: less is the first's formulation.
+NEXT = 1 / 3
 HALF, BESIDE = 0.5, 0.1  # or of the misfit left and of the whole misfit, where the squared error does not rise
 NEAR = 0.75  # share of the best improvement from which another cause may be preferred for its squared force error
 RIGHT = 0.1  # log-misfit per sample up to which nothing is missing: 5 % above the noise

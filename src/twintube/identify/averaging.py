@@ -111,11 +111,11 @@ def averaged(time: Array, force: Array, window: float) -> Array:
     """Moving mean (n,) or (n, k) of what is sampled much more densely than the `window` [s]; shorter at both ends."""
     if window <= 0.0:
         return force
-    total = cumulative_trapezoid(force, time, axis=0, initial=0.0)
+    if force.ndim > 1:
+        return np.column_stack([averaged(time, column, window) for column in force.T])
+    total = cumulative_trapezoid(force, time, initial=0.0)
     begin, end = (np.clip(time + side * window / 2, time[0], time[-1]) for side in (-1, 1))
-    if total.ndim == 1:
-        return np.asarray((np.interp(end, time, total) - np.interp(begin, time, total)) / (end - begin))
-    return np.column_stack([averaged(time, column, window) for column in force.T])
+    return np.asarray((np.interp(end, time, total) - np.interp(begin, time, total)) / (end - begin))
 
 
 def averaged_means(time: Array, means: Array, window: float) -> Array:
