@@ -44,11 +44,11 @@ def moves() -> list[tuple[float, float]]:
     return list(zip(stroke[:-1].tolist(), (np.diff(stroke) / 1e-3).tolist(), strict=True))
 
 
-def by_fmpy(fmu: Path) -> float:
+def by_fmpy(fmu: Path, folder: Path) -> float:
     """Time [s] of a set, step and get with fmpy's own functions."""
     description = fmpy.read_model_description(str(fmu))
     slave = FMU2Slave(
-        guid=description.guid, unzipDirectory=fmpy.extract(str(fmu)),
+        guid=description.guid, unzipDirectory=fmpy.extract(str(fmu), str(folder / f"{fmu.stem}_unpacked")),
         modelIdentifier=description.coSimulation.modelIdentifier, instanceName="damper",
     )  # fmt: skip
     slave.instantiate()
@@ -79,7 +79,7 @@ def by_handle(fmu: Path) -> float:
 
 def by_host(fmu: Path, folder: Path) -> float:
     """The same in a program of C."""
-    unpacked = Path(fmpy.extract(str(fmu)))
+    unpacked = Path(fmpy.extract(str(fmu), str(folder / "host_unpacked")))
     host = folder / "host"
     flags = ("-std=gnu99", "-O2", f"-I{unpacked / 'sources'}", "-pthread", "-ldl")
     binaries.compiled(HOST, binaries.PLATFORMS[fmpy.platform][1][0], host, flags)
@@ -105,9 +105,9 @@ def bench_fmu_step() -> dict[str, float]:
         python = build_fmu.build(damper, folder / "python.fmu", "python")
         bare = trivial(native, folder)
         found = {
-            "us_per_step": by_fmpy(native),
-            "reference_us_per_step": by_fmpy(bare),
-            "python_kind_us_per_step": by_fmpy(python),
+            "us_per_step": by_fmpy(native, folder),
+            "reference_us_per_step": by_fmpy(bare, folder),
+            "python_kind_us_per_step": by_fmpy(python, folder),
             "buffered_us_per_step": by_handle(native),
             "buffered_reference_us_per_step": by_handle(bare),
             "c_host_us_per_step": by_host(native, folder),

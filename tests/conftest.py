@@ -1,4 +1,6 @@
 import os
+import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import fmpy
@@ -15,6 +17,16 @@ if os.environ.get("CI"):
 
 
 HERE = (fmpy.platform,)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def unpacked_in_pytests_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """What importers unpack goes where pytest clears up; many leave it behind."""
+    with pytest.MonkeyPatch.context() as patch:
+        folder = str(tmp_path_factory.mktemp("unpacked"))
+        patch.setattr(tempfile, "tempdir", folder)
+        patch.setenv("TMPDIR", folder)
+        yield
 
 
 @pytest.fixture(scope="session", params=["native", "python"])

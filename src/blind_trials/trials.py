@@ -31,6 +31,7 @@ DAMPER = {"smooth_transition": "SA7"}  # the damper that shows a kind where SA8 
 SLOWEST, FASTEST, QUASI_STATIC = 100.0, 2000.0, 50.0  # [Hz] sampling
 WARM = 273.15 + 25.0  # [K]
 MAINS = 49.98  # [Hz] not quite 50, or sampling at 50 Hz would see a constant
+TARE = 0.005  # of the peak: the largest standard deviation of the zeros of the records
 
 
 @dataclass(frozen=True)
@@ -139,10 +140,15 @@ def trial(
     taken = [take(plan, given, s, room + rng.uniform(-0.5, 0.5), samples, jitter, rng) for plan in plans(given, blocks)]
     peak = max(float(np.abs(one.force).max()) for one in taken)
     cell = max(float(np.abs(one.force).max()) for one in taken if not one.plan.preload)
+    # The load cell is tared before every record, none too well.
+    own = np.random.default_rng([seed, crc32(kind.encode()), 1])
+    zeros = own.uniform(0.0, TARE) * peak * own.standard_normal(len(taken))
     records = []
-    for one in taken:
+    for one, zero in zip(taken, zeros.tolist(), strict=True):
         noise = rng.uniform(0.005, 0.03) * float(np.abs(one.force).max())
-        records.append(measured(one, s, (tolerance * peak, peak, cell), noise, bool(with_velocity), float(phase), rng))
+        records.append(
+            measured(one, s, (tolerance * peak + zero, peak, cell), noise, bool(with_velocity), float(phase), rng)
+        )
     return Trial(kind, seed, drawn, s.truth, name, records)
 
 

@@ -12,6 +12,7 @@ from blind_trials.trials import Trial, dataset, trial, write
 from twintube import effects
 from twintube.cli import app
 from twintube.diagnose import Diagnosis, diagnose
+from twintube.diagnose.faults import zero_drift
 from twintube.diagnose.fit import Free, Problem
 from twintube.diagnose.prepare import prepare
 from twintube.parameters import load
@@ -43,11 +44,36 @@ def test_a_case_keeps_the_force_s_impulse_and_knows_its_noise(nothing: Trial) ->
 def test_the_model_is_at_the_noise_where_nothing_is_hidden(nothing: Trial) -> None:
     """Another scheme made the records: sampling, thinning and the model's steps cost less than the noise."""
     data = dataset(nothing)
-    problem = Problem(data.damper, prepare(data))
+    problem, _ = zero_drift(Problem(data.damper, prepare(data)))
     offset = Free("force_offset", 0.0, -50.0, 50.0)
     fit = problem.fit([offset], {})
     assert np.median(fit.misfit) < 1.5
     assert fit.misfit.max() < 4.0
+
+
+def test_the_scatter_of_the_records_zeros_is_told_from_a_wrong_model() -> None:
+    hidden = trial("valve_wear", 2001, blocks=BLOCKS)
+    data = dataset(hidden)
+    cases = prepare(data)
+    worn, _ = zero_drift(Problem(data.damper, cases))
+    rng, peak = np.random.default_rng(1), max(case.peak for case in cases)
+    zeros = 0.02 * peak * rng.standard_normal(len(cases))
+    moved = [replace(c, impulse=c.impulse + z * (c.dense_time - c.dense_time[0])) for c, z in zip(cases, zeros, strict=True)]
+    drifting, told = zero_drift(Problem(data.damper, moved))
+    assert worn.drift < 0.01 * peak
+    assert 0.01 * peak < drifting.drift < 0.04 * peak
+    assert "differs from record to record" in told[0]
+
+
+def test_errors_are_whitened_by_the_covariance_of_a_zero_of_every_record(nothing: Trial) -> None:
+    data = dataset(nothing)
+    problem = Problem(data.damper, prepare(data), drift=7.0)
+    a, b = problem.starts[1:3]
+    weight = problem.weight[a:b]
+    covariance = np.eye(b - a) + 7.0**2 * np.outer(weight, weight)
+    weighted = (problem.forces({}) - problem.measured)[a:b] * weight
+    expected = weighted @ np.linalg.solve(covariance, weighted)
+    assert np.sum(problem.residual({})[a:b] ** 2) == pytest.approx(expected, rel=1e-9)
 
 
 def test_fit_recovers_a_parameter(nothing: Trial) -> None:

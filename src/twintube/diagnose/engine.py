@@ -10,7 +10,7 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.diagnose.answer import answer, gains, predictions, worst
 from twintube.diagnose.candidates import candidates
-from twintube.diagnose.faults import Fault, force_averaging, read, scaled, unit_error
+from twintube.diagnose.faults import Fault, force_averaging, read, scaled, unit_error, zero_drift
 from twintube.diagnose.fit import Problem
 from twintube.diagnose.prepare import Case, prepare
 from twintube.diagnose.result import Cause, Diagnosis, Found, Gain
@@ -35,7 +35,8 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     problem = recorded = Problem(dataset.damper, cases)
     wrong, problem = unit_error(problem)
     smoothed, problem, told = force_averaging(dataset.records, problem)
-    remarks += told
+    problem, drifted = zero_drift(problem)
+    remarks += [*told, *drifted]
     if fault is not None:
         recorded = recorded.with_cases([scaled(case, fault.factor, 1.0) for case in cases])
     selector = made(problem, folds)
@@ -63,7 +64,7 @@ def known_gain(path: str | Path, causes: Sequence[str]) -> float:
     """Share of the explainable held-out error that goes away with the given causes, whatever a diagnosis would choose."""
     dataset, _ = read(path)
     cases = prepare(dataset)
-    problem = Problem(dataset.damper, cases)
+    problem, _ = zero_drift(Problem(dataset.damper, cases))
     selector = made(problem, split(dataset.title, cases)[0])
     start = option = selector.bare()
     for name in causes:

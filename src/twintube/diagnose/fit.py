@@ -56,11 +56,12 @@ class Fit:
 
 
 class Problem:
-    """All cases laid end to end."""
+    """All cases laid end to end; `drift` [N] is how far the zero of the load cell differs from record to record."""
 
-    def __init__(self, damper: Damper, cases: Sequence[Case]) -> None:
+    def __init__(self, damper: Damper, cases: Sequence[Case], drift: float = 0.0) -> None:
         self.given = damper
         self.cases = list(cases)
+        self.drift = drift
         self.damper = tolerant(damper)
         self.starts = np.concatenate([[0], np.cumsum([len(c.time) for c in cases])]).astype(np.int64)
         self.states = np.array([[c.oil_level, c.preload] for c in cases], dtype=float)
@@ -72,7 +73,8 @@ class Problem:
         used = np.diff(stretch, prepend=-1) == 0
         used[self.starts[:-1]] = False
         self.weight = np.where(used, 1 / self.sigma, 0.0)
-        self.share = np.ones(len(self.z))
+        self.power = np.add.reduceat(self.weight**2, self.starts[:-1])  # (r,) [1/N2], of a record's zero
+        self.share: Array = np.ones(len(self.z))
         self.counts = np.add.reduceat(used.astype(np.int64), self.starts[:-1])
         self.threads = ThreadPoolExecutor(os.cpu_count())
         self.known = {item.name for item in fields(effects.Parameters)}
@@ -81,7 +83,11 @@ class Problem:
 
     def with_cases(self, cases: Sequence[Case]) -> "Problem":
         """The same damper with other cases."""
-        return Problem(self.given, cases)
+        return Problem(self.given, cases, self.drift)
+
+    def with_drift(self, drift: float) -> "Problem":
+        """The same with a zero of the load cell that differs from record to record."""
+        return Problem(self.given, self.cases, drift)
 
     def damping(self, values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
         """The damper's among the values."""
@@ -112,8 +118,28 @@ class Problem:
         return np.concatenate([c.measured(delay) for c in self.cases]) if delay else self.measured
 
     def residual(self, values: Mapping[str, float]) -> Array:
-        """Weighted errors (n,)."""
-        return (self.forces(values) - self.target(values)) * self.weight
+        """Weighted errors (n,), white where every record has a zero of its own."""
+        return self.white((self.forces(values) - self.target(values)) * self.weight)
+
+    def white(self, weighted: Array) -> Array:
+        """Weighted errors (n,) times the inverse root of their covariance, which a zero of its own adds to every record's.
+
+        The means of records count less by that, without a parameter for each.
+        """
+        means = np.add.reduceat(weighted * self.weight, self.starts[:-1]) / self.power
+        gone = 1.0 - 1.0 / np.sqrt(1.0 + self.drift**2 * self.power)
+        found: Array = weighted - self.spread(gone * means) * self.weight
+        return found
+
+    def zeros(self, errors: Array) -> Array:
+        """The expected zero [N] of each sample's record (n,) for errors (n,) [N] of a model."""
+        pull = self.drift**2 * self.power
+        means = np.add.reduceat(errors * self.weight**2, self.starts[:-1]) / self.power
+        return self.spread(pull / (1.0 + pull) * means)
+
+    def spread(self, one_each: Array) -> Array:
+        """Values (r,) of the records for each of their samples (n,)."""
+        return np.repeat(one_each, np.diff(self.starts))
 
     def shared(self, values: Mapping[str, float]) -> Array:
         """The same with the records balanced."""
@@ -130,7 +156,7 @@ class Problem:
 
     def costs(self, many: Sequence[Mapping[str, float]], zero: Free) -> list[float]:
         """Balanced sums of squares of several parameter sets, each with the zero of the load cell that suits it best."""
-        w = self.weight * self.share
+        w = self.white(self.weight) * self.share
         found = []
         for values, r in zip(many, self.residuals(many), strict=True):
             now = values.get(zero.name, zero.start)
@@ -143,7 +169,7 @@ class Problem:
 
         A record that no model explains, say at the edge between two states of filling, would else outweigh all others.
         """
-        self.share = np.repeat(1 / np.sqrt(np.maximum(1.0, misfit)), np.diff(self.starts))
+        self.share = self.spread(1 / np.sqrt(np.maximum(1.0, misfit)))
 
     def misfits(self, residual: Array) -> Array:
         """Mean squared weighted error (r,) per case."""
