@@ -15,8 +15,8 @@ from twintube.identify.sines import identify_sines
 from twintube.identify.validation import predicted
 from twintube.parameters import Damper, load, to_toml
 
-# The labcontrol damper's gas pushes the rod out only if both signs are turned; its stroke is about 10 mm off centre.
-TURNED = 'stroke_sign = -1\nforce_sign = -1\nstroke_offset = "10 mm"\n'
+# The labcontrol damper's gas pushes the rod out only if both signs are turned.
+TURNED = "stroke_sign = -1\nforce_sign = -1\n"
 COLUMNS = 'columns = ["time [s]", "stroke [mm]", "velocity [mm/s]", "force [N]"]\n'
 
 
@@ -32,14 +32,29 @@ def rms(x: np.ndarray) -> float:
 
 
 def measured(tmp_path: Path, source: str, damper: Damper) -> LoadedDataset:
-    """A source as a dataset folder for `damper`."""
+    """A source as a dataset folder for `damper`.
+
+    The stroke of labcontrol is counted from where each record begins, a dead centre of the table's crank: its middle is
+    another one every time.
+    """
     pattern, head = {"mr_maurel": ("*.txt", COLUMNS), "mr_labcontrol": ("*.mat", MAPPING + TURNED)}[source]
-    (tmp_path / "damper.toml").write_text(to_toml(damper))
+    files = sorted((REAL / source).glob(pattern))
+    found = written(tmp_path, source, damper, head, dict.fromkeys(files, 0.0))
+    if source == "mr_maurel":
+        return found
+    middles = {file: (r.stroke.min() + r.stroke.max()) / 2 for file, r in zip(files, found.records, strict=True)}
+    return written(tmp_path, source, damper, head, middles)
+
+
+def written(folder: Path, source: str, damper: Damper, head: str, middles: dict[Path, float]) -> LoadedDataset:
+    """The folder's description, with the middle of each file's stroke [m]."""
+    (folder / "damper.toml").write_text(to_toml(damper))
     toml = f'title = "{source}"\ndamper = "damper.toml"\n{head}'
-    for file in sorted((REAL / source).glob(pattern)):
+    for file, middle in middles.items():
         toml += f'[[record]]\nfile = "{file.as_posix()}"\nmeasurement = "harmonic"\noil_level = 1.0\ngas_preload = true\n'
-    (tmp_path / "dataset.toml").write_text(toml)
-    return load_dataset(tmp_path)
+        toml += f'stroke_offset = "{-1e3 * middle:.3f} mm"\n'
+    (folder / "dataset.toml").write_text(toml)
+    return load_dataset(folder)
 
 
 def wide() -> Damper:

@@ -26,6 +26,7 @@ STEP = 1e-3  # of a parameter's range: step of a derivative
 PRIOR = 0.5  # of a parameter's range: standard deviation of a weak pull to its start, which keeps idle ones in place
 ITERATIONS = 12
 ENOUGH = 1e-4  # relative change of the cost or the parameters at which a fit ends; a cause must change the cost by percents
+USUAL = 2.0  # standard deviations of the records' zeros: larger ones are not taken for a zero
 REMEMBERED = 32  # latest simulations
 PARTS = 8  # steps of the model per interval, as effects with a short memory ask for at most: numerics alike in all models
 
@@ -117,9 +118,18 @@ class Problem:
         delay = values.get("channel_delay", 0.0)
         return np.concatenate([c.measured(delay) for c in self.cases]) if delay else self.measured
 
+    def errors(self, values: Mapping[str, float]) -> Array:
+        """Simulated less measured force (n,) [N]."""
+        return self.forces(values) - self.target(values)
+
+    def squares(self, values: Mapping[str, float]) -> float:
+        """Sum of the squared errors [N2], zeros of the records put aside."""
+        errors = self.errors(values)
+        return float(np.sum((errors - self.zeros(errors))[self.weight > 0] ** 2))
+
     def residual(self, values: Mapping[str, float]) -> Array:
         """Weighted errors (n,), white where every record has a zero of its own."""
-        return self.white((self.forces(values) - self.target(values)) * self.weight)
+        return self.white(self.errors(values) * self.weight)
 
     def white(self, weighted: Array) -> Array:
         """Weighted errors (n,) times the inverse root of their covariance, which a zero of its own adds to every record's.
@@ -132,10 +142,13 @@ class Problem:
         return found
 
     def zeros(self, errors: Array) -> Array:
-        """The expected zero [N] of each sample's record (n,) for errors (n,) [N] of a model."""
+        """The expected zero [N] of each sample's record (n,) for errors (n,) [N] of a model.
+
+        A larger one than such zeros are is the model's error, say a preload that is not known.
+        """
         pull = self.drift**2 * self.power
         means = np.add.reduceat(errors * self.weight**2, self.starts[:-1]) / self.power
-        return self.spread(pull / (1.0 + pull) * means)
+        return self.spread(np.clip(pull / (1.0 + pull) * means, -USUAL * self.drift, USUAL * self.drift))
 
     def spread(self, one_each: Array) -> Array:
         """Values (r,) of the records for each of their samples (n,)."""

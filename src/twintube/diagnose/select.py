@@ -83,7 +83,7 @@ class Selector:
         fits = tuple(fold.fitted.fit(free, {}) for fold, free in zip(self.folds, frees, strict=True))
         errors = [fold.held.residual(fit.values) for fold, fit in zip(self.folds, fits, strict=True)]
         misfit = np.concatenate([fold.held.misfits(error) for fold, error in zip(self.folds, errors, strict=True)])
-        squares = sum(float(np.sum((error * fold.held.sigma) ** 2)) for fold, error in zip(self.folds, errors, strict=True))
+        squares = sum(fold.held.squares(fit.values) for fold, fit in zip(self.folds, fits, strict=True))
         return Option(tuple(names), fits, misfit, squares, float(self.logs(misfit).sum()))
 
     def bare(self) -> Option:
