@@ -105,7 +105,10 @@ BENCHMARKS = {
     "quarter_car": bench_quarter_car,
     "identify": bench_identify,
 }
-SEEDED: dict[str, Callable[[int], dict[str, Any]]] = {"diagnosis": bench_diagnosis, "detection": bench_detection}
+SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
+    "diagnosis": bench_diagnosis,
+    "detection": bench_detection,
+}
 NAMES = ", ".join((*BENCHMARKS, *SEEDED))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
@@ -115,6 +118,10 @@ def main(
     name: Annotated[str, typer.Argument(help=f"One of {NAMES}.")],
     json_file: Annotated[Path | None, typer.Option("--json", help="Write the figures to this file.")] = None,
     seeds: Annotated[int, typer.Option(min=1, help="Datasets of each kind, for diagnosis and detection.")] = 10,
+    keep: Annotated[
+        Path | None,
+        typer.Option(help="File that outcomes of diagnosis or detection are added to; those in it are not run again."),
+    ] = None,
 ) -> None:
     """Measure speed and print a table; short jobs are run several times, the shortest time counts.
 
@@ -124,7 +131,7 @@ def main(
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
     compiled.module()
-    figures: dict[str, Any] = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds)
+    figures: dict[str, Any] = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds, keep)
     typer.echo(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}")
     for key, value in figures.items():
         if isinstance(value, float):

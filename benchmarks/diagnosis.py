@@ -1,5 +1,7 @@
 """Hit rate of the diagnosis on datasets in which `blind_trials` hides something."""
 
+import hashlib
+import json
 import os
 import time
 from collections import Counter
@@ -7,12 +9,15 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from multiprocessing import get_context
+from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 from tqdm import tqdm
 
+import blind_trials
+import twintube
 from blind_trials.hidden import EFFECTS, FAULTS, OUTSIDE
 from blind_trials.trials import trial, write
 from twintube.data import DataError
@@ -23,6 +28,7 @@ KINDS = (*EFFECTS, *FAULTS, "recalibrate", "none", *PAIRS, *OUTSIDE)
 FIRST_SEED = 100
 STRENGTHS = (0.015625, 0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0)  # of the typical strength, for the detection limit
 FOUND_IN = 0.9
+Job = tuple[str, int, float | None]  # what is hidden, the seed, the strength or None for 0.5 to 1.5
 
 
 @dataclass(frozen=True)
@@ -82,13 +88,44 @@ def outcome(kind: str, seed: int, strength: float | None) -> Outcome:
         )  # fmt: skip
 
 
-def outcomes(jobs: Sequence[tuple[str, int, float | None]]) -> Iterator[Outcome]:
-    """All jobs, shared out to processes, with a progress bar."""
+def outcomes(jobs: Sequence[Job], keep: Path | None) -> Iterator[Outcome]:
+    """All jobs, shared out to processes, with a progress bar; what `keep` holds of these sources is not run again."""
+    known = kept(keep) if keep is not None and keep.is_file() else {}
+    bar = tqdm(total=len(jobs), unit="dataset")
+    for job in jobs:
+        if job in known:
+            bar.update()
+            yield known[job]
+    code = sources()
     # Forked threads of numba's and numpy's would hang.
-    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
-        waiting = [pool.submit(outcome, *job) for job in jobs]
-        for done in tqdm(as_completed(waiting), total=len(jobs), unit="dataset"):
+    with bar, ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
+        waiting = {pool.submit(outcome, *job): job for job in jobs if job not in known}
+        for done in as_completed(waiting):
+            if keep is not None:
+                line = {"code": code, "job": waiting[done], "outcome": asdict(done.result())}
+                with keep.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(line) + "\n")
+            bar.update()
             yield done.result()
+
+
+def kept(path: Path) -> dict[Job, Outcome]:
+    """The outcomes in a file that are of these sources."""
+    found: dict[Job, Outcome] = {}
+    code = sources()
+    for line in map(json.loads, path.read_text(encoding="utf-8").splitlines()):
+        if line["code"] == code:
+            kind, seed, strength = line["job"]
+            names = {key: tuple(line["outcome"][key]) for key in ("named", "alternatives")}
+            found[kind, seed, strength] = Outcome(**line["outcome"] | names)
+    return found
+
+
+def sources() -> str:
+    """Digest of the sources of the diagnosis and of the datasets: outcomes of two states of the code are not mixed."""
+    folders = [Path(package.__path__[0]) for package in (twintube, blind_trials)]
+    files = sorted(f for folder in folders for f in folder.rglob("*") if f.suffix in (".py", ".toml"))
+    return hashlib.sha256(b"".join(f.read_bytes() for f in files)).hexdigest()[:16]
 
 
 def share(some: list[bool]) -> float:
@@ -96,9 +133,9 @@ def share(some: list[bool]) -> float:
     return float(np.mean(some)) if some else float("nan")
 
 
-def bench_diagnosis(seeds: int) -> dict[str, Any]:
+def bench_diagnosis(seeds: int, keep: Path | None = None) -> dict[str, Any]:
     """`seeds` datasets of each kind with strengths 0.5 to 1.5."""
-    return shares(list(outcomes([(kind, FIRST_SEED + n, None) for n in range(seeds) for kind in KINDS])))
+    return shares(list(outcomes([(kind, FIRST_SEED + n, None) for n in range(seeds) for kind in KINDS], keep)))
 
 
 def shares(found: list[Outcome]) -> dict[str, Any]:
@@ -121,12 +158,12 @@ def shares(found: list[Outcome]) -> dict[str, Any]:
     }
 
 
-def bench_detection(seeds: int) -> dict[str, Any]:
+def bench_detection(seeds: int, keep: Path | None = None) -> dict[str, Any]:
     """The smallest of STRENGTHS at which each effect is named first in 9 of 10 datasets, by bisection; NaN where none is."""
     rates: dict[str, dict[float, float]] = {kind: {} for kind in EFFECTS}
     every: list[Outcome] = []
     while wanted := {kind: s for kind, known in rates.items() if (s := undecided(known)) is not None}:
-        found = list(outcomes([(kind, FIRST_SEED + n, s) for kind, s in wanted.items() for n in range(seeds)]))
+        found = list(outcomes([(kind, FIRST_SEED + n, s) for kind, s in wanted.items() for n in range(seeds)], keep))
         for kind, s in wanted.items():
             rates[kind][s] = share([o.found for o in found if o.kind == kind])
         every += found

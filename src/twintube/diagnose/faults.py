@@ -25,7 +25,7 @@ STROKE_UNITS = {
     "in for mm": 25.4,
     "mm for in": 1 / 25.4,
 }
-LEAST_BENDS = 4  # records in a row of velocities from which the scatter of zeros is told
+LEAST_BENDS = 3  # three records of neighbouring velocities each, from which the scatter of zeros is told
 BETTER = 1.5  # log-misfit per sample that another unit must gain: a factor of two in the error is no calibration
 
 
