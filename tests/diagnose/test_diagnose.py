@@ -15,6 +15,8 @@ from twintube.diagnose import Diagnosis, diagnose
 from twintube.diagnose.faults import zero_drift
 from twintube.diagnose.fit import Free, Problem
 from twintube.diagnose.prepare import prepare
+from twintube.diagnose.result import RecordResult
+from twintube.diagnose.where import structured
 from twintube.parameters import load
 from twintube.simulate import InputError
 
@@ -76,6 +78,22 @@ def test_errors_are_whitened_by_the_covariance_of_a_zero_of_every_record(nothing
     assert np.sum(problem.residual({})[a:b] ** 2) == pytest.approx(expected, rel=1e-9)
 
 
+def test_structure_is_told_from_white_noise_with_the_stated_false_alarms(nothing: Trial) -> None:
+    rng = np.random.default_rng(3)
+    cases = prepare(dataset(nothing))
+
+    def records(size: float) -> list[RecordResult]:
+        found = []
+        for case in cases:
+            zero = np.zeros(len(case.time))
+            wave = size * np.sin(np.linspace(0.0, 20.0, len(zero)))
+            found.append(RecordResult(case, "fit", wave + rng.standard_normal(len(zero)), zero, zero, zero))
+        return found
+
+    assert sum(bool(structured(records(0.0), "base")) for _ in range(200)) <= 8
+    assert len(structured(records(1.0), "base")) == len(cases)
+
+
 def test_fit_recovers_a_parameter(nothing: Trial) -> None:
     data = dataset(nothing)
     problem = Problem(data.damper, prepare(data))
@@ -88,6 +106,7 @@ def test_nothing_hidden_is_nothing_found(nothing: Trial, tmp_path: Path) -> None
     found = diagnose(write(nothing, tmp_path))
     assert found.verdict == "none"
     assert found.causes == []
+    assert len(found.structure["base"]) <= 1
     assert found.extended.parameters == load("SA8").parameters
 
 
@@ -95,6 +114,7 @@ def test_valve_wear_is_found_and_gains_on_held_out_records(tmp_path: Path) -> No
     found = answered("valve_wear", tmp_path)
     assert (found.verdict, found.causes[0].effect) == ("cause", "valve_wear")
     assert found.causes[0].gain.heldout > 0.8
+    assert len(found.structure["extended"]) < len(found.structure["base"]) / 2
     assert found.errors["heldout"]["extended"].force_rmse_N < found.errors["heldout"]["base"].force_rmse_N
     assert found.extended.parameters.wear_re != 0.0  # type: ignore[attr-defined]
     assert found.extended.sources["valve_wear"] == "found by diagnosis"

@@ -160,6 +160,7 @@ def example(verdict: str) -> Diagnosis:
         maps=residual_maps(records)[: 6 if verdict == "cause" else 2], tried=tried("mount_compliance" if verdict == "cause" else ""), records=records, base=base,
         recalibrated=recalibrated, extended=extended,
         next_measurements=[] if verdict == "none" else ["A sine of 5 mm at 10 Hz", "A rest of 300 s, then the same block"],
+        structure={"base": [records[0].case.name], "recalibrated": [], "extended": []},
         remarks=["2 records of less than 3 oscillations give no noise of their own"] if verdict == "cause" else [], seconds=42.3,
     )  # fmt: skip
 

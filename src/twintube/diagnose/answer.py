@@ -12,7 +12,7 @@ from twintube.diagnose.candidates import BASE, Candidate
 from twintube.diagnose.fit import Fit, Problem
 from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Signature, Tried
 from twintube.diagnose.select import CLOSE, RECALIBRATE, RIGHT, WORTH, Option, Selection, Selector, bootstrap, removed
-from twintube.diagnose.where import describe, maps
+from twintube.diagnose.where import describe, maps, structured
 from twintube.parameters import Damper
 
 EXPLAINED = 0.5  # least share of the explainable squared error that causes must explain to be named
@@ -65,6 +65,7 @@ def answer(
         recalibrated=damper_of(dataset.damper, refitted[1], [RECALIBRATE], {}),
         extended=damper_of(dataset.damper, extended, kept, selector.candidates),
         next_measurements=[apart(selector.candidates[o.names[-1]]) for o in close],
+        structure={model: structured(records, model) for model in ("base", "recalibrated", "extended")},
     )
 
 

@@ -26,7 +26,7 @@ STEP = 1e-3  # of a parameter's range: step of a derivative
 PRIOR = 0.5  # of a parameter's range: standard deviation of a weak pull to its start, which keeps idle ones in place
 ITERATIONS = 12
 ENOUGH = 1e-4  # relative change of the cost or the parameters at which a fit ends; a cause must change the cost by percents
-USUAL = 2.0  # standard deviations of the records' zeros: larger ones are not taken for a zero
+USUAL = 3.0  # standard deviations of the records' zeros: larger ones are not taken for a zero
 REMEMBERED = 32  # latest simulations
 PARTS = 8  # steps of the model per interval, as effects with a short memory ask for at most: numerics alike in all models
 

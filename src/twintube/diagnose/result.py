@@ -127,6 +127,7 @@ class Diagnosis:
     recalibrated: Damper
     extended: Damper
     next_measurements: list[str]
+    structure: dict[str, list[str]]  # base, recalibrated, extended -> records in which its residual is no white noise
     remarks: list[str] = field(default_factory=list)
     seconds: float = 0.0
 
@@ -157,6 +158,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         "error_fit": {name: vars(value) for name, value in d.errors["fit"].items()},
         "where": d.where,
         "signature": d.signature,
+        "structure": d.structure,
         "tried": [vars(t) | {"interval": list(t.interval)} for t in d.tried],
         "records": [
             {

@@ -1,14 +1,16 @@
-"""Where the simulation is wrong: the residual over stroke, velocity, time and more."""
+"""Where the simulation is wrong: the residual over stroke, velocity, time and more, and whether it is more than noise."""
 
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.stats import norm
 
 from twintube.arrays import Array
 from twintube.diagnose.result import Map, RecordResult
 
 BINS = 16
 FEW = 10  # samples a bin must hold
+FALSE_ALARM = 0.01  # chance that the white noise of all records together shows structure in any
 STRIKING = 1.5  # a bin stands out if its error is this much above the usual one
 
 
@@ -86,3 +88,19 @@ def describe(found: Sequence[Map], left: bool = False) -> str:
             told.append((contrast, f"{about} ({error[known][worst]:.0f} N, measured {side} simulated)"))
     told.sort(reverse=True)
     return "largest at " + "; ".join(text for _, text in told[:3]) if told else "nowhere in particular"
+
+
+def structured(records: Sequence[RecordResult], model: str) -> list[str]:
+    """Names of the records in which the residual of a model (base, recalibrated, extended) is no white noise.
+
+    The signs of neighbouring intervals agree in half of the cases then (Wald and Wolfowitz 1940); signs, as few intervals at
+    force jumps would else decide.
+    """
+    limit = float(norm.isf(FALSE_ALARM / 2 / max(1, len(records))))
+    found = []
+    for r in records:
+        signs = np.sign(r.measured - getattr(r, model))[1:]
+        pairs = (signs[1:] * signs[:-1])[np.diff(r.case.stretch[1:]) == 0]
+        if len(pairs) and abs(float(pairs.sum())) > limit * np.sqrt(len(pairs)):
+            found.append(r.case.name)
+    return found

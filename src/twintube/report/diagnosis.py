@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from twintube.diagnose.result import Cause, Diagnosis, Errors
+from twintube.diagnose.where import FALSE_ALARM
 from twintube.effects import EFFECTS, Parameters
 from twintube.report import style
 from twintube.report.diagnosis_pictures import MOST, pictures, shown_record
@@ -67,6 +68,9 @@ def lead(d: Diagnosis) -> list[str]:
         found.append(AGREES)
     elif d.where:
         found.append(f"Where the base model is wrong: {d.where}")
+    counts = ", ".join(f"in {len(d.structure[m.name])} for the {m.label}" for m in compared(d))
+    test = f"signs of neighbouring intervals, {percent(FALSE_ALARM)} false alarms"
+    found.append(f"Of {len(d.records)} records the residual is more than white noise {counts} ({test}).")
     if d.signature:
         found.append(f"What no candidate explains: {d.signature}")
     return found
