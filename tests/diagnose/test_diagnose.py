@@ -12,6 +12,7 @@ from blind_trials.trials import Trial, dataset, trial, write
 from twintube import effects
 from twintube.cli import app
 from twintube.diagnose import Diagnosis, diagnose
+from twintube.diagnose.answer import doubt
 from twintube.diagnose.faults import zero_drift
 from twintube.diagnose.fit import Free, Problem
 from twintube.diagnose.prepare import prepare
@@ -134,6 +135,14 @@ def test_look_alikes_and_pairs_are_told_apart(kind: str, named: set[str], tmp_pa
     assert {cause.effect for cause in found.causes} == named
     assert found.errors["heldout"]["extended"].force_rmse_N < found.errors["heldout"]["base"].force_rmse_N
     assert set(effects.active(found.extended.parameters)) == named
+
+
+def test_values_at_the_end_of_their_range_and_undetermined_ones_are_doubted() -> None:
+    share, change = Free("leak_power", 0.0, 0.0, 2.0), Free("wear_re", 0.0, -0.8, 1.0)
+    assert doubt(share, 1.9999, 0.1) == "at the end of its range, 0 to 2"
+    assert doubt(change, -0.8, 0.1) == "at the end of its range, -0.8 to 1"
+    assert doubt(share, 0.5, 1.2) == "not determined by these records"
+    assert doubt(share, 0.0, 0.1) == doubt(share, 0.5, 0.1) == doubt(change, 0.2, 0.1) == ""
 
 
 def test_what_no_effect_makes_is_unexplained_and_described(tmp_path: Path) -> None:

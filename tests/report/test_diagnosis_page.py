@@ -147,7 +147,7 @@ def example(verdict: str) -> Diagnosis:
     gains = Gain(0.96, 0.95, (0.91, 0.97), 0.82)
     causes = {
         "cause": [Cause("mount_compliance", EFFECTS["mount_compliance"].title, EFFECTS["mount_compliance"].cause, {
-            "C_mount": Found(5.02e-6, 4.9e-6, 5.15e-6, "m/N"), "tau_mount": Found(1.1e-3, 0.6e-3, 1.6e-3, "s")}, gains)],
+            "C_mount": Found(5.02e-6, 4.9e-6, 5.15e-6, "m/N"), "tau_mount": Found(1.1e-3, 0.6e-3, 1.6e-3, "s", "not determined by these records")}, gains)],
         "measurement_fault": [Cause("force_gain", "Force gain", "The load cell's sensitivity is wrong.",
                                     {"force_gain": Found(0.95, 0.948, 0.952, "1")}, gains)],
     }.get(verdict, [])  # fmt: skip

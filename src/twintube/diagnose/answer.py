@@ -9,7 +9,7 @@ from twintube import effects
 from twintube.arrays import Array
 from twintube.data import LoadedDataset
 from twintube.diagnose.candidates import BASE, Candidate
-from twintube.diagnose.fit import Fit, Problem
+from twintube.diagnose.fit import Fit, Free, Problem
 from twintube.diagnose.result import Alternative, Cause, Diagnosis, Errors, Found, Gain, RecordResult, Signature, Tried
 from twintube.diagnose.select import CLOSE, RECALIBRATE, RIGHT, WORTH, Option, Selection, Selector, bootstrap, removed
 from twintube.diagnose.where import describe, maps, structured
@@ -17,6 +17,8 @@ from twintube.parameters import Damper
 
 EXPLAINED = 0.5  # least share of the explainable squared error that causes must explain to be named
 SHOWS = 0.3  # of the base model's error: a signature that stands for less is only mentioned
+AT_BOUND = 1e-3  # of a parameter's range: nearer to its end the range decides, not the records
+WIDE = 0.5  # of its range: a wider interval says nothing
 LEVEL = 1.96  # standard deviations of a 95 % interval
 
 
@@ -155,7 +157,8 @@ def cause(candidate: Candidate, fit: Fit, fitted: Array, held: Array) -> Cause:
         at = [g.name for g in fit.free].index(f.name)
         spread = LEVEL * float(np.sqrt(max(0.0, fit.covariance[at, at])))
         value = fit.values[f.name]
-        parameters[f.name] = Found(value, max(f.low, value - spread), min(f.high, value + spread), candidate.units[f.name])
+        low, high = max(f.low, value - spread), min(f.high, value + spread)
+        parameters[f.name] = Found(value, low, high, candidate.units[f.name], doubt(f, value, high - low))
     return Cause(
         candidate.name, candidate.title, candidate.cause, parameters,
         Gain(
@@ -165,6 +168,14 @@ def cause(candidate: Candidate, fit: Fit, fitted: Array, held: Array) -> Cause:
             worst_record=worst(held),
         ),
     )  # fmt: skip
+
+
+def doubt(free: Free, value: float, interval: float) -> str:
+    """Why the value of a parameter is not to be relied on, if there is a reason."""
+    neutral = free.start in (free.low, free.high) and abs(value - free.start) < AT_BOUND * free.width
+    if min(value - free.low, free.high - value) < AT_BOUND * free.width and not neutral:
+        return f"at the end of its range, {free.low:g} to {free.high:g}"
+    return "not determined by these records" if interval > WIDE * free.width else ""
 
 
 def worst(held: Array) -> float:

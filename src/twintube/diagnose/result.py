@@ -27,6 +27,7 @@ class Found:
     low: float
     high: float
     unit: str
+    doubt: str = ""  # why the value is not to be relied on
 
 
 @dataclass(frozen=True)
@@ -142,7 +143,8 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             {
                 "effect": c.effect,
                 "parameters": {
-                    name: {"value": f.value, "interval": [f.low, f.high], "unit": f.unit} for name, f in c.parameters.items()
+                    name: {"value": f.value, "interval": [f.low, f.high], "unit": f.unit, "doubt": f.doubt}
+                    for name, f in c.parameters.items()
                 },
                 "gain": {
                     "fit": c.gain.fit, "heldout": c.gain.heldout, "heldout_interval": list(c.gain.heldout_interval),

@@ -82,7 +82,7 @@ def cause_tables(causes: list[Cause]) -> list[Table]:
     for cause in causes:
         for name, f in cause.parameters.items():
             value, span = with_interval(f.value, f.low, f.high, f.unit, known(cause.effect))
-            parameters.append([cause.title, name, meaning(name), value, span])
+            parameters.append([cause.title, name, meaning(name), value, span, f.doubt])
     gains = [
         [c.title, percent(c.gain.heldout), " to ".join(percent(x) for x in c.gain.heldout_interval),
          percent(c.gain.worst_record), percent(c.gain.fit)]
@@ -90,7 +90,7 @@ def cause_tables(causes: list[Cause]) -> list[Table]:
     ]  # fmt: skip
     found = []
     if parameters:
-        found.append(Table(["cause", "parameter", "", "value", "95 % interval"], parameters, "What was found", (3, 4)))
+        found.append(Table(["cause", "parameter", "", "value", "95 % interval", ""], parameters, "What was found", (3, 4)))
     if gains:
         head = ["cause", "held-out records", "95 % interval", "worst held-out record", "fitted records"]
         found.append(Table(head, gains, "Share of the explainable squared force error that goes away", (1, 2, 3, 4)))
