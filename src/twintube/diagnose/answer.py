@@ -109,12 +109,13 @@ def apart(candidate: Candidate) -> str:
 def simulated(problem: Problem, split: str, models: Sequence[Mapping[str, float]]) -> list[RecordResult]:
     """The records with their base, recalibrated and extended simulation, read with the last one's delay.
 
-    A model with another delay is shifted by what that changes in the measured force, so that its error is its own. Each
-    has the zeros of the load cell that suit it.
+    A model with another delay is shifted by what that changes in the measured force, so that its error is its own. All have
+    the zeros of the load cell that the last one asks for: with zeros of its own a model without a preload would hide that.
     """
     measured = problem.target(models[-1])
     forces = [problem.forces(values) + measured - problem.target(values) for values in models]
-    forces = [force + problem.zeros(measured - force) for force in forces]
+    zeros = problem.zeros(measured - forces[-1])
+    forces = [force + zeros for force in forces]
     found = []
     for case, a, b in zip(problem.cases, problem.starts[:-1], problem.starts[1:], strict=True):
         found.append(RecordResult(case, split, measured[a:b], *(force[a:b] for force in forces)))
