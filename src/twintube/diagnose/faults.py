@@ -106,8 +106,7 @@ def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
 
     A model that is wrong errs by means that change smoothly with the velocity; the zeros are what does not.
     """
-    errors = (problem.measured - problem.forces({})) * problem.weight**2
-    means = np.add.reduceat(errors, problem.starts[:-1]) / problem.power
+    means = problem.means(problem.errors({}) * problem.weight)
     bent: list[float] = []
     for state in sorted({(case.oil_level, case.preload) for case in problem.cases}):
         some = [i for i, case in enumerate(problem.cases) if (case.oil_level, case.preload) == state]
@@ -123,7 +122,7 @@ def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
 
 def relative(problem: Problem) -> float:
     """Mean over the cases of the log of the squared error relative to the squared measured force."""
-    errors = (problem.forces({}) - problem.measured) ** 2
+    errors = problem.errors({}) ** 2
     found = []
     for a, b in zip(problem.starts[:-1] + 1, problem.starts[1:], strict=True):
         found.append(np.log(errors[a:b].mean() / max((problem.measured[a:b] ** 2).mean(), 1e-12)))

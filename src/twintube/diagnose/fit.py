@@ -136,9 +136,13 @@ class Problem:
 
         The means of records count less by that, without a parameter for each.
         """
-        means = np.add.reduceat(weighted * self.weight, self.starts[:-1]) / self.power
         gone = 1.0 - 1.0 / np.sqrt(1.0 + self.drift**2 * self.power)
-        found: Array = weighted - self.spread(gone * means) * self.weight
+        found: Array = weighted - self.spread(gone * self.means(weighted)) * self.weight
+        return found
+
+    def means(self, weighted: Array) -> Array:
+        """Mean error (r,) [N] of each record from weighted errors (n,)."""
+        found: Array = np.add.reduceat(weighted * self.weight, self.starts[:-1]) / self.power
         return found
 
     def zeros(self, errors: Array) -> Array:
@@ -147,8 +151,8 @@ class Problem:
         A larger one than such zeros are is the model's error, say a preload that is not known.
         """
         pull = self.drift**2 * self.power
-        means = np.add.reduceat(errors * self.weight**2, self.starts[:-1]) / self.power
-        return self.spread(np.clip(pull / (1.0 + pull) * means, -USUAL * self.drift, USUAL * self.drift))
+        expected = pull / (1.0 + pull) * self.means(errors * self.weight)
+        return self.spread(np.clip(expected, -USUAL * self.drift, USUAL * self.drift))
 
     def spread(self, one_each: Array) -> Array:
         """Values (r,) of the records for each of their samples (n,)."""
