@@ -104,7 +104,7 @@ def outcomes(jobs: Sequence[Job], keep: Path | None) -> Iterator[Outcome]:
             if keep is not None:
                 line = {"code": code, "job": waiting[done], "outcome": asdict(done.result())}
                 with keep.open("a", encoding="utf-8") as file:
-                    file.write(json.dumps(line) + "\n")
+                    file.write("\n" + json.dumps(line))  # after whatever a killed run left of its last line
             bar.update()
             yield done.result()
 
@@ -113,7 +113,11 @@ def kept(path: Path) -> dict[Job, Outcome]:
     """The outcomes in a file that are of these sources."""
     found: dict[Job, Outcome] = {}
     code = sources()
-    for line in map(json.loads, path.read_text(encoding="utf-8").splitlines()):
+    for text in path.read_text(encoding="utf-8").splitlines():
+        try:
+            line = json.loads(text)
+        except json.JSONDecodeError:
+            continue  # empty, or the end of a run that was killed
         if line["code"] == code:
             kind, seed, strength = line["job"]
             names = {key: tuple(line["outcome"][key]) for key in ("named", "alternatives")}

@@ -1,41 +1,24 @@
 """Identification: known parameters come back, seeds reproduce, a killed run resumes, thinning does not matter."""
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from benchmarks.identify import records_of
 from twintube.arrays import Array
 from twintube.identify import METHODS, Harmonic, Objective, minimise
 from twintube.identify.objective import TABLE_6
 from twintube.parameters import Damper, load
-from twintube.rig import BLOCKS, harmonic_block
-from twintube.simulate import InputError, simulate
-
-NEUTRAL = {"S_BV": 0.0, "S_PV": 0.0, "Y_Co_cav": 0.0, "Y_Re_cav": 0.0}
-FINER = 16  # steps of the truth per sample: its forces are means over a step, a sensor's are not
-
-
-def records_of(damper: Damper, velocities: Sequence[float], noise: float, seed: int = 0) -> list[Harmonic]:
-    """Finely sampled records of the degraded states, with noise as a share of the peak force."""
-    rng = np.random.default_rng(seed)
-    found = []
-    for level in damper.measured_levels:
-        for v in velocities:
-            block = harmonic_block(v, dt=4e-4 / FINER)
-            fine = simulate(damper.with_(oil_level=level, gas_preload=0), block.stroke, block.velocity).force
-            kept = np.unique(np.concatenate([np.arange(0, len(fine), FINER), block.marks]))
-            force = fine[kept] + rng.normal(0, noise * np.abs(fine).max(), len(kept))
-            marks = np.searchsorted(kept, block.marks)
-            found.append(Harmonic(level, 0, block.time[kept], block.stroke[kept], block.velocity[kept], force, marks))
-    return found
+from twintube.rig import BLOCKS
+from twintube.simulate import InputError
+from twintube.variants import NO_CAVITATION, NO_FOAM
 
 
 @pytest.fixture(scope="module")
 def basic() -> Damper:
     """SA3 as variant 2: without foam and cavitation."""
-    return load("SA3").with_(**NEUTRAL)
+    return load("SA3").with_(**NO_FOAM, **NO_CAVITATION)
 
 
 @pytest.fixture(scope="module")

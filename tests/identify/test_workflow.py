@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from tests.identify.test_identify import records_of
+from benchmarks.identify import records_of
 from twintube.cli import app
 from twintube.data import Record
 from twintube.identify import PAPER, QUICK, Budget, harmonic, identify_damper

@@ -10,12 +10,13 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.diagnose.answer import answer, gains, predictions, worst
 from twintube.diagnose.candidates import candidates
-from twintube.diagnose.faults import Fault, force_averaging, read, scaled, unit_error, zero_drift
+from twintube.diagnose.faults import Fault, force_averaging, read, scaled, unit_error
 from twintube.diagnose.fit import Problem
 from twintube.diagnose.prepare import Case, prepare
 from twintube.diagnose.result import Cause, Diagnosis, Found, Gain
 from twintube.diagnose.select import Fold, Selector, bootstrap
 from twintube.diagnose.signature import signatures
+from twintube.diagnose.zeros import zero_drift
 from twintube.simulate import InputError
 
 SAME_SPEED = 1.05  # velocities within 5 % are one

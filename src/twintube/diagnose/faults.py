@@ -8,7 +8,6 @@ import numpy as np
 
 from twintube.checks import tube_limit
 from twintube.data import LoadedDataset, Record, check_dataset, flipped_dataset, load_dataset
-from twintube.diagnose.candidates import OFFSET
 from twintube.diagnose.fit import Problem
 from twintube.diagnose.prepare import Case
 from twintube.diagnose.signature import oscillating
@@ -25,7 +24,6 @@ STROKE_UNITS = {
     "in for mm": 25.4,
     "mm for in": 1 / 25.4,
 }
-LEAST_BENDS = 3  # three records of neighbouring velocities each, from which the scatter of zeros is told
 BETTER = 1.5  # log-misfit per sample that another unit must gain: a factor of two in the error is no calibration
 
 
@@ -99,25 +97,6 @@ def force_averaging(records: Sequence[Record], problem: Problem) -> tuple[Fault 
     if relative(other) >= relative(problem):
         return None, problem, [f"{text} The parameter set is better without it: identify the damper from these records"]
     return Fault("force_averaging", "Averaged force channel", text, found.share, "share_of_oscillation"), other, []
-
-
-def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
-    """The problem with the scatter of the records' zeros in it, and a remark where that is more than a good load cell has.
-
-    A model that is wrong errs by means that change smoothly with the velocity; the zeros are what does not.
-    """
-    means = problem.means(problem.errors({}) * problem.weight)
-    bent: list[float] = []
-    for state in sorted({(case.oil_level, case.preload) for case in problem.cases}):
-        some = [i for i, case in enumerate(problem.cases) if (case.oil_level, case.preload) == state]
-        bent += np.diff(means[sorted(some, key=lambda i: problem.cases[i].top_speed)], 2).tolist()
-    if len(bent) < LEAST_BENDS:
-        return problem, []
-    drift = 1.4826 * float(np.median(np.abs(bent))) / np.sqrt(6.0)
-    share = drift / max(case.peak for case in problem.cases)
-    size = f"about {drift:.2g} N, {100 * share:.2g} % of the largest force"
-    text = f"the zero of the force channel differs from record to record by {size}: put aside in every comparison"
-    return problem.with_drift(drift), [text] if share > OFFSET else []
 
 
 def relative(problem: Problem) -> float:

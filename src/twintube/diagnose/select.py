@@ -14,11 +14,12 @@ from scipy.stats import norm
 from twintube.arrays import Array
 from twintube.diagnose.candidates import Candidate, base, best_start, nuisances
 from twintube.diagnose.fit import Fit, Free, Problem
+from twintube.diagnose.zeros import differ, step
 
 ALARM = 0.01  # of a cause where there is none, by noise
 LEAST_MISFIT = 0.5  # below the noise: no record gains from being fitted better than that
 WORTH = 0.03  # least improvement of the log-likelihood per held-out sample: below it the model's numerics decide
-# Least share of the squared force error left that a further cause must explain: less is the first's formulation.
+# Least share of the squared force error left, or of what the zeros differ by, that a further cause must explain.
 NEXT = 1 / 3
 HALF, BESIDE = 0.5, 0.1  # or of the misfit left and of the whole misfit, where the squared error does not rise
 NEAR = 0.75  # share of the best improvement from which another cause may be preferred for its squared force error
@@ -46,6 +47,7 @@ class Option:
     names: tuple[str, ...]  # of all causes in the model, the new one last
     fits: tuple[Fit, ...]  # one per fold
     misfit: Array  # (h,) mean squared weighted error of the held-out records, fold after fold
+    means: Array  # (h,) their mean errors [N]
     squares: float  # sum of their squared force errors [N2]
     score: float  # twice the negative log-likelihood of the held-out records
 
@@ -70,6 +72,7 @@ class Selector:
         self.whole, self.folds = whole, list(folds)
         self.candidates = {c.name: c for c in candidates}
         self.limit = float(norm.isf(ALARM / (len(candidates) + 1))) ** 2
+        self.cases = [case for fold in folds for case in fold.held.cases]  # held out
         self.counts = np.concatenate([fold.held.counts for fold in folds])
         self.count = int(self.counts.sum())
         self.unexplained = np.inf  # score of the model without any cause
@@ -81,10 +84,11 @@ class Selector:
     def option(self, names: Sequence[str], frees: Sequence[Sequence[Free]]) -> Option:
         """The model with some causes, fitted in every fold from the starts given for it."""
         fits = tuple(fold.fitted.fit(free, {}) for fold, free in zip(self.folds, frees, strict=True))
-        errors = [fold.held.residual(fit.values) for fold, fit in zip(self.folds, fits, strict=True)]
-        misfit = np.concatenate([fold.held.misfits(error) for fold, error in zip(self.folds, errors, strict=True)])
-        squares = sum(fold.held.squares(fit.values) for fold, fit in zip(self.folds, fits, strict=True))
-        return Option(tuple(names), fits, misfit, squares, float(self.logs(misfit).sum()))
+        held = [(fold.held, fit.values) for fold, fit in zip(self.folds, fits, strict=True)]
+        misfit = np.concatenate([judge.misfits(judge.residual(values)) for judge, values in held])
+        means = np.concatenate([judge.means(judge.errors(values) * judge.weight) for judge, values in held])
+        squares = sum(judge.squares(values) for judge, values in held)
+        return Option(tuple(names), fits, misfit, means, squares, float(self.logs(misfit).sum()))
 
     def bare(self) -> Option:
         """The model with nothing but the nuisances; balances the records for what follows."""
@@ -130,16 +134,27 @@ class Selector:
         """Whether an improvement of the held-out misfit is more than noise, numerics and formulation make."""
         by_record = self.logs(before.misfit) - self.logs(after.misfit)
         gained = float(by_record.sum())
-        if gained <= self.limit or gained <= WORTH * self.count:
+        if gained <= self.limit or (len(by_record) > FEW and gained - float(by_record.max()) <= self.limit):
+            return False  # noise, or one record alone decides
+        if self.levelled(before, after):
+            return True
+        if gained <= WORTH * self.count:
             return False
-        if len(by_record) > FEW and gained - float(by_record.max()) <= self.limit:
-            return False  # one record alone decides
         if not before.names:
             return True
         # Many records a little better and some far worse is a formulation, not a second cause.
         left = removed(before.score, after.score, self.count)
         clear = left >= HALF and gained >= BESIDE * self.unexplained and after.squares <= before.squares
         return clear or after.squares <= (1 - NEXT) * before.squares
+
+    def uneven(self, option: Option) -> bool:
+        """Whether the zeros of the records differ between the states of filling."""
+        return differ(self.cases, option.means, ALARM)
+
+    def levelled(self, before: Option, after: Option) -> bool:
+        """Whether a further cause takes that difference away: beside another one, a preload's force passes for zeros."""
+        gone = step(self.cases, after.means) <= (1 - NEXT) * step(self.cases, before.means)
+        return bool(before.names) and gone and self.uneven(before)
 
     def acts(self, option: Option) -> bool:
         """Whether the new cause of an option is off its neutral value in every fold."""
@@ -163,7 +178,7 @@ class Selector:
             if taken is None:
                 break
             current = taken
-            if current.score <= RIGHT * self.count:
+            if current.score <= RIGHT * self.count and not self.uneven(current):
                 break
         current = self.exchanged(self.pruned(current, progress), progress)
         return Selection(start, rounds, list(current.names), current, recalibrated, self.count, self.limit)
