@@ -195,7 +195,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
     if (!allowed(u, "fmi2GetRealStatus", EVERYWHERE) || !given(u, "fmi2GetRealStatus", value, value, 1))
         return fmi2Error;
     if (kind != fmi2LastSuccessfulTime)
-        return refuse(u, "fmi2GetRealStatus: only the last successful time is known"), fmi2Discard;
+        return discard(u, "fmi2GetRealStatus: only the last successful time is known");
     *value = u->m.time;
     return fmi2OK;
 }
@@ -206,7 +206,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
     if (!allowed(u, "fmi2GetBooleanStatus", EVERYWHERE) || !given(u, "fmi2GetBooleanStatus", value, value, 1))
         return fmi2Error;
     if (kind != fmi2Terminated)
-        return refuse(u, "fmi2GetBooleanStatus: only whether the unit wants to end is known"), fmi2Discard;
+        return discard(u, "fmi2GetBooleanStatus: only whether the unit wants to end is known");
     *value = fmi2False;
     return fmi2OK;
 }
@@ -214,7 +214,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 static fmi2Status pending(fmi2Component c, const char *function)
 {
     struct unit *u = c;
-    return u ? (refuse(u, "%s: steps are never pending", function), fmi2Discard) : fmi2Error;
+    return u ? discard(u, "%s: steps are never pending", function) : fmi2Error;
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)

@@ -99,6 +99,16 @@ static fmi2Status refuse(struct unit *u, const char *format, ...)
     return fmi2Error;
 }
 
+/* The same for a question that has no answer here. */
+static fmi2Status discard(struct unit *u, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(u, fmi2Discard, format, arguments);
+    va_end(arguments);
+    return fmi2Discard;
+}
+
 static fmi2Status warn(struct unit *u, const char *format, ...)
 {
     va_list arguments;

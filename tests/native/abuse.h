@@ -137,6 +137,7 @@ static void orders_of_calls(void)
         const int messages = i.messages;                                                  \
         CHECK((call) == (status), "another status");                                      \
         CHECK(i.messages == messages + 1, "%d messages", i.messages - messages);          \
+        CHECK(i.said == (status), "said with another status");                            \
         after = taken(&i);                                                                \
         CHECK(same(&before, &after), "changed");                                          \
     } while (0)

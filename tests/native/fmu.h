@@ -43,6 +43,7 @@ struct instance {
     fmi2CallbackFunctions functions;
     int messages;
     char text[1024]; /* the last message */
+    fmi2Status said; /* its status */
 };
 
 /* All that can be asked for; outputs only where they can be computed. */
@@ -84,11 +85,12 @@ static void log_message(fmi2ComponentEnvironment environment, fmi2String name, f
     struct instance *i = environment;
     va_list arguments;
     CHECK(name != NULL && category != NULL && *message, "incomplete message");
-    CHECK(status == fmi2Warning || status == fmi2Error, "status %d", (int)status);
+    CHECK(status >= fmi2Warning && status <= fmi2Error, "status %d", (int)status);
     va_start(arguments, message);
     vsnprintf(i->text, sizeof i->text, message, arguments);
     va_end(arguments);
     CHECK(!strpbrk(message, "%#"), "%s", message);
+    i->said = status;
     i->messages++;
 }
 
