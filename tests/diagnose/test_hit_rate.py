@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.diagnosis import Outcome, kept, limit, outcomes, shares, sources, undecided
+from benchmarks.diagnosis import Outcome, given_up, kept, limit, outcomes, shares, sources, undecided
 
 FOUND = Outcome("gas_spring", 100, 0.8, "cause", ("gas_spring",), (), 0.9, 0.9, 20.0)
 
@@ -43,3 +43,5 @@ def test_the_detection_limit_is_sought_by_bisection() -> None:
     assert undecided({0.125: 0.8}) == 0.5
     assert limit({0.125: 0.8, 0.25: 0.9, 1.0: 1.0}) == 0.25
     assert undecided({0.125: 0.8, 0.25: 0.9}) is None
+    assert given_up([True, False, False], 10)
+    assert not given_up([True, False], 10)
