@@ -75,13 +75,16 @@ struct unit {
 static const char LOG_ERROR[] = "logStatusError";
 static const char LOG_WARNING[] = "logStatusWarning";
 
-/* Loggers expand % and #, which an importer's own words may hold. */
-static fmi2Status say(struct unit *u, fmi2Status status, const char *format, va_list arguments)
+/* Log a message and return its status. Loggers expand % and #, which an importer's own words may hold. */
+static fmi2Status say(struct unit *u, fmi2Status status, const char *format, ...)
 {
     char text[512];
+    va_list arguments;
     const int wanted = status == fmi2Warning ? u->says_warnings : u->says_errors;
     if (u->log && wanted) {
+        va_start(arguments, format);
         vsnprintf(text, sizeof text, format, arguments);
+        va_end(arguments);
         for (char *mark = text; (mark = strpbrk(mark, "%#")) != NULL;)
             *mark = '?';
         u->log(u->environment, u->name, status, status == fmi2Warning ? LOG_WARNING : LOG_ERROR, text);
@@ -89,34 +92,10 @@ static fmi2Status say(struct unit *u, fmi2Status status, const char *format, va_
     return status;
 }
 
-/* Log a message and return the status, for `return refuse(...)`. */
-static fmi2Status refuse(struct unit *u, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    say(u, fmi2Error, format, arguments);
-    va_end(arguments);
-    return fmi2Error;
-}
-
-/* The same for a question that has no answer here. */
-static fmi2Status discard(struct unit *u, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    say(u, fmi2Discard, format, arguments);
-    va_end(arguments);
-    return fmi2Discard;
-}
-
-static fmi2Status warn(struct unit *u, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    say(u, fmi2Warning, format, arguments);
-    va_end(arguments);
-    return fmi2Warning;
-}
+/* For `return refuse(...)`; discard is for a question that has no answer here. */
+#define refuse(u, ...) say(u, fmi2Error, __VA_ARGS__)
+#define discard(u, ...) say(u, fmi2Discard, __VA_ARGS__)
+#define warn(u, ...) say(u, fmi2Warning, __VA_ARGS__)
 
 /* Point the parameters to the memory of their own curve, as is needed after a copy. */
 static void bind(struct damper *damper)
