@@ -1,4 +1,4 @@
-/* Made by fmu_src/native/translate.py from the Python sources 5171f2b6ffdd7b4c; do not edit. */
+/* Made by fmu_src/native/translate.py from the Python sources 72f4c8ff0f461497; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -52,9 +52,12 @@ struct kernel_Parameters {
     double onset_re;
     double F_stop_co;
     double onset_co;
+    double power_stop;
+    double loss_stop;
     double C_fluid;
     double C_fluid_co;
     double V_air;
+    double tau_fluid;
     double foam_decay_rate;
     double redissolution_rate;
     double c_residual;
@@ -74,6 +77,8 @@ struct kernel_Parameters {
     double v_side;
     double build_up;
     double early_share;
+    double tau_build;
+    double carry_over;
     double wear_re;
     double wear_co;
 };
@@ -131,9 +136,11 @@ struct kernel_State {
     double elapsed;
     double F_held_re;
     double F_held_co;
+    double F_late;
     double x_mount;
     double v_piston;
     double u_valve;
+    double F_open;
     double F_mount;
     double F_rod;
     double heat;
@@ -142,7 +149,10 @@ struct kernel_State {
     double k_mixed;
     double k_full_re;
     double k_full_co;
-    double x_free;
+    double y_free;
+    double k_last;
+    double k_target;
+    double k_carried;
 };
 
 struct kernel_Flow {
@@ -198,7 +208,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
     {
         return 1;
     }
@@ -238,7 +248,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if (p->build_up != 0.0)
+    if ((p->build_up != 0.0) || (p->tau_build != 0.0))
     {
         return 1;
     }
@@ -332,9 +342,11 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->elapsed = 0.0;
     s->F_held_re = 0.0;
     s->F_held_co = 0.0;
+    s->F_late = 0.0;
     s->x_mount = 0.0;
     s->v_piston = 0.0;
     s->u_valve = 0.0;
+    s->F_open = 0.0;
     s->F_mount = 0.0;
     s->F_rod = 0.0;
     s->heat = 0.0;
@@ -343,25 +355,26 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->k_mixed = 1.0;
     s->k_full_re = 1.0;
     s->k_full_co = 1.0;
-    s->x_free = 0.0;
+    s->y_free = 0.0;
+    s->k_last = 1.0;
+    s->k_target = 1.0;
+    s->k_carried = 0.0;
 }
 
 /* Force [N] of a stop pressed by `over` [m]. */
-static double kernel_end_stop_press(double force, double over)
+static double kernel_end_stop_press(struct kernel_Parameters* p, double force, double over)
 {
-    double depth;
     if (over <= 0.0)
     {
         return 0.0;
     }
-    depth = over / 0.01;
-    return force * depth * sqrt(depth);
+    return force * exp(p->power_stop * log(over / 0.01));
 }
 
 /* Force [N] at the stroke `z` [m]. */
 static double kernel_end_stop_elastic(struct kernel_Parameters* p, double z)
 {
-    return kernel_end_stop_press(p->F_stop_re, z - p->onset_re) - kernel_end_stop_press(p->F_stop_co, (-z) - p->onset_co);
+    return kernel_end_stop_press(p, p->F_stop_re, z - p->onset_re) - kernel_end_stop_press(p, p->F_stop_co, (-z) - p->onset_co);
 }
 
 /* Force [N] at the stroke `z` [m]; with preload the gas spring of the parameter set is measured, not assumed. */
@@ -442,7 +455,7 @@ static int64_t kernel_effects_parts(struct kernel_Parameters* p, double dt)
 {
     int64_t value;
     value = 1;
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
     {
         value = int64_t_max(2, value, kernel_fluid_lag_parts(p, dt));
     }
@@ -529,7 +542,7 @@ static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_S
 {
     double value;
     value = 0.0;
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
     {
         value += kernel_fluid_lag_series(p, s, F, dt);
     }
@@ -540,8 +553,8 @@ static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_S
 static double kernel_end_stop_rub(struct kernel_Parameters* p, double z, double v)
 {
     double pressed;
-    pressed = kernel_end_stop_press(p->F_stop_re, z - p->onset_re) + kernel_end_stop_press(p->F_stop_co, (-z) - p->onset_co);
-    return 0.15 * pressed * tanh(v / 0.01);
+    pressed = kernel_end_stop_press(p, p->F_stop_re, z - p->onset_re) + kernel_end_stop_press(p, p->F_stop_co, (-z) - p->onset_co);
+    return p->loss_stop * pressed * tanh(v / 0.01);
 }
 
 static double kernel_effects_rub(struct kernel_Parameters* p, double z, double v)
@@ -626,6 +639,25 @@ static double kernel_stribeck(struct kernel_Parameters* p, double v)
     return p->k_high + (1.0 - p->k_high) * exp((-fabs(v)) / p->v_S);
 }
 
+/* Force [N] behind late valves after `dt` [s] in which that of the columns was `F` [N]. */
+static double kernel_fluid_lag_felt(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
+{
+    if ((p->tau_fluid <= 0.0) || (dt <= 0.0))
+    {
+        return F;
+    }
+    return F + (s->F_late - F) * exp((-dt) / p->tau_fluid);
+}
+
+static double kernel_effects_felt(struct kernel_Parameters* p, struct kernel_State* s, double value, double dt)
+{
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
+    {
+        value = kernel_fluid_lag_felt(p, s, value, dt);
+    }
+    return value;
+}
+
 /* Force of the rubber beyond that of the damper [N] if the step ends with the speed `u` [m/s] at the valves. */
 static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt, double u)
 {
@@ -643,7 +675,7 @@ static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct
     goal = z - x;
     friction = kernel_effects_scale_friction(p, goal, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z) + kernel_effects_rub(p, goal, v);
     gas = d->c_gas * goal + kernel_effects_elastic(p, goal) - kernel_effects_elastic(p, 0.0);
-    return (x + p->tau_mount * rate) / p->C_mount - F - friction - gas - p->m_rod * (speed - s->v_piston) / dt;
+    return (x + p->tau_mount * rate) / p->C_mount - kernel_effects_felt(p, s, F, dt) - friction - gas - p->m_rod * (speed - s->v_piston) / dt;
 }
 
 /* The speed [m/s] at the valves for which rubber and damper agree: bracketed about the last one, then regula falsi. */
@@ -713,9 +745,10 @@ static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct k
     if (dt > 0.0)
     {
         s->u_valve = kernel_mount_compliance_speed(p, d, s, z, v1, dt);
-        s->goal_v1 = s->u_valve + kernel_effects_series(p, s, kernel_valve_force(p, s->u_valve, s->k_re, s->k_co), dt);
+        s->F_open = kernel_valve_force(p, s->u_valve, s->k_re, s->k_co);
+        s->F_mount = kernel_effects_felt(p, s, s->F_open, dt);
+        s->goal_v1 = s->u_valve + kernel_effects_series(p, s, s->F_open, dt);
         s->x_mount += (v1 - s->goal_v1) * dt;
-        s->F_mount = kernel_valve_force(p, s->u_valve, s->k_re, s->k_co);
         s->F_rod = p->m_rod * (s->goal_v1 - s->v_piston) / dt;
     }
     /* An elastic mount cannot push the piston out of the tube. */
@@ -1295,9 +1328,17 @@ static double kernel_smooth_transition_depth(struct kernel_Parameters* p, struct
 /* Begin a direction at its own value `k`; where its chamber has no gas there is no step ahead. */
 static void kernel_smooth_transition_turn(struct kernel_Parameters* p, struct kernel_State* s, double side, double k)
 {
+    s->k_carried = (s->k_side != 0.0 ? p->carry_over * (s->k_last - k) : 0.0);
     s->k_side = side;
+    s->k_target = k;
     s->k_mixed = k;
-    s->x_free = (kernel_smooth_transition_depth(p, s, side) > 0.0 ? 0.0 : 1000.0 * p->build_up);
+    s->y_free = (kernel_smooth_transition_depth(p, s, side) > 0.0 ? 0.0 : 1000.0);
+}
+
+/* Mean of exp(-y) [1] over 0 <= y <= `way`. */
+static double kernel_smooth_transition_fade(double way)
+{
+    return (way > 1e-09 ? (1.0 - exp(-way)) / way : 1.0);
 }
 
 /* Change the mean over the step, `f.k_mean`, and the value at its end. */
@@ -1305,7 +1346,10 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
 {
     double settled;
     double side;
+    double length;
     double depth;
+    double target;
+    double known;
     double full;
     double near;
     double rise;
@@ -1322,14 +1366,17 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
     {
         kernel_smooth_transition_turn(p, s, side, f->k_mean);
     }
+    length = double_max(2, 1e-09, p->build_up + 0.5 * p->tau_build * (fabs(s->goal_v0) + fabs(s->goal_v1)));
     depth = kernel_smooth_transition_depth(p, s, side);
+    target = f->k_mean;
+    known = s->k_target;
     if (depth > 0.0)
     {
         full = (side > 0.0 ? s->k_full_re : s->k_full_co);
-        near = double_max(2, 0.0, 1.0 - depth / p->build_up);
+        near = double_max(2, 0.0, 1.0 - depth / length);
         rise = double_max(2, 0.0, full - f->k_mean) * p->early_share * near * near;
         s->k_mixed = f->k_mean;
-        s->x_free = 0.0;
+        s->y_free = 0.0;
         f->k_mean += rise;
         f->k_degr = f->k_mean;
     }
@@ -1338,23 +1385,25 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
         k = (side > 0.0 ? s->k_full_re : s->k_full_co);
         if (dz != 0.0)
         {
-            k = (s->x_free > 0.0 ? f->k_mean : f->k_degr);
+            k = (s->y_free > 0.0 ? f->k_mean : f->k_degr);
         }
+        target = k;
         jump = double_max(2, 0.0, k - s->k_mixed);
         free = fabs(dz);
-        if ((s->x_free == 0.0) && (jump > 0.0))
+        if ((s->y_free == 0.0) && (jump > 0.0))
         {
+            known = k;
             /* In the step in which the gas runs out the kernel's mean tells where. */
             free *= double_max(2, 0.0, double_min(2, 1.0, (f->k_mean - s->k_mixed) / jump));
         }
-        missing = jump * (1.0 - p->early_share) * exp((-s->x_free) / p->build_up);
-        way = free / p->build_up;
+        missing = jump * (1.0 - p->early_share) * exp(-s->y_free);
+        way = free / length;
         if (fabs(dz) > 0.0)
         {
             early = (1.0 - free / fabs(dz)) * jump * p->early_share;
-            f->k_mean = double_max(2, 0.0, f->k_mean + early - missing * (1.0 - exp(-way)) * p->build_up / fabs(dz));
+            f->k_mean = double_max(2, 0.0, f->k_mean + early - missing * kernel_smooth_transition_fade(way) * free / fabs(dz));
         }
-        s->x_free += free;
+        s->y_free += way;
         f->k_degr = k - missing * exp(-way);
         if (side > 0.0)
         {
@@ -1366,18 +1415,25 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
         }
         /* The kernel has settled k_degr for the new direction. */
     }
+    way = fabs(dz) / length;
+    s->k_carried += p->carry_over * (known - target);
+    s->k_target = target;
+    f->k_mean = double_max(2, 0.0, f->k_mean + s->k_carried * kernel_smooth_transition_fade(way));
+    s->k_carried *= exp(-way);
+    f->k_degr = double_max(2, 0.0, f->k_degr + s->k_carried);
+    s->k_last = f->k_degr;
     s->k_degr = (dz != 0.0 ? f->k_mean : f->k_degr);
     turned = (v > 0.0 ? 1.0 : ((v < 0.0 ? -1.0 : s->k_side)));
     if (turned != s->k_side)
     {
         kernel_smooth_transition_turn(p, s, turned, settled);
-        s->k_degr = settled;
+        s->k_degr = settled + s->k_carried;
     }
 }
 
 static void kernel_effects_transition(struct kernel_Parameters* p, struct kernel_State* s, struct kernel_Flow* f, double v, double dz)
 {
-    if (p->build_up != 0.0)
+    if ((p->build_up != 0.0) || (p->tau_build != 0.0))
     {
         kernel_smooth_transition_transition(p, s, f, v, dz);
     }
@@ -1461,12 +1517,13 @@ static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_St
     double u;
     double F;
     double through;
+    double mean;
     if (dt <= 0.0)
     {
         if (s->elapsed > 0.0)
         {
-            s->F_fluid = s->F_held_re - s->F_held_co;
-            s->F_valve = s->F_fluid;
+            s->F_valve = s->F_held_re - s->F_held_co;
+            s->F_fluid = (p->tau_fluid > 0.0 ? s->F_late : s->F_valve);
             s->F_mean = s->F_fluid;
         }
         return;
@@ -1495,6 +1552,14 @@ static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_St
     s->F_fluid += F;
     s->F_valve = s->F_fluid;
     s->W_step += F * u * dt;
+    if (p->tau_fluid > 0.0)
+    {
+        mean = s->F_mean;
+        s->F_fluid = kernel_fluid_lag_felt(p, s, mean, dt);
+        s->F_mean += (s->F_late - s->F_fluid) * p->tau_fluid / dt;
+        s->W_step += (s->F_mean - mean) * dz;
+        s->F_late = s->F_fluid;
+    }
 }
 
 /* The force that the rubber lets through, and the rubber's own loss. */
@@ -1505,7 +1570,7 @@ static void kernel_mount_compliance_force(struct kernel_Parameters* p, struct ke
     {
         return;
     }
-    s->F_valve = s->F_mount;
+    s->F_valve = s->F_open;
     s->F_fluid = s->F_mount + s->F_rod;
     s->F_mean += s->F_rod;
     if (dt <= 0.0)
@@ -1519,7 +1584,7 @@ static void kernel_mount_compliance_force(struct kernel_Parameters* p, struct ke
 
 static void kernel_effects_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
 {
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
     {
         kernel_fluid_lag_force(p, s, v, dz, dt);
     }
@@ -1533,6 +1598,10 @@ static void kernel_effects_force(struct kernel_Parameters* p, struct kernel_Stat
 /* Remember the force where it is not that of the columns: at the start, or with another element in series. */
 static void kernel_fluid_lag_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
 {
+    if (s->elapsed <= 0.0)
+    {
+        s->F_late = s->F_valve;
+    }
     if (s->F_valve != s->F_held_re - s->F_held_co)
     {
         s->F_held_re = double_max(2, 0.0, s->F_valve);
@@ -1553,7 +1622,7 @@ static void kernel_oil_temperature_finish(struct kernel_Parameters* p, struct ke
 
 static void kernel_effects_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
 {
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
     {
         kernel_fluid_lag_finish(p, s, dt);
     }

@@ -14,13 +14,20 @@ AMPLITUDE = 0.045
 VELOCITIES = (0.1, 0.2, 0.4, 0.7, 1.1, 1.5)
 
 
-def record(velocity: float, preload: bool, noise: float, rng: np.random.Generator, rate: float | None = None) -> Record:
+def record(
+    velocity: float,
+    preload: bool,
+    noise: float,
+    rng: np.random.Generator,
+    rate: float | None = None,
+    amplitude: float = AMPLITUDE,
+) -> Record:
     """Twelve oscillations of a digressive damper with friction; without preload no force in a part that fades."""
-    omega = velocity / AMPLITUDE
+    omega = velocity / amplitude
     rate = rate or float(np.clip(300 * omega / (2 * np.pi), 100.0, 2000.0))
     n = int(12 * 2 * np.pi / omega * rate)
     time = (np.arange(n) + rng.uniform(-0.1, 0.1, n)) / rate
-    stroke, v = AMPLITUDE * np.sin(omega * time), velocity * np.cos(omega * time)
+    stroke, v = amplitude * np.sin(omega * time), velocity * np.cos(omega * time)
     force = 900 * np.sign(v) * np.abs(v) ** 0.6 * np.where(v > 0, 2.0, 1.0) + 40 * np.tanh(v / 0.005)
     turns = omega * time / (2 * np.pi)
     if preload:
@@ -48,9 +55,12 @@ def record(velocity: float, preload: bool, noise: float, rng: np.random.Generato
     )
 
 
-def bench(noise: float = 0.01, seed: int = 0, rate: float | None = None) -> list[Record]:
+def bench(noise: float = 0.01, seed: int = 0, rate: float | None = None, slow: float = AMPLITUDE) -> list[Record]:
+    """Intact and degraded; `slow` is the amplitude [m] of the three slower velocities."""
     rng = np.random.default_rng(seed)
-    return [record(v, preload, noise, rng, rate) for preload in (True, False) for v in VELOCITIES]
+    return [
+        record(v, preload, noise, rng, rate, slow if v < 0.5 else AMPLITUDE) for preload in (True, False) for v in VELOCITIES
+    ]
 
 
 def changed(records: list[Record], change: Callable[[Record], np.ndarray]) -> list[Record]:

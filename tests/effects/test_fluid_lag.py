@@ -73,3 +73,31 @@ def test_the_columns_of_both_directions_obey_their_differential_equation(dashpot
     force = simulate(dashpot.with_(C_fluid=C_re, C_fluid_co=C_co), z, v, t).force
     error = force - (np.maximum(exact[0], 0.0) - np.maximum(exact[1], 0.0))
     assert np.sqrt(np.mean(error[20:] ** 2)) < 0.02 * np.sqrt(np.mean(force**2))
+
+
+@pytest.mark.parametrize("element", [{}, {"C_fluid": 2e-6, "C_fluid_co": 2e-6}, {"C_mount": 2e-6, "tau_mount": 0.0}])
+@pytest.mark.parametrize("omega", [5.0, 60.0])
+def test_late_valves_are_a_first_order_lag(dashpot: Damper, element: dict[str, float], omega: float) -> None:
+    """Alone the dashpot's force behind the lag; with a spring in series their complex impedance, but for the columns' two sides."""
+    tau = 0.003
+    t, z, v = oscillations(0.02 * omega, 0.02, 6, 2e-4)
+    force = simulate(dashpot.with_(tau_fluid=tau, **element), z, v, t).force
+    last = t > t[-1] * 4 / 6
+    found = 2 * np.mean(force[last] * np.exp(-1j * omega * t[last]))
+    late = 2000.0 / (1 + 1j * omega * tau)
+    if "C_mount" in element:
+        late = 1 / (1 / late + 1j * omega * element["C_mount"])
+    elif element:
+        late = 1 / (1 / 2000.0 + 1j * omega * element["C_fluid"]) / (1 + 1j * omega * tau)
+    assert abs(found / (0.02 * omega * late) - 1) < (0.05 if "C_fluid" in element else 0.01)
+
+
+def test_late_valves_do_not_show_in_the_steady_force(dashpot: Damper) -> None:
+    p, d, s, f = dashpot.with_(tau_fluid=0.002).parameters, blank(Derived), blank(State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    for i in range(1, 31):
+        model.advance(p, d, s, f, 3e-4 * i, 0.3, 0.3, 1e-3)
+        if i < 4:
+            assert s.F_fluid == pytest.approx(600.0 * (1 - math.exp(-i * 1e-3 / 0.002)), rel=0.01)
+    assert s.F_fluid == pytest.approx(600.0, rel=1e-5)

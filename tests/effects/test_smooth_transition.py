@@ -64,3 +64,35 @@ def test_part_of_the_rise_comes_before_the_gas_has_run_out() -> None:
         exact = 0.5 * max(0.0, 1 + x / 0.01) ** 2 if x < 0 else 1 - 0.5 * math.exp(-x / 0.01)
         assert k == pytest.approx(exact, abs=0.01)
         assert mean == pytest.approx(k, abs=0.01)
+
+
+def test_a_time_instead_of_a_length() -> None:
+    """What is missing after the gas has run out fades with the time, whatever the velocity."""
+    for velocity in (0.02, 0.05):
+        p = load("SA7").with_(oil_level=0.35, gas_preload=0, tau_build=0.01).parameters
+        d, s, f = blank(Derived), blank(State), blank(Flow)
+        model.set_up(p, d)
+        model.start(p, d, s, 0.0)
+        edge = s.V1_gas / d.A_1 * (1 - 1e-9)
+        model.advance(p, d, s, f, edge, velocity, velocity, 0.0)
+        for i in range(1, 11):
+            model.advance(p, d, s, f, edge + velocity * 0.001 * i, velocity, velocity, 0.0)
+            assert f.k_degr == pytest.approx(1 - math.exp(-0.1 * i), rel=1e-5)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+def test_what_outlasts_a_reversal_fades_over_the_same_length(share: float) -> None:
+    """In rebound all force, then compression into the gas, where the paper has none."""
+    p = load("SA7").with_(oil_level=0.35, gas_preload=0, build_up=0.01, carry_over=share).parameters
+    d, s, f = blank(Derived), blank(State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    edge = s.V1_gas / d.A_1
+    for i in range(1, 101):
+        model.advance(p, d, s, f, (edge + 0.03) * i / 100, 0.04, 0.04, 0.0)
+    top, ended = s.z, f.k_degr
+    assert ended > 0.9
+    for i in range(1, 11):
+        model.advance(p, d, s, f, top - 0.001 * i, -0.04, -0.04, 0.0)
+        rest = s.k_flow
+        assert f.k_degr - rest == pytest.approx(share * (ended - rest) * math.exp(-0.1 * i), abs=1e-6)

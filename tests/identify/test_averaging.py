@@ -7,11 +7,13 @@ import pytest
 from scipy.ndimage import uniform_filter1d
 
 from blind_trials.trials import dataset, trial
-from tests.diagnose.test_signature import bench, changed
+from tests.diagnose.test_signature import AMPLITUDE, bench, changed
 from twintube.data import Record
 from twintube.diagnose.signature import oscillating
 from twintube.identify import Harmonic
 from twintube.identify.averaging import averaged, averaged_means, averaging, period, through
+
+SMALL = 0.02  # [m] amplitude
 
 
 def blocks(records: list[Record]) -> list[Harmonic]:
@@ -29,7 +31,7 @@ def smoothed(records: list[Record], share: float = 0.0, samples: int = 0) -> lis
 @pytest.mark.parametrize("noise", [0.002, 0.01])
 @pytest.mark.parametrize("share", [0.07, 0.1, 0.15])
 def test_the_share_is_found(noise: float, share: float) -> None:
-    found = averaging(blocks(smoothed(bench(noise, 1), share)))
+    found = averaging(blocks(smoothed(bench(noise, 1, slow=SMALL), share)))
     assert found is not None
     assert found.share == pytest.approx(share, rel=0.04)
     assert "smoothed after the measurement" in found.text
@@ -43,7 +45,7 @@ def test_a_good_measurement_was_not_smoothed(noise: float) -> None:
 
 def test_a_filter_of_the_amplifier_is_something_else() -> None:
     """It is as long at every velocity, so its zeros lie at other harmonics in each record."""
-    records = smoothed(bench(0.002, 1, rate=1000.0), samples=15)
+    records = smoothed(bench(0.002, 1, rate=1000.0, slow=SMALL), samples=15)
     assert averaging(blocks(records)) is None
 
 
@@ -51,6 +53,16 @@ def test_records_of_one_velocity_do_not_tell() -> None:
     """A knee of the F-v curve is at the same phase in all of them."""
     records = [replace(r, name=f"{r.name}_{i}") for i, r in enumerate([bench(0.002, 1)[2]] * 4)]
     assert averaging(blocks(smoothed(records, 0.1))) is None
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_spring_that_touches_at_one_phase_is_not_taken_for_it(side: float) -> None:
+    """At one amplitude a stop makes zeros at the same harmonics at every velocity; at two it does not touch at one phase."""
+    for slow, onset in ((AMPLITUDE, 0.8 * AMPLITUDE), (SMALL, 0.8 * SMALL)):
+        some = changed(
+            bench(0.005, 1, slow=slow), lambda r, o=onset: r.force + side * 1.5e5 * np.maximum(side * r.stroke - o, 0.0)
+        )
+        assert averaging(blocks(some)) is None
 
 
 @pytest.mark.parametrize("kind", ["none", "end_stop", "side_load_friction", "fluid_lag"])
@@ -81,7 +93,7 @@ def test_means_of_intervals_are_those_of_the_mean() -> None:
 
 
 def test_every_record_gets_its_own_length() -> None:
-    some = blocks(smoothed(bench(0.002, 1), 0.1))
+    some = blocks(smoothed(bench(0.002, 1, slow=SMALL), 0.1))
     found = averaging(some)
     assert found is not None
     for block in through(some, found):

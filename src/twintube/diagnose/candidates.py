@@ -13,6 +13,7 @@ from twintube.identify.objective import FASTER, TABLE_6, TABLES_7_8
 BASE = (*TABLE_6, *TABLES_7_8)  # the parameters that a bad calibration is sought in
 OFFSET = 0.005  # of the largest force: zero of a good load cell
 DELAY = 3e-4  # [s] what sampling leaves open
+SHAPES = 2  # lengths, times and powers of a cause that are sought, the first in its file; the fit finds the others
 SHARES = (0.003, 0.01, 0.03, 0.1, 0.3)  # of a strength's range, at which a search begins
 
 
@@ -106,7 +107,7 @@ def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float
     """
     zero = nuisances(problem)[0]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
-    shapes = [f.name for f in candidate.free if f.name not in candidate.strength]
+    shapes = [f.name for f in candidate.free if f.name not in candidate.strength][:SHAPES]
     best, low = {f.name: f.start for f in candidate.free}, np.inf
     left = list(candidate.strength)
     while left:

@@ -16,6 +16,7 @@ from twintube.simulate import checked
 FAST, SLOW = 48, 24  # intervals per oscillation, of the block and of slower ones
 RAMP = 240  # intervals per cycle of a quasi-static record: friction reverses within tenths of a millimetre
 DRIVE = 5e-3  # [s] interval of other signals
+JUMP = 4.0  # standard deviations of a sample's noise by which a jump stands out
 LEAST_NOISE = 1e-4  # of the peak force: a noise of nothing would make every difference significant
 
 
@@ -126,6 +127,20 @@ def sample_noise(record: Record, per_interval: float) -> float:
     return 1.4826 * float(np.median(np.abs(bent))) / np.sqrt(max(1.0, per_interval)) if len(bent) else 0.0
 
 
+def jumps(record: Record, at: NDArray[np.int64]) -> Array:
+    """Error bound [N] of the mean forces (n,) of the intervals that end at the samples `at`, from jumps of the force.
+
+    Where between two samples it jumped is not known; if samples lie alike in all oscillations that does not average out.
+    """
+    change = np.abs(np.diff(record.force, prepend=record.force[0]))
+    around = np.maximum(np.roll(change, 1), np.roll(change, -1))
+    beyond = np.maximum(change - around - JUMP * sample_noise(record, 1.0), 0.0)
+    unknown = 0.5 * beyond * np.diff(record.time, prepend=record.time[0])
+    sums = np.concatenate([[0.0], np.cumsum(unknown**2)])[at + 1]
+    spans = np.diff(record.time[at], prepend=np.inf)
+    return np.sqrt(np.diff(sums, prepend=sums[0])) / np.maximum(spans, 1e-9)
+
+
 def prepare(dataset: LoadedDataset) -> list[Case]:
     """All records of a dataset; raises InputError where a stroke leaves the tube."""
     return [prepared(record, tube_limit(dataset.damper.parameters)) for record in dataset.records]
@@ -148,4 +163,5 @@ def prepared(record: Record, limit: float) -> Case:
     fastest = (case.stretch == case.stretch[np.argmax(np.abs(velocity))]) & (cycle >= 0)
     usual = float(np.median(held[fastest])) if fastest.any() else float(np.median(held))
     noise = repeat_noise(case.measured()[fastest], cycle[fastest]) or sample_noise(record, usual)
-    return replace(case, noise=np.maximum(noise * np.sqrt(usual / held), LEAST_NOISE * peak))
+    noises = np.maximum(noise * np.sqrt(usual / held), LEAST_NOISE * peak)
+    return replace(case, noise=np.hypot(noises, jumps(record, at)))

@@ -18,6 +18,7 @@ names; the interpreter executes its text, `compiled.py` joins it to the kernel.
     elastic         (p, z) -> force [N]               beside the gas force, no work
     rub             (p, z, v) -> force [N]            beside the friction, with the sign of v
     series          (p, s, F, dt) -> speed [m/s]      taken up in series with the valves at the fluid force F
+    felt            (p, s, F, dt) -> force [N]        after the step, if the fluid force at the valves is F
     force           (p, s, v, dz, dt)                 s.F_fluid, s.F_valve, s.F_mean, s.W_step of a force with memory
     finish          (p, s, dt)                        what follows from forces and work
 """
@@ -45,6 +46,7 @@ HOOKS = {
     "elastic": ("p, z", "sum"),
     "rub": ("p, z, v", "sum"),
     "series": ("p, s, F, dt", "sum"),
+    "felt": ("p, s, value, dt", "chain"),
     "force": ("p, s, v, dz, dt", "call"),
     "finish": ("p, s, dt", "call"),
 }
@@ -180,6 +182,7 @@ if TYPE_CHECKING:
     effects_elastic: Callable[..., float]
     effects_rub: Callable[..., float]
     effects_series: Callable[..., float]
+    effects_felt: Callable[..., float]
     effects_force: Callable[..., None]
     effects_finish: Callable[..., None]
     effects_reset: Callable[..., None]

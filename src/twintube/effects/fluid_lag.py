@@ -1,10 +1,13 @@
-"""Compressible oil with trapped air: oil columns in series with the valves, Maxwell elements on the fluid force.
+"""Compressible oil with trapped air, and late valves: oil columns in series with the valves, Maxwell elements, and a delay.
 
 There is one column for each direction; while the pressure of one is still being relieved, that of the other builds up. A
 column gives by x(F) under its force F, which obeys dx(F)/dt = v - u(F), u being the speed at which the valves make F, as
 long as that is positive. Oil and walls give linearly. Trapped air gives as an ideal gas at constant temperature:
 V_air (1/p_0 - 1/p), which is soft at small forces only. Rebound presses on the annulus, compression on the rod's area. One
 implicit Euler step is solved exactly, segment by segment of the F-v curve. The phases still follow the stroke.
+
+Valves that open and close late let the fluid force F follow that of the columns with a time constant of their own,
+tau_fluid dF/dt = F_columns - F, solved exactly for a step in which F_columns has its mean.
 """
 
 import math
@@ -19,7 +22,7 @@ TITLE = "Compressible oil and late check valves"
 CAUSE = "Oil, dissolved gas and walls give under pressure and check valves close late, so the fluid force lags the velocity."
 ABSENCE = "The measured F-v curve opens to a loop that the model does not have, widest where the acceleration is largest."
 DECIDES = "small amplitudes at the same velocity: a lag grows with the frequency, a mount with the force"
-STRENGTH = ("C_fluid", "C_fluid_co", "V_air")
+STRENGTH = ("C_fluid", "C_fluid_co", "V_air", "tau_fluid")
 NEEDS_TIME = True
 P_ATM = 1e5  # [Pa]
 
@@ -37,14 +40,17 @@ class Parameters(variables.Parameters):
     V_air: float = var("fluid_lag", "", "m3", "air trapped in the oil, at ambient pressure", lower=0, upper=5e-6,
                        source="ideal gas at constant temperature; Manring, Hydraulic Control Systems",
                        default=0.0)  # fmt: skip
+    tau_fluid: float = var("fluid_lag", "", "s", "time constant with which late valves change the fluid force", lower=0,
+                           upper=0.02, source="first-order lag", default=0.0)  # fmt: skip
 
 
 @dataclass(slots=True)
 class State(Frame):
-    """The forces in the oil columns."""
+    """The forces in the oil columns and behind the valves."""
 
     F_held_re: float = var("fluid_lag", "F_Fl", "N", "force of the rebound column at the end of the last step", default=0.0)
     F_held_co: float = var("fluid_lag", "F_Fl", "N", "force of the compression column, a magnitude", default=0.0)
+    F_late: float = var("fluid_lag", "F_Fl", "N", "force of both behind late valves", default=0.0)
 
 
 def fluid_lag_parts(p: Parameters, dt: float) -> int:
@@ -69,6 +75,13 @@ def fluid_lag_given(p: Parameters, F: float) -> float:
 def fluid_lag_series(p: Parameters, s: State, F: float, dt: float) -> float:
     """Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]; for an element in series."""
     return (fluid_lag_given(p, F) - fluid_lag_given(p, s.F_held_re - s.F_held_co)) / dt
+
+
+def fluid_lag_felt(p: Parameters, s: State, F: float, dt: float) -> float:
+    """Force [N] behind late valves after `dt` [s] in which that of the columns was `F` [N]."""
+    if p.tau_fluid <= 0.0 or dt <= 0.0:
+        return F
+    return F + (s.F_late - F) * math.exp(-dt / p.tau_fluid)
 
 
 def fluid_lag_inverse(
@@ -102,8 +115,8 @@ def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> 
     """The fluid force with the memory of the oil columns; a step without time leaves it, but for the first."""
     if dt <= 0.0:
         if s.elapsed > 0.0:
-            s.F_fluid = s.F_held_re - s.F_held_co
-            s.F_valve = s.F_fluid
+            s.F_valve = s.F_held_re - s.F_held_co
+            s.F_fluid = s.F_late if p.tau_fluid > 0.0 else s.F_valve
             s.F_mean = s.F_fluid
         return
     half = 0.5 * (s.goal_v0 + s.goal_v1)
@@ -128,10 +141,18 @@ def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> 
     s.F_fluid += F
     s.F_valve = s.F_fluid
     s.W_step += F * u * dt
+    if p.tau_fluid > 0.0:
+        mean = s.F_mean
+        s.F_fluid = fluid_lag_felt(p, s, mean, dt)
+        s.F_mean += (s.F_late - s.F_fluid) * p.tau_fluid / dt
+        s.W_step += (s.F_mean - mean) * dz
+        s.F_late = s.F_fluid
 
 
 def fluid_lag_finish(p: Parameters, s: State, dt: float) -> None:
     """Remember the force where it is not that of the columns: at the start, or with another element in series."""
+    if s.elapsed <= 0.0:
+        s.F_late = s.F_valve
     if s.F_valve != s.F_held_re - s.F_held_co:
         s.F_held_re = max(0.0, s.F_valve)
         s.F_held_co = max(0.0, -s.F_valve)

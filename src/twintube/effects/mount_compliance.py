@@ -8,7 +8,7 @@ rises with it, so there is one root. k_degr is that of the step before, which is
 from dataclasses import dataclass
 
 from twintube import variables
-from twintube.effects import effects_elastic, effects_rub, effects_scale_friction, effects_series
+from twintube.effects import effects_elastic, effects_felt, effects_rub, effects_scale_friction, effects_series
 from twintube.frame import Frame, parts_of, valve_force
 from twintube.kernel.forces import dahl, stribeck
 from twintube.variables import Derived, var
@@ -40,6 +40,7 @@ class State(Frame):
     x_mount: float = var("mount_compliance", "x", "m", "deflection of the mount, positive under tension", default=0.0)
     v_piston: float = var("mount_compliance", "", "m/s", "velocity of the piston", default=0.0)
     u_valve: float = var("mount_compliance", "", "m/s", "piston speed that the valves see", default=0.0)
+    F_open: float = var("mount_compliance", "", "N", "fluid force at the valves", default=0.0)
     F_mount: float = var("mount_compliance", "", "N", "fluid force in balance with the mount", default=0.0)
     F_rod: float = var("mount_compliance", "", "N", "force that accelerates the rod", default=0.0)
 
@@ -58,7 +59,13 @@ def mount_compliance_excess(p: Parameters, d: Derived, s: State, z: float, v: fl
     goal = z - x
     friction = effects_scale_friction(p, goal, v) * stribeck(p, v) * dahl(p, d, s.F_D, goal - s.z) + effects_rub(p, goal, v)
     gas = d.c_gas * goal + effects_elastic(p, goal) - effects_elastic(p, 0.0)
-    return (x + p.tau_mount * rate) / p.C_mount - F - friction - gas - p.m_rod * (speed - s.v_piston) / dt
+    return (
+        (x + p.tau_mount * rate) / p.C_mount
+        - effects_felt(p, s, F, dt)
+        - friction
+        - gas
+        - p.m_rod * (speed - s.v_piston) / dt
+    )
 
 
 def mount_compliance_speed(p: Parameters, d: Derived, s: State, z: float, v: float, dt: float) -> float:
@@ -103,9 +110,10 @@ def mount_compliance_motion(p: Parameters, d: Derived, s: State, z: float, v0: f
         s.v_piston = v0
     if dt > 0.0:
         s.u_valve = mount_compliance_speed(p, d, s, z, v1, dt)
-        s.goal_v1 = s.u_valve + effects_series(p, s, valve_force(p, s.u_valve, s.k_re, s.k_co), dt)
+        s.F_open = valve_force(p, s.u_valve, s.k_re, s.k_co)
+        s.F_mount = effects_felt(p, s, s.F_open, dt)
+        s.goal_v1 = s.u_valve + effects_series(p, s, s.F_open, dt)
         s.x_mount += (v1 - s.goal_v1) * dt
-        s.F_mount = valve_force(p, s.u_valve, s.k_re, s.k_co)
         s.F_rod = p.m_rod * (s.goal_v1 - s.v_piston) / dt
     # An elastic mount cannot push the piston out of the tube.
     s.goal_z = max(1e-6 - d.half_length, min(d.half_length - 1e-6, z - s.x_mount))
@@ -115,7 +123,7 @@ def mount_compliance_force(p: Parameters, s: State, v: float, dz: float, dt: flo
     """The force that the rubber lets through, and the rubber's own loss."""
     if dt <= 0.0 and s.elapsed == 0.0:
         return
-    s.F_valve = s.F_mount
+    s.F_valve = s.F_open
     s.F_fluid = s.F_mount + s.F_rod
     s.F_mean += s.F_rod
     if dt <= 0.0:

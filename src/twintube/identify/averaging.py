@@ -1,8 +1,8 @@
 """A force channel that was smoothed after the measurement by a moving mean over the same share of every oscillation.
 
 Such a mean takes out every harmonic k by |sinc(k share)|: the mean oscillation has zeros at the same numbers of harmonics at
-every velocity and frequency. No physics does that: what depends on stroke, velocity or time moves with them. A model is then
-compared through the same mean.
+every velocity, amplitude and frequency. No physics does that: what depends on stroke, velocity or time moves with them. A
+model is then compared through the same mean.
 """
 
 import itertools
@@ -29,7 +29,7 @@ DEPTH = 0.03  # of a zero, as a share is never a whole number of samples
 JUMP = -1.0  # no force falls more slowly with the harmonic than one that jumps
 BETTER = 0.5  # log of the ratio of variances by which zeros must explain a record better than a smooth fall
 AGREE, SAME = 3, 0.05  # records that must ask for one share, and how far apart theirs may be
-APART = 1.2  # their velocities, or a knee of the F-v curve would be at one phase in all of them
+APART = 1.2  # their velocities and their amplitudes: a knee of the F-v curve or a stop would be at one phase in all of them
 
 
 @dataclass(frozen=True)
@@ -61,14 +61,16 @@ def spectrum(block: Harmonic) -> tuple[Array, Array, Array]:
 
 
 def averaging(blocks: Sequence[Harmonic]) -> Averaging | None:
-    """The share that AGREE records of different velocities ask for, each for itself; None where they do not."""
-    found = [(one, block.top_speed) for block in blocks if len(block.marks) > 3 and (one := asked(block)) is not None]
-    clear = [(share, speed) for (share, better), speed in found if better > BETTER]
-    groups = [[(s, v) for s, v in clear if abs(np.log(s / share)) < SAME] for share, _ in clear]
+    """The share that AGREE records of different velocities and amplitudes each ask for; None where they do not."""
+    found = [(one, block) for block in blocks if len(block.marks) > 3 and (one := asked(block)) is not None]
+    clear = [(share, block) for (share, better), block in found if better > BETTER]
+    groups = [[(s, block) for s, block in clear if abs(np.log(s / share)) < SAME] for share, _ in clear]
     alike = max(groups, key=len, default=[])
-    speeds = [v for _, v in alike]
-    if len(alike) < max(AGREE, len(found) / 2) or max(speeds) < APART * min(speeds):
+    if len(alike) < max(AGREE, len(found) / 2):
         return None
+    for size in ([block.top_speed for _, block in alike], [float(np.ptp(block.stroke)) for _, block in alike]):
+        if max(size) < APART * min(size):
+            return None
     return Averaging(float(np.median([s for s, _ in alike])), len(alike), len(found))
 
 
