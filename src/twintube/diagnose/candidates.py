@@ -92,9 +92,13 @@ def candidates(problem: Problem) -> list[Candidate]:
 
 
 def grid(candidate: Candidate, f: Free) -> list[float]:
-    """Values from which to begin: a strength over its range with both signs, a length or time about its usual value."""
+    """Values from which to begin: a strength over its range with both signs, a length or time about its usual value.
+
+    A power or a share begins at its low end too, which is a law of its own.
+    """
     if f.name not in candidate.strength:
         near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
+        near += [f.low] if candidate.units[f.name] == "1" else []
         return sorted({min(max(x, f.low), f.high) for x in near})
     sides = [(sign, side) for sign, side in ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0]
     return [f.start + sign * share * side for share in SHARES for sign, side in sides]
