@@ -212,7 +212,9 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
             won = k == 0 and option.names[-1] in selection.chosen
             if won:
                 reason = "improves the held-out records most"
-            elif k > 0:
+            elif not selector.acts(option):
+                reason = "is neutral, or no more than every measurement has"
+            elif options[0].names[-1] in selection.chosen:
                 reason = "improves them less than the chosen one"
             else:
                 reason = "improves the held-out records by no more than noise and numerics would"

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.diagnose.candidates import Candidate, base, best_start, nuisances
+from twintube.diagnose.candidates import DELAY, Candidate, base, best_start, nuisances
 from twintube.diagnose.fit import Fit, Free, Problem
 from twintube.diagnose.zeros import differ, step
 
@@ -163,8 +163,10 @@ class Selector:
             return True
         candidate = self.candidates[name]
         strengths = [f for f in candidate.free if f.name in candidate.strength]
-        neutral = {f.name: f.start for f in strengths}
-        return all(any(abs(fit.values[f.name] - neutral[f.name]) > ACTS * f.width for f in strengths) for fit in option.fits)
+        usual = {f.name: f.high for f in nuisances(self.whole)}
+        # What every measurement has is no cause, a lag as short as its delay neither.
+        least = {f.name: usual.get(f.name, DELAY if candidate.units[f.name] == "s" else ACTS * f.width) for f in strengths}
+        return all(any(abs(fit.values[f.name] - f.start) > least[f.name] for f in strengths) for fit in option.fits)
 
     def run(self, progress: Callable[[str], None]) -> Selection:
         """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
