@@ -9,7 +9,6 @@ import pytest
 from typer.testing import CliRunner
 
 from blind_trials.trials import Trial, dataset, trial, write
-from twintube import effects
 from twintube.cli import app
 from twintube.diagnose import Diagnosis, diagnose
 from twintube.diagnose.answer import doubt
@@ -94,23 +93,6 @@ def test_valve_wear_is_found_and_gains_on_held_out_records(tmp_path: Path) -> No
     assert found.errors["heldout"]["extended"].force_rmse_N < found.errors["heldout"]["base"].force_rmse_N
     assert found.extended.parameters.wear_re != 0.0  # type: ignore[attr-defined]
     assert found.extended.sources["valve_wear"] == "found by diagnosis"
-
-
-@pytest.mark.parametrize(
-    ("kind", "named"),
-    [
-        ("mount_compliance", {"mount_compliance"}),
-        pytest.param("fluid_lag", {"fluid_lag"}, marks=pytest.mark.slow),
-        ("oil_level_error+valve_wear", {"oil_level_error", "valve_wear"}),
-        ("valve_wear+gas_spring", {"valve_wear", "gas_spring"}),
-    ],
-)
-def test_look_alikes_and_pairs_are_told_apart(kind: str, named: set[str], tmp_path: Path) -> None:
-    found = answered(kind, tmp_path)
-    assert found.verdict == "cause"
-    assert {cause.effect for cause in found.causes} == named
-    assert found.errors["heldout"]["extended"].force_rmse_N < found.errors["heldout"]["base"].force_rmse_N
-    assert set(effects.active(found.extended.parameters)) == named
 
 
 def test_values_at_the_end_of_their_range_and_undetermined_ones_are_doubted() -> None:

@@ -12,7 +12,7 @@ from twintube.diagnose import diagnose
 from twintube.diagnose.fit import Problem
 from twintube.diagnose.prepare import prepare
 
-QUICK = ("none", "fluid_lag")
+QUICK = ("none", "valve_wear")
 
 
 @pytest.mark.parametrize("kind", [k if k in QUICK else pytest.param(k, marks=pytest.mark.slow) for k in textbook.FORMULAS])
