@@ -26,7 +26,6 @@ class Motion:
     """A sine that starts at full velocity, and what the model makes of it; arrays (n,) in SI units."""
 
     damper: Damper
-    rng: np.random.Generator
     time: Array
     stroke: Array
     velocity: Array
@@ -124,9 +123,7 @@ def write(kind: str, folder: Path, seed: int = 0, noise: float = 0.01) -> Path:
         for velocity in VELOCITIES:
             time = np.linspace(0.0, OSCILLATIONS * 2 * np.pi * AMPLITUDE / velocity, OSCILLATIONS * SAMPLES + 1)
             omega = velocity / AMPLITUDE
-            motion = Motion(
-                damper, rng, time, AMPLITUDE * np.sin(omega * time), velocity * np.cos(omega * time), float(time[1])
-            )
+            motion = Motion(damper, time, AMPLITUDE * np.sin(omega * time), velocity * np.cos(omega * time), float(time[1]))
             force = FORMULAS[kind](motion, level)
             force = force + noise * np.abs(force).max() * rng.standard_normal(len(force))
             name = f"oil_{100 * level:.0f}_v{1000 * velocity:.0f}.csv"
