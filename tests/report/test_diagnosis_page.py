@@ -20,7 +20,7 @@ from twintube.effects import EFFECTS
 from twintube.parameters import Damper, load
 from twintube.report.diagnosis import BADGES, write_report
 from twintube.report.diagnosis_records import closed, compared, noise, oscillations, parts, telling, work
-from twintube.report.engineering import digits, percent, with_interval
+from twintube.report.engineering import digits, is_share, percent, with_interval
 from twintube.rig import harmonic_block
 from twintube.simulate import simulate
 
@@ -223,6 +223,8 @@ def test_held_out_records_come_first():
 def test_numbers_for_readers():
     assert with_interval(-0.0312, -0.04, -0.022, "1") == ("-3.1 %", "-4.0 to -2.2 %")
     assert with_interval(0.95, 0.948, 0.952, "1", share=False) == ("0.950", "0.948 to 0.952")
+    shown = [is_share(*both) for both in [("end_stop", "loss_stop"), ("end_stop", "power_stop"), ("force_gain", "gain")]]
+    assert shown == [True, False, False]
     assert with_interval(1.1e-3, float("nan"), 2e-3, "s") == ("1.1 ms", "–")
     assert percent(-1e-5) == "0.0 %"
     assert (percent(0.953), percent(-70.0), percent(0.004), percent(float("nan"))) == ("95 %", "below −999 %", "0.4 %", "–")

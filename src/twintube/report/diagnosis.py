@@ -12,7 +12,7 @@ from twintube.effects import EFFECTS, Parameters
 from twintube.report import style
 from twintube.report.diagnosis_pictures import MOST, pictures, shown_record
 from twintube.report.diagnosis_records import compared, models, name_of, noise, ranked
-from twintube.report.engineering import MISSING, amount, digits, known, meaning, percent, title_of, unit_of, with_interval
+from twintube.report.engineering import MISSING, amount, digits, is_share, meaning, percent, title_of, unit_of, with_interval
 from twintube.report.page import Headline, Picture, Section, Table, html
 
 BADGES = {  # verdict -> badge, class of the style sheet
@@ -81,7 +81,7 @@ def cause_tables(causes: list[Cause]) -> list[Table]:
     parameters = []
     for cause in causes:
         for name, f in cause.parameters.items():
-            value, span = with_interval(f.value, f.low, f.high, f.unit, known(cause.effect))
+            value, span = with_interval(f.value, f.low, f.high, f.unit, is_share(cause.effect, name))
             parameters.append([cause.title, name, meaning(name), value, span, f.doubt])
     gains = [
         [c.title, percent(c.gain.heldout), " to ".join(percent(x) for x in c.gain.heldout_interval),

@@ -69,9 +69,9 @@ def amount(value: float, unit: str) -> str:
     return f"{value:#.3g}".rstrip(".") + f" {unit}" if value < 999.5 else f"{value:.0f} {unit}"
 
 
-def known(effect: str) -> bool:
-    """Whether plain numbers of this candidate are shares: those of the effects are, those of the faults are factors."""
-    return effect in EFFECTS
+def is_share(effect: str, parameter: str) -> bool:
+    """Whether a plain number is shown in percent: those of effects are, but for powers; those of faults are factors."""
+    return effect in EFFECTS and "power" not in parameter
 
 
 def title_of(effect: str) -> str:
