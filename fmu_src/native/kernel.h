@@ -1,4 +1,4 @@
-/* Made by fmu_src/native/translate.py from the Python sources 72f4c8ff0f461497; do not edit. */
+/* Made by fmu_src/native/translate.py from the Python sources 7a137cea5ab22e31; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -831,7 +831,7 @@ static void kernel_seal_leak_phases(struct kernel_Parameters* p, struct kernel_S
     left = p->leak_film * way;
     if ((p->leak_power != 1.0) && (dt > 0.0))
     {
-        left = p->leak_film * dt * pow(way / dt, p->leak_power);
+        left = p->leak_film * 0.1 * dt * pow(way / (0.1 * dt), p->leak_power);
     }
     oil = double_min(2, left, s->V3_oil);
     s->V3_oil -= oil;

@@ -49,4 +49,5 @@ def test_the_loss_per_time_goes_with_a_power_of_the_speed(power: float) -> None:
         for i in range(1, 51):
             model.advance(p, d, s, f, speed * 1e-3 * i, speed, speed, 1e-3)
         lost.append(s.V_lost)
+    assert lost[0] == pytest.approx(1e-6 * 0.005, rel=1e-9)
     assert lost[1] / lost[0] == pytest.approx(4.0**power, rel=1e-9)

@@ -1,7 +1,7 @@
 """What may be the cause: the effects, found in their folder, and the faults of the measurement."""
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -104,12 +104,16 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
     return [f.start + sign * share * side for share in SHARES for sign, side in sides]
 
 
-def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float]) -> tuple[float, dict[str, float]]:
+def best_start(
+    problems: Sequence[Problem], candidate: Candidate, fixed: Sequence[Mapping[str, float]]
+) -> tuple[float, dict[str, float]]:
     """The point that explains the cases best, and their sum of squares there; one strength after another joins.
+
+    `fixed` holds the other values in each of the problems.
 
     The zero of the load cell goes along: at the one of the model without the cause a residual spring would start as a loss.
     """
-    zero = nuisances(problem)[0]
+    zeros = [nuisances(problem)[0] for problem in problems]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength][:SHAPES]
     best, low = {f.name: f.start for f in candidate.free}, np.inf
@@ -119,7 +123,11 @@ def best_start(problem: Problem, candidate: Candidate, fixed: Mapping[str, float
         others = itertools.product(*(grids[name] for name in shapes)) if len(left) == len(candidate.strength) else [()]
         some = [dict(zip(shapes, other, strict=False)) for other in others]
         points = [best | {name: x} | shape for name in left for x in grids[name] for shape in some]
-        scores = problem.costs([{**fixed, **point} for point in points], zero)
+        costs = [
+            problem.costs([{**values, **point} for point in points], zero)
+            for problem, values, zero in zip(problems, fixed, zeros, strict=True)
+        ]
+        scores = [sum(some) for some in zip(*costs, strict=True)]
         if min(scores) >= low:
             break
         point, low = points[int(np.argmin(scores))], min(scores)

@@ -107,21 +107,20 @@ class Selector:
             found |= {f.name: f for f in wanted}
         return [Free(name, min(max(values.get(name, f.start), f.low), f.high), f.low, f.high) for name, f in found.items()]
 
-    def beginning(self, current: Option, name: str) -> tuple[float, list[dict[str, float]]]:
-        """Where a further cause begins in every fold, and the sum of squares there."""
-        if name == RECALIBRATE:
-            return 0.0, [{} for _ in self.folds]
-        found = [
-            best_start(fold.fitted, self.candidates[name], fit.values)
-            for fold, fit in zip(self.folds, current.fits, strict=True)
-        ]
-        return sum(low for low, _ in found), [point for _, point in found]
+    def beginning(self, current: Option, name: str) -> tuple[float, dict[str, float]]:
+        """Where a further cause begins in all folds, and the sum of squares there.
 
-    def extended(self, current: Option, name: str, begin: Sequence[Mapping[str, float]] | None = None) -> Option:
+        From places of their own the folds may end in different laws, of which only one holds for the others' records.
+        """
+        if name == RECALIBRATE:
+            return 0.0, {}
+        return best_start([fold.fitted for fold in self.folds], self.candidates[name], [fit.values for fit in current.fits])
+
+    def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
         """The current model with one more cause, from its best start where no other is given."""
-        points = self.beginning(current, name)[1] if begin is None else begin
+        point = self.beginning(current, name)[1] if begin is None else begin
         names = [*current.names, name]
-        frees = [self.free(names, {**fit.values, **point}) for fit, point in zip(current.fits, points, strict=True)]
+        frees = [self.free(names, {**fit.values, **point}) for fit in current.fits]
         return self.option(names, frees)
 
     def refitted(self, option: Option) -> Fit:
