@@ -1,7 +1,7 @@
 """A virtual damper rig with physics of its own: the truth that is not the model of `twintube`.
 
 Pressures from oil and gas masses, turbulent orifices, check and blow-off valves, bubbles, Henry's law, oil temperature.
-Only the dampers' dimensions come from `twintube.parameters`; no equation does.
+Nothing comes from `twintube`, no equation and no value, so that it can contradict that model; both use published dimensions.
 """
 
 from virtual_rig.damper import VirtualDamper, virtual_damper

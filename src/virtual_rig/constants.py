@@ -29,7 +29,7 @@ class Constants(NamedTuple):
     rod_guide: float  # [m2] gap from the rebound chamber to the reserve
     guide_gap: float  # [m3/(Pa s)] laminar gap around the rod at 25 degC
     piston_gap: float  # [m3/(Pa s)] laminar leak past the piston at 25 degC
-    thinning: float  # [1/K] share of viscosity lost per kelvin
+    thinning: float  # [1/K] share of viscosity lost per kelvin at 25 degC
     port: float  # [m] height of oil over which a port changes from oil to gas at rest
     draw: float  # [1] the same under flow, relative to (Q^2/g)^(1/5), the height from which a port draws
     height_1: float  # [m] rebound chamber at stroke 0

@@ -27,6 +27,7 @@ T_0 = 298.15  # [K]
 GAS_DENSITY = 1.17  # [kg/m3] at P_0 and T_0
 P_SMOOTH = 1.0e3  # [Pa] below it an orifice is nearly laminar
 TINY = 1.0e-12  # [m3]
+VOGEL = 95.0  # [degC] of mineral oils in Vogel's law, viscosity ~ exp(B / (T + VOGEL)), after Cameron (remembered)
 
 # States: oil, gas in a pocket above the oil, gas in bubbles, dissolved gas, each in the rebound chamber 0, the compression
 # chamber 1 and the reserve 2; oil on the reserve's walls [m3], oil temperature [degC], bristle deflection [m], energy
@@ -190,7 +191,8 @@ def transfer(
         dragged = c.jet * fast * Q_oil * dry * p_to / P_0 / warm
         dy[BUBBLES + j] += dragged
         dy[POCKET + j] -= dragged
-    return Q * (p - p_to)
+    # Gas is as warm as the oil, so that what it could have done by expanding becomes heat in the course of an oscillation.
+    return Q * (oil * (p - p_to) + (1.0 - oil) * p * math.log(p / p_to))
 
 
 @compiled
@@ -213,7 +215,8 @@ def rates(z: float, v: float, y: Array, dy: Array, c: Constants) -> None:
     """Rates `dy` of the states `y` at the stroke z [m] and velocity v [m/s]."""
     dy[:] = 0.0
     p_1, p_2, p_3 = pressures(z, y, c)
-    thin = math.exp(c.thinning * min(max(y[TEMPERATURE] - 25.0, -100.0), 200.0))
+    warmer = min(max(y[TEMPERATURE] - 25.0, -80.0), 200.0)
+    thin = math.exp(c.thinning * warmer / (1.0 + warmer / (25.0 + VOGEL)))
     gap = c.piston_gap * thin
     if p_1 > p_2:
         area = c.piston_bleed + blow_off(p_1 - p_2, c.piston_crack, c.piston_opening)

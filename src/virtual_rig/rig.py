@@ -128,7 +128,7 @@ def check(damper: VirtualDamper, time: Array, stroke: Array, oil_level: float, c
         raise ValueError("time and stroke must be arrays of the same length, at least 4")
     if not (np.isfinite(time).all() and np.isfinite(stroke).all() and (np.diff(time) > 0).all()):
         raise ValueError("time must rise, time and stroke must be finite")
-    longest = 0.95 * (damper.h_l - damper.dead_length) / 2
+    longest = 0.95 * damper.half
     if np.abs(stroke).max() > longest:
         raise ValueError(f"stroke {np.abs(stroke).max():.4f} m is beyond the end stops at {longest:.4f} m")
     room = c.V_10 + c.V_20 - (c.A_2 - c.A_1) * np.abs(stroke).max() + 0.95 * c.V_3
