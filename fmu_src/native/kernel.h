@@ -1,4 +1,4 @@
-/* Made by fmu_src/native/translate.py from the Python sources 7a137cea5ab22e31; do not edit. */
+/* Made by fmu_src/native/translate.py from the Python sources 2eba7eed3beec398; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -47,7 +47,7 @@ struct kernel_Parameters {
     int64_t foam_leaves_with_gas;
     int64_t foam_decays;
     int64_t cavitation_foams;
-    int64_t cavitation_needs;
+    double cavitation_loss;
     double F_stop_re;
     double onset_re;
     double F_stop_co;
@@ -59,12 +59,14 @@ struct kernel_Parameters {
     double V_air;
     double tau_fluid;
     double foam_decay_rate;
+    double exhaustion;
     double redissolution_rate;
     double c_residual;
     double F_residual;
     double C_mount;
     double tau_mount;
     double m_rod;
+    double displaced_share;
     double level_error;
     double fade_heat;
     double cooling_time;
@@ -98,6 +100,8 @@ struct kernel_Derived {
     double k_Co2;
     double Y_Co;
     double Y_Re;
+    double cavitation;
+    double displaced;
     int64_t extended;
 };
 
@@ -172,11 +176,26 @@ struct kernel_Flow {
     double k_mean;
 };
 
+/* Cavitation shares of a damper that holds `oil_level` [1] of its oil. */
+static void kernel_cavitate(struct kernel_Parameters* p, struct kernel_Derived* d, double oil_level)
+{
+    double loss;
+    /* Section 3.2: the force falls from oscillation to oscillation when the damper "contains less than 100 % oil". Beside the */
+    /* preload it takes gas in the place of oil: in proportion to the loss, in full from `cavitation_loss` on. */
+    d->cavitation = 0.0;
+    if (p->gas_preload == 0)
+    {
+        loss = 1.0 - oil_level;
+        d->cavitation = (loss >= p->cavitation_loss ? 1.0 : loss / p->cavitation_loss);
+    }
+    d->Y_Co = d->cavitation * p->Y_Co_cav;
+    d->Y_Re = d->cavitation * p->Y_Re_cav;
+}
+
 /* Fill `d` from `p`; to be called again after a parameter has changed. */
 static void kernel_prepare(struct kernel_Parameters* p, struct kernel_Derived* d)
 {
     double lost;
-    bool quiet;
     double a;
     d->A_rod = 0.25 * M_PI * p->D_PR * p->D_PR;
     d->A_2 = 0.25 * M_PI * p->D_li * p->D_li;
@@ -187,10 +206,8 @@ static void kernel_prepare(struct kernel_Parameters* p, struct kernel_Derived* d
     d->F_FrS = p->F_FrS * (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
     d->F_0 = p->gas_preload * p->F_0;
     d->c_gas = p->gas_preload * p->c_gas + lost * p->c_gas_lost;
-    /* Section 3.2: the force falls from oscillation to oscillation when the damper "contains less than 100 % oil". */
-    quiet = ((p->cavitation_needs >= 1) && (p->gas_preload == 1)) || ((p->cavitation_needs == 2) && (p->oil_level >= 1.0));
-    d->Y_Co = (quiet ? 0.0 : p->Y_Co_cav);
-    d->Y_Re = (quiet ? 0.0 : p->Y_Re_cav);
+    d->displaced = 0.0;
+    kernel_cavitate(p, d, p->oil_level);
     /* Eq. 22: W_kPV reaches its target within one step. Reading B adds the leak to the flow; the force stays X_Re. */
     d->W_kPV = (1.0 - p->L_PV) * p->X_Re + p->leak_carries_oil * p->L_PV;
     a = d->A_1 / d->A_2;
@@ -216,6 +233,10 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
+    if (p->exhaustion != 0.0)
+    {
+        return 1;
+    }
     if (p->redissolution_rate != 0.0)
     {
         return 1;
@@ -225,6 +246,10 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
         return 1;
     }
     if (p->C_mount != 0.0)
+    {
+        return 1;
+    }
+    if (p->displaced_share != 0.0)
     {
         return 1;
     }
@@ -259,26 +284,30 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     return 0;
 }
 
+/* Hand the share to the kernel's flows. */
+static void kernel_oil_displacement_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
+{
+    d->displaced = p->displaced_share;
+}
+
 /* The true level [1]. */
 static double kernel_oil_level_error_level(struct kernel_Parameters* p, double level)
 {
     return (p->gas_preload == 0 ? double_max(2, 0.0, double_min(2, 1.0, level + p->level_error)) : level);
 }
 
-/* Cavitation needs oil lost (reading 2): of the true level, not of the recorded one. */
+/* Cavitation goes with the oil that is truly lost. */
 static void kernel_oil_level_error_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
 {
-    bool lost;
-    if ((p->gas_preload == 0) && (p->cavitation_needs == 2))
-    {
-        lost = kernel_oil_level_error_level(p, p->oil_level) < 1.0;
-        d->Y_Co = (lost ? p->Y_Co_cav : 0.0);
-        d->Y_Re = (lost ? p->Y_Re_cav : 0.0);
-    }
+    kernel_cavitate(p, d, kernel_oil_level_error_level(p, p->oil_level));
 }
 
 static void kernel_effects_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
 {
+    if (p->displaced_share != 0.0)
+    {
+        kernel_oil_displacement_derive(p, d);
+    }
     if (p->level_error != 0.0)
     {
         kernel_oil_level_error_derive(p, d);
@@ -464,6 +493,17 @@ static int64_t kernel_effects_parts(struct kernel_Parameters* p, double dt)
         value = int64_t_max(2, value, kernel_mount_compliance_parts(p, dt));
     }
     return value;
+}
+
+/* Weaken the cavitation of this step by the gas that is free already. */
+static void kernel_gas_exhaustion_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
+{
+    double oil;
+    double left;
+    oil = s->V1_oil + s->V1_foam_oil + s->V2_oil + s->V2_foam_oil + s->V3_oil + s->V3_foam_oil + s->V_cav;
+    left = (oil > 0.0 ? double_max(2, 0.0, 1.0 - p->exhaustion * s->V_cav / oil) : 0.0);
+    d->Y_Co = left * d->cavitation * p->Y_Co_cav;
+    d->Y_Re = left * d->cavitation * p->Y_Re_cav;
 }
 
 /* Force [N] of one branch of the F-v curve at the speed `v` >= 0 [m/s]; the last segment goes on beyond it. */
@@ -757,6 +797,10 @@ static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct k
 
 static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
 {
+    if (p->exhaustion != 0.0)
+    {
+        kernel_gas_exhaustion_motion(p, d, s, z, v0, v1, dt);
+    }
     if (p->C_mount != 0.0)
     {
         kernel_mount_compliance_motion(p, d, s, z, v0, v1, dt);
@@ -904,7 +948,7 @@ static double kernel_share_above(double v0, double v1, double threshold)
 /* The three forces of equation 1 at the state `s`; `F_potential` is the intact fluid force [N] at `v` [m/s]. */
 static void kernel_set_forces(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double F_potential, double v)
 {
-    /* Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr */
+    /* Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr; the paper's F_S is a slope, the force F_0 at stroke 0 is added here */
     s->F_gas = d->c_gas * s->z - d->F_0;
     s->F_friction = kernel_stribeck(p, v) * s->F_D;
     s->F_fluid = F_potential * s->k_degr;
@@ -933,6 +977,9 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
     double gas;
     double foam;
     double foam_oil;
+    double freed;
+    double displaced;
+    double supply;
     double frothed;
     double drawn;
     /* Piston valve: what leaves V1 over the area A_1 (Eq. 6, 8, 11) */
@@ -954,7 +1001,7 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
             /* Eq. 14: W_kPV is the oil flow relative to the intact one, which is A_1 */
             oil = d->W_kPV * d->A_1;
             gas = d->A_1 - oil;
-            /* Eq. 25 */
+            /* Eq. 25; to the letter it holds beside foam too, which is foam_leaves_with_gas = 0 */
             f->k_degr = p->X_Re;
         }
         else
@@ -967,7 +1014,7 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
     else if (s->V1_foam > 0.0)
     {
         foam = d->A_1;
-        /* Eq. 37, 38: with oil in V1 or without, the foam leaves first */
+        /* Eq. 37, 38: with oil in V1 or without, the foam leaves first; foam that exists acts below 0.05 m/s as well */
         f->k_degr = kernel_foam_factor(p, s->V1_foam_oil, s->V1_foam);
     }
     else
@@ -985,10 +1032,13 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
     f->V1_foam = -foam;
     f->V1_foam_oil = -foam_oil;
     /* What arrives in V2: cavitation frees gas from the oil, and foam beside oil separates. */
-    f->cavitated = cavitating * d->Y_Re * oil;
+    freed = cavitating * d->Y_Re * oil;
+    /* Beyond the paper: of the oil that gives way to the gas the share d.displaced stays in the reserve and is not lost. */
+    displaced = d->displaced * freed;
+    f->cavitated = freed - displaced;
     /* Eq. 40 */
-    gas += f->cavitated;
-    /* Eq. 41 */
+    gas += freed;
+    /* Eq. 41; with 14 to the letter k would be 1 - Y while cavitating, here the force falls by what follows from the gas */
     oil -= f->cavitated;
     if ((foam > 0.0) && (p->foam_decays > 0) && (s->V1_oil > 0.0))
     {
@@ -998,31 +1048,32 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
         foam_oil = 0.0;
     }
     /* Bottom valve: V3 gives the rod's volume (Eq. 10, 12): oil, then foam, then gas */
+    supply = d->A_rod - displaced;
     f->V3_oil = 0.0;
     f->V3_foam = 0.0;
     f->V3_foam_oil = 0.0;
-    if (s->V3_oil > 0.0)
+    if ((s->V3_oil > 0.0) || (supply < 0.0))
     {
-        f->V3_oil = -d->A_rod;
-        oil += d->A_rod;
+        f->V3_oil = -supply;
+        oil += supply;
     }
     else if (s->V3_foam > 0.0)
     {
-        f->V3_foam = -d->A_rod;
-        f->V3_foam_oil = (-d->A_rod) * s->V3_foam_oil / s->V3_foam;
-        foam += d->A_rod;
+        f->V3_foam = -supply;
+        f->V3_foam_oil = (-supply) * s->V3_foam_oil / s->V3_foam;
+        foam += supply;
         foam_oil -= f->V3_foam_oil;
     }
     else if ((foaming > 0.0) && (p->S_BV > 0.0) && ((s->V2_oil > 0.0) || (oil > 0.0)))
     {
-        frothed = foaming * p->S_BV * d->A_rod;
+        frothed = foaming * p->S_BV * supply;
         drawn = p->S_BVoil * frothed;
         if ((s->V2_oil <= 0.0) && (drawn > oil))
         {
             frothed *= oil / drawn;
             drawn = oil;
         }
-        gas += d->A_rod - frothed;
+        gas += supply - frothed;
         oil -= drawn;
         foam += frothed + drawn;
         foam_oil += drawn;
@@ -1031,9 +1082,9 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
     {
         /* Eq. 30, 32, 33: the foam takes S of the gas flow and S_oil per volume of that gas from V2's oil */
         /* Eq. 31, 34 */
-        gas += d->A_rod;
+        gas += supply;
     }
-    /* Eq. 7, 9, 26; mixing of foams (Eq. 35) is the sum of the oil they hold */
+    /* Eq. 7, 9; mixing of foams (Eq. 35) is the sum of the oil they hold */
     f->V2_oil = oil;
     f->V2_gas = gas;
     f->V2_foam = foam;
@@ -1077,6 +1128,7 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
     double piston;
     double bottom;
     double venting;
+    double freed;
     double oil;
     double share;
     double kept;
@@ -1101,13 +1153,15 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
     }
     else
     {
-        /* Eq. 19: V1 and V2 without gas, the flows and the force of the intact damper */
+        /* Eq. 19: V1 and V2 without gas, the flows and the force of the intact damper. Eq. 26, a fixed share G_PV of the */
+        /* outflow through the piston valve, conflicts with 28 and is not used; in 29 the condition of foam in V2 is dropped. */
         venting = (s->V1_gas > 0.0 ? 1.0 : kernel_vented_share(p, d, as_foam, foaming, cavitating));
         /* While V1 holds gas the flows are those of Eq. 28, 29, and the surplus drives the gas out. */
         bottom = d->A_rod + venting * (d->W_kBV_2 * d->A_2 - d->A_rod);
         piston = d->A_2 - bottom;
         f->k_degr = 1.0 + venting * (d->k_Co2 - 1.0);
         /* Eq. 40, 41 */
+        /* Beyond the paper: the share d.displaced of that oil goes through the bottom valve instead and is not lost. */
     }
     f->V2_gas = -gas;
     f->V2_oil = 0.0;
@@ -1119,6 +1173,7 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
     f->V1_foam = 0.0;
     f->V1_foam_oil = 0.0;
     f->cavitated = 0.0;
+    freed = 0.0;
     oil = 0.0;
     if (as_foam)
     {
@@ -1135,12 +1190,14 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
     {
         f->V2_oil = -(bottom + piston);
         f->V3_oil = bottom;
-        f->cavitated = cavitating * d->Y_Co * piston;
-        oil = piston - f->cavitated;
+        freed = cavitating * d->Y_Co * piston;
+        oil = piston - freed;
+        f->V3_oil += d->displaced * freed;
+        f->cavitated = freed - d->displaced * freed;
     }
     /* V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13). */
-    kept = d->A_1 + f->cavitated - piston;
-    foamable = gas + p->cavitation_foams * f->cavitated;
+    kept = d->A_1 + freed - piston;
+    foamable = gas + p->cavitation_foams * freed;
     if ((foaming > 0.0) && (p->S_PV > 0.0) && (foamable > 0.0) && ((s->V1_oil > 0.0) || (oil > 0.0)))
     {
         frothed = foaming * p->S_PV * foamable;

@@ -146,8 +146,8 @@ class Parameters:
                            upper=1, integer=True, source="open choice 5", default=1)
     cavitation_foams: int = var("reading", "", "1", "1: gas freed by cavitation foams as S_PV says", lower=0, upper=1,
                                 integer=True, source="equation 40 beside 30", default=0)
-    cavitation_needs: int = var("reading", "", "1", "cavitation needs 2: oil and preload lost, 1: preload lost, 0: nothing",
-                                lower=0, upper=2, integer=True, source="open choice 3", default=2)
+    cavitation_loss: float = var("reading", "", "1", "oil loss from which cavitation acts in full, below it in proportion",
+                                 lower=0, upper=1, source="open choice 3", default=0.2)
 
 
 @dataclass(slots=True)
@@ -199,6 +199,8 @@ class Derived:
     k_Co2: float = var("derived", "k_degr", "1", "k_degr in compression, V2 full, V1 not", source="equation 29", default=0.0)
     Y_Co: float = var("derived", "Y_Co", "1", "cavitation share in compression in this condition", default=0.0)
     Y_Re: float = var("derived", "Y_Re", "1", "cavitation share in rebound in this condition", default=0.0)
+    cavitation: float = var("derived", "", "1", "share of the cavitation that the oil loss brings", default=0.0)
+    displaced: float = var("derived", "", "1", "share of the oil that freed gas pushes into the reserve", default=0.0)
     extended: int = var("derived", "", "1", "1: an effect beyond the paper's model acts", integer=True, default=0)
 
 

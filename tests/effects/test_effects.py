@@ -58,9 +58,9 @@ def test_names_in_the_fmu_are_unique() -> None:
 
 
 def test_nothing_else_names_an_effect() -> None:
-    """`gas_spring` is a group of the paper's model too."""
+    """`gas_spring` is a group of the paper's model too; a closure is made of effects."""
     for path in SRC.rglob("*.py"):
-        if path.parent.name == "effects" and path.stem in EFFECTS:
+        if (path.parent.name == "effects" and path.stem in EFFECTS) or path.name == "closures.py":
             continue
         text = path.read_text(encoding="utf-8")
         for name, effect in EFFECTS.items():
@@ -195,7 +195,7 @@ def test_steps_of_1_and_a_tenth_of_a_millisecond_agree_in_work(sa8: Damper, velo
 
 def test_a_rest_may_be_one_step_or_many(sa8: Damper, active: dict[str, Any]) -> None:
     damper = sa8.with_(**active)
-    block = harmonic_block(1.048, dt=1e-3)
+    block = harmonic_block(1.048, dt=1e-3, start="rebound")
     end = block.marks[3]
     z, v, t = block.stroke[:end], block.velocity[:end], block.time[:end]
     forces = []
@@ -208,8 +208,8 @@ def test_a_rest_may_be_one_step_or_many(sa8: Damper, active: dict[str, Any]) -> 
             np.concatenate([v, np.zeros(count + 1), np.full(300, 0.3)]),
             np.concatenate([t, [t[-1] + 0.05], pause, pause[-1] + 1e-3 + np.linspace(0, 0.1, 300)]),
         )
-        # Over the first millimetre a trace of gas of rounding size decides how fast the force comes.
-        forces.append(result.force[-290:])
+        # Over the first two millimetres a trace of gas of rounding size decides how fast the force comes.
+        forces.append(result.force[-280:])
     assert np.abs(forces[0] - forces[1]).max() <= 0.01 * np.abs(forces[0]).max()
 
 

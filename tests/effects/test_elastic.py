@@ -35,7 +35,7 @@ def test_stops_push_back_beyond_their_onset_only(sa8: Damper) -> None:
 @pytest.mark.parametrize(("power", "loss"), [(1.5, 0.15), (1.0, 0.0), (2.0, 0.3)])
 def test_rubber_loses_a_share_of_what_it_takes(sa8: Damper, power: float, loss: float) -> None:
     """Over one press and release: twice that share of the work stored, the integral of F_stop x^power."""
-    block = harmonic_block(0.131)
+    block = harmonic_block(0.131, start="rebound")
     F_stop, onset = 800.0, 0.03
     stop = {"F_stop_re": F_stop, "onset_re": onset, "power_stop": power, "loss_stop": loss}
     plain, stopped = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(**stop)))

@@ -11,10 +11,11 @@ from typer.testing import CliRunner
 
 import build_fmu
 from twintube import model
-from twintube.drive import CORNERS, drive
 from twintube.effects import EFFECTS, State
 from twintube.parameters import Damper, to_toml
 from twintube.variables import Derived, Flow, blank
+from twintube.vehicle.cars import load_car
+from twintube.vehicle.drive import drive
 from vehicle_demo.damper_fmu import DamperFmu
 
 
@@ -48,6 +49,6 @@ def test_extended_fmu_is_the_model_to_the_bit(sa8: Damper, everything: dict[str,
 
 def test_quarter_car_with_every_effect(sa8: Damper, everything: dict[str, Any]) -> None:
     road = 0.01 * np.sin(np.arange(3000) * 1e-3 * 8)
-    plain, extended = (drive(damper, CORNERS["rear"], road, 1e-3) for damper in (sa8, sa8.with_(**everything)))
+    plain, extended = (drive(damper, load_car().corner(damper), road, 1e-3) for damper in (sa8, sa8.with_(**everything)))
     assert np.all(np.isfinite(extended.force))
     assert np.abs(extended.force - plain.force).max() > 1.0

@@ -33,6 +33,7 @@ def test_harmonic_force_has_the_amplitude_and_phase_of_the_impedance(
 @pytest.mark.parametrize("element", [{"C_mount": 1e-12}, {"C_fluid": 1e-12, "C_fluid_co": 1e-12}])
 def test_a_stiff_element_changes_nothing(sa8: Damper, element: dict[str, Any]) -> None:
     block = harmonic_block(0.524, dt=2e-4, rest=5.0)
+    sa8 = sa8.with_(dead_length=0.11)  # full chambers: where a phase runs out, the force jumps a part of a step later
     plain = simulate(sa8, block.stroke, block.velocity).force
     stiff = simulate(sa8.with_(**element), block.stroke, block.velocity, block.time).force
     assert np.sqrt(np.mean((stiff - plain) ** 2)) < 0.005 * np.sqrt(np.mean(plain**2))

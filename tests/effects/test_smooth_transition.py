@@ -16,7 +16,7 @@ from twintube.variables import Derived, Flow, blank
 @pytest.mark.parametrize("steps", [1, 7])
 def test_step_becomes_an_exponential(steps: int) -> None:
     """As tests/kernel/test_limits.py: with X_Re = 0 k_degr steps from 0 to 1 when V1 has no gas left."""
-    p = load("SA7").with_(oil_level=0.35, gas_preload=0, build_up=0.01).parameters
+    p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01).parameters
     d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)
@@ -51,7 +51,7 @@ def test_k_stays_between_its_values(sa8: Damper) -> None:
 
 
 def test_part_of_the_rise_comes_before_the_gas_has_run_out() -> None:
-    p = load("SA7").with_(oil_level=0.35, gas_preload=0, build_up=0.01, early_share=0.5).parameters
+    p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01, early_share=0.5).parameters
     d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)
@@ -69,7 +69,7 @@ def test_part_of_the_rise_comes_before_the_gas_has_run_out() -> None:
 def test_a_time_instead_of_a_length() -> None:
     """What is missing after the gas has run out fades with the time, whatever the velocity."""
     for velocity in (0.02, 0.05):
-        p = load("SA7").with_(oil_level=0.35, gas_preload=0, tau_build=0.01).parameters
+        p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, tau_build=0.01).parameters
         d, s, f = blank(Derived), blank(State), blank(Flow)
         model.set_up(p, d)
         model.start(p, d, s, 0.0)
@@ -83,7 +83,7 @@ def test_a_time_instead_of_a_length() -> None:
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_what_outlasts_a_reversal_fades_over_the_same_length(share: float) -> None:
     """In rebound all force, then compression into the gas, where the paper has none."""
-    p = load("SA7").with_(oil_level=0.35, gas_preload=0, build_up=0.01, carry_over=share).parameters
+    p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01, carry_over=share).parameters
     d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)

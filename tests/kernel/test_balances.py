@@ -34,7 +34,7 @@ def dampers(draw: st.DrawFn, cavitating: bool) -> Parameters:
         v_cav=draw(st.floats(0, 1.5)),
         oil_level=draw(st.one_of(UNIT, st.sampled_from([0.0, 0.4, 0.999]))),
         gas_preload=draw(st.integers(0, 1)),
-        cavitation_needs=draw(st.integers(0, 2)),
+        cavitation_loss=draw(st.one_of(UNIT, st.sampled_from([0.0, 0.1]))),
     )
 
 
@@ -59,9 +59,10 @@ PHASES = ("V1_oil", "V1_gas", "V1_foam", "V1_foam_oil", "V2_oil", "V2_gas", "V2_
           "V3_foam_oil", "V_cav")  # fmt: skip
 
 
-def run(p: Parameters, motion: list[tuple[float, float, float]]) -> tuple[list[float], State]:
+def run(p: Parameters, motion: list[tuple[float, float, float]], displaced: float = 0.0) -> tuple[list[float], State]:
     d, s, f = blank(Derived), blank(State), blank(Flow)
     prepare(p, d)
+    d.displaced = displaced
     limit = stroke_limit(d)
     fill(p, d, s, motion[0][0] * limit)
     start = oil_of(s)
@@ -99,6 +100,17 @@ def test_oil_falls_by_cavitation_alone(p: Parameters, motion: list[tuple[float, 
     totals, s = run(p, motion)
     assert abs(totals[0] - totals[-1] - s.V_cav) <= 1e-12 * p.V_oil
     assert all(after <= before + 1e-12 * p.V_oil for before, after in zip(totals, totals[1:], strict=False))
+
+
+@given(dampers(cavitating=True), motions(), st.one_of(UNIT, st.just(1.0)))
+@settings(max_examples=200, deadline=None)
+def test_displaced_oil_stays_in_the_damper(
+    p: Parameters, motion: list[tuple[float, float, float]], displaced: float
+) -> None:
+    totals, s = run(p, motion, displaced)
+    assert abs(totals[0] - totals[-1] - s.V_cav) <= 1e-12 * p.V_oil
+    if displaced == 1.0:
+        assert s.V_cav == 0.0
 
 
 @given(dampers(cavitating=True), motions())

@@ -7,6 +7,7 @@ the fill.
 from dataclasses import dataclass
 
 from twintube import variables
+from twintube.kernel.prepare import cavitate
 from twintube.variables import Derived, var
 
 TITLE = "The recorded fill is wrong"
@@ -33,8 +34,5 @@ def oil_level_error_level(p: Parameters, level: float) -> float:
 
 
 def oil_level_error_derive(p: Parameters, d: Derived) -> None:
-    """Cavitation needs oil lost (reading 2): of the true level, not of the recorded one."""
-    if p.gas_preload == 0 and p.cavitation_needs == 2:
-        lost = oil_level_error_level(p, p.oil_level) < 1.0
-        d.Y_Co = p.Y_Co_cav if lost else 0.0
-        d.Y_Re = p.Y_Re_cav if lost else 0.0
+    """Cavitation goes with the oil that is truly lost."""
+    cavitate(p, d, oil_level_error_level(p, p.oil_level))

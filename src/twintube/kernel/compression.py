@@ -22,7 +22,8 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
             f.k_degr = p.X_Co1
         gas = d.A_2 - bottom
     else:
-        # Eq. 19: V1 and V2 without gas, the flows and the force of the intact damper
+        # Eq. 19: V1 and V2 without gas, the flows and the force of the intact damper. Eq. 26, a fixed share G_PV of the
+        # outflow through the piston valve, conflicts with 28 and is not used; in 29 the condition of foam in V2 is dropped.
         venting = 1.0 if s.V1_gas > 0.0 else vented_share(p, d, as_foam, foaming, cavitating)
         # While V1 holds gas the flows are those of Eq. 28, 29, and the surplus drives the gas out.
         bottom = d.A_rod + venting * (d.W_kBV_2 * d.A_2 - d.A_rod)
@@ -39,6 +40,7 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
     f.V1_foam = 0.0
     f.V1_foam_oil = 0.0
     f.cavitated = 0.0
+    freed = 0.0
     oil = 0.0
     if as_foam:
         share = s.V2_foam_oil / s.V2_foam
@@ -53,12 +55,15 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
         f.V2_oil = -(bottom + piston)
         f.V3_oil = bottom
         # Eq. 40, 41
-        f.cavitated = cavitating * d.Y_Co * piston
-        oil = piston - f.cavitated
+        freed = cavitating * d.Y_Co * piston
+        oil = piston - freed
+        # Beyond the paper: the share d.displaced of that oil goes through the bottom valve instead and is not lost.
+        f.V3_oil += d.displaced * freed
+        f.cavitated = freed - d.displaced * freed
 
     # V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13).
-    kept = d.A_1 + f.cavitated - piston
-    foamable = gas + p.cavitation_foams * f.cavitated
+    kept = d.A_1 + freed - piston
+    foamable = gas + p.cavitation_foams * freed
     if foaming > 0.0 and p.S_PV > 0.0 and foamable > 0.0 and (s.V1_oil > 0.0 or oil > 0.0):
         frothed = foaming * p.S_PV * foamable
         if s.V1_gas <= 0.0 and frothed > kept:

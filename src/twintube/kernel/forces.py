@@ -72,7 +72,7 @@ def share_above(v0: float, v1: float, threshold: float) -> float:
 
 def set_forces(p: Parameters, d: Derived, s: State, F_potential: float, v: float) -> None:
     """The three forces of equation 1 at the state `s`; `F_potential` is the intact fluid force [N] at `v` [m/s]."""
-    # Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr
+    # Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr; the paper's F_S is a slope, the force F_0 at stroke 0 is added here
     s.F_gas = d.c_gas * s.z - d.F_0
     s.F_friction = stribeck(p, v) * s.F_D
     s.F_fluid = F_potential * s.k_degr

@@ -17,10 +17,8 @@ def prepare(p: Parameters, d: Derived) -> None:
     d.F_FrS = p.F_FrS * (1.0 + p.oil_loss_gain * (1.0 - p.oil_level))
     d.F_0 = p.gas_preload * p.F_0
     d.c_gas = p.gas_preload * p.c_gas + lost * p.c_gas_lost
-    # Section 3.2: the force falls from oscillation to oscillation when the damper "contains less than 100 % oil".
-    quiet = (p.cavitation_needs >= 1 and p.gas_preload == 1) or (p.cavitation_needs == 2 and p.oil_level >= 1.0)
-    d.Y_Co = 0.0 if quiet else p.Y_Co_cav
-    d.Y_Re = 0.0 if quiet else p.Y_Re_cav
+    d.displaced = 0.0
+    cavitate(p, d, p.oil_level)
 
     # Eq. 22: W_kPV reaches its target within one step. Reading B adds the leak to the flow; the force stays X_Re.
     d.W_kPV = (1.0 - p.L_PV) * p.X_Re + p.leak_carries_oil * p.L_PV
@@ -31,6 +29,18 @@ def prepare(p: Parameters, d: Derived) -> None:
     d.W_kBV_2 = (1.0 - a) * p.X_Co2
     # Eq. 29: W_kBV/(1 - a) + G_PV ((1 - W_kBV) - a)/(1 - a), free of 0/0 where a is 1
     d.k_Co2 = p.X_Co2 + p.G_PV * (1.0 - p.X_Co2)
+
+
+def cavitate(p: Parameters, d: Derived, oil_level: float) -> None:
+    """Cavitation shares of a damper that holds `oil_level` [1] of its oil."""
+    # Section 3.2: the force falls from oscillation to oscillation when the damper "contains less than 100 % oil". Beside the
+    # preload it takes gas in the place of oil: in proportion to the loss, in full from `cavitation_loss` on.
+    d.cavitation = 0.0
+    if p.gas_preload == 0:
+        loss = 1.0 - oil_level
+        d.cavitation = 1.0 if loss >= p.cavitation_loss else loss / p.cavitation_loss
+    d.Y_Co = d.cavitation * p.Y_Co_cav
+    d.Y_Re = d.cavitation * p.Y_Re_cav
 
 
 def fill(p: Parameters, d: Derived, s: State, z: float) -> None:

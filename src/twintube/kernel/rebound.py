@@ -24,7 +24,7 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
             # Eq. 14: W_kPV is the oil flow relative to the intact one, which is A_1
             oil = d.W_kPV * d.A_1
             gas = d.A_1 - oil
-            # Eq. 25
+            # Eq. 25; to the letter it holds beside foam too, which is foam_leaves_with_gas = 0
             f.k_degr = p.X_Re
         else:
             gas = d.A_1
@@ -32,7 +32,7 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
             f.k_degr = 0.0
     elif s.V1_foam > 0.0:
         foam = d.A_1
-        # Eq. 37, 38: with oil in V1 or without, the foam leaves first
+        # Eq. 37, 38: with oil in V1 or without, the foam leaves first; foam that exists acts below 0.05 m/s as well
         f.k_degr = foam_factor(p, s.V1_foam_oil, s.V1_foam)
     else:
         oil = d.A_1
@@ -46,10 +46,13 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
     f.V1_foam_oil = -foam_oil
 
     # What arrives in V2: cavitation frees gas from the oil, and foam beside oil separates.
-    f.cavitated = cavitating * d.Y_Re * oil
+    freed = cavitating * d.Y_Re * oil
+    # Beyond the paper: of the oil that gives way to the gas the share d.displaced stays in the reserve and is not lost.
+    displaced = d.displaced * freed
+    f.cavitated = freed - displaced
     # Eq. 40
-    gas += f.cavitated
-    # Eq. 41
+    gas += freed
+    # Eq. 41; with 14 to the letter k would be 1 - Y while cavitating, here the force falls by what follows from the gas
     oil -= f.cavitated
     if foam > 0.0 and p.foam_decays > 0 and s.V1_oil > 0.0:
         oil += foam_oil
@@ -58,33 +61,34 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
         foam_oil = 0.0
 
     # Bottom valve: V3 gives the rod's volume (Eq. 10, 12): oil, then foam, then gas
+    supply = d.A_rod - displaced
     f.V3_oil = 0.0
     f.V3_foam = 0.0
     f.V3_foam_oil = 0.0
-    if s.V3_oil > 0.0:
-        f.V3_oil = -d.A_rod
-        oil += d.A_rod
+    if s.V3_oil > 0.0 or supply < 0.0:
+        f.V3_oil = -supply
+        oil += supply
     elif s.V3_foam > 0.0:
-        f.V3_foam = -d.A_rod
-        f.V3_foam_oil = -d.A_rod * s.V3_foam_oil / s.V3_foam
-        foam += d.A_rod
+        f.V3_foam = -supply
+        f.V3_foam_oil = -supply * s.V3_foam_oil / s.V3_foam
+        foam += supply
         foam_oil -= f.V3_foam_oil
     elif foaming > 0.0 and p.S_BV > 0.0 and (s.V2_oil > 0.0 or oil > 0.0):
-        frothed = foaming * p.S_BV * d.A_rod
+        frothed = foaming * p.S_BV * supply
         # Eq. 30, 32, 33: the foam takes S of the gas flow and S_oil per volume of that gas from V2's oil
         drawn = p.S_BVoil * frothed
         if s.V2_oil <= 0.0 and drawn > oil:
             frothed *= oil / drawn
             drawn = oil
-        gas += d.A_rod - frothed
+        gas += supply - frothed
         oil -= drawn
         # Eq. 31, 34
         foam += frothed + drawn
         foam_oil += drawn
     else:
-        gas += d.A_rod
+        gas += supply
 
-    # Eq. 7, 9, 26; mixing of foams (Eq. 35) is the sum of the oil they hold
+    # Eq. 7, 9; mixing of foams (Eq. 35) is the sum of the oil they hold
     f.V2_oil = oil
     f.V2_gas = gas
     f.V2_foam = foam
