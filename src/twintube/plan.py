@@ -5,10 +5,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.drive import CORNERS, axle, drive
-from twintube.maneuvers import DT, MANEUVERS, Maneuver, ridden
 from twintube.parameters import Damper
-from twintube.rig import BLOCKS, PRECONDITIONING, V_PRECONDITIONING, Signal, harmonic_block, oscillations
+from twintube.rig import (
+    BLOCKS,
+    OSCILLATIONS,
+    PRECONDITIONING,
+    STARTS,
+    V_PRECONDITIONING,
+    Signal,
+    approach,
+    harmonic_block,
+    joined,
+    oscillations,
+    run_up,
+)
+from twintube.vehicle.cars import axle, load_car
+from twintube.vehicle.drive import drive
+from twintube.vehicle.maneuvers import DT, MANEUVERS, Maneuver, ridden
 
 V_QUASI_STATIC = 1e-3  # [m/s]
 REST = 180.0  # seconds between measurements, at stroke 0
@@ -16,6 +29,14 @@ RAMPS = 2  # full cycles of the quasi-static measurement
 # SA7, SA8 were measured at 17 velocities; which ones is assumed: the eight of the others and those between.
 BLOCKS_17 = (0.05, 0.08, 0.131, 0.196, 0.262, 0.327, 0.393, 0.458, 0.524, 0.655, 0.786, 0.917, 1.048, 1.179, 1.31, 1.441,
              1.572)  # fmt: skip
+
+
+# The measurement that would decide what becomes of the gas that cavitation frees (docs/open_choices.md).
+RECOVERY_SECONDS = 60.0
+RECOVERY_RESTS = (10.0, 30.0, REST)  # [s]
+RECOVERY_LEVELS = (1.0, 0.9)  # oil levels, without preload, beside the measured ones
+ABOVE = (1.2, 1.5)  # velocities of its blocks over v_cav: well above it, no hotter than needed, two to hold one out
+V_RECOVERY = BLOCKS[-2] / ABOVE[0]  # [m/s] v_cav that they are made for at least
 
 
 @dataclass(frozen=True)
@@ -29,8 +50,8 @@ class Measurement:
 
 
 def amplitude(damper: Damper) -> float:
-    """Amplitude [m] of the harmonic blocks: 90 % of the maximum stroke."""
-    return 0.9 * damper.parameters.stroke_max
+    """Amplitude [m] of the harmonic blocks: 90 % of the maximum stroke, or what the parameter set says (Section 2)."""
+    return damper.measured_amplitude or 0.9 * damper.parameters.stroke_max
 
 
 def velocities(damper: Damper) -> tuple[float, ...]:
@@ -57,9 +78,8 @@ def drive_signal(damper: Damper, maneuver: Maneuver, seed: int = 1) -> Signal:
 
     The car's corner is the damper's; the paper measured these strokes, here they are simulated.
     """
-    corner = axle(damper)
-    height, push = ridden(maneuver, corner, seed)
-    run = drive(damper.with_(oil_level=1.0, gas_preload=1), CORNERS[corner], height, DT, push)
+    height, push = ridden(maneuver, axle(damper), seed)
+    run = drive(damper.with_(oil_level=1.0, gas_preload=1), load_car().corner(damper), height, DT, push)
     t0, z0, v0 = oscillations(V_PRECONDITIONING, amplitude(damper), PRECONDITIONING, 2e-3)
     return Signal(
         time=np.concatenate([t0, t0[-1] + DT + run.time]),
@@ -76,3 +96,41 @@ def plan(damper: Damper, seed: int = 1) -> Iterator[Measurement]:
         yield Measurement(2, f"harmonic {v:g} m/s", "harmonic", harmonic_block(v, amplitude(damper)))
     for maneuver in MANEUVERS:
         yield Measurement(maneuver.number, maneuver.name, "stochastic", drive_signal(damper, maneuver, seed))
+
+
+def recovery_velocities(damper: Damper) -> tuple[float, ...]:
+    """Maximum velocities [m/s] of the recovery blocks."""
+    return tuple(share * max(V_RECOVERY, damper.parameters.v_cav) for share in ABOVE)
+
+
+def recovery_signal(damper: Damper, v: float, rest: float, slow: bool) -> Signal:
+    """Preconditioning, a minute at the maximum velocity `v` [m/s], a rest [s], `slow` strokes or none, then 19 oscillations.
+
+    A closure in which the gas dissolves heals at rest, one in which oil is displaced by slow strokes. The marks are those of
+    both blocks' oscillations; the rest lies between two of them.
+    """
+    reach, dt = amplitude(damper), 1e-3
+    count = round(RECOVERY_SECONDS * v / (2 * np.pi * reach))
+    conditioning = oscillations(V_PRECONDITIONING, reach, PRECONDITIONING, 2e-3)
+    lead = run_up(v, reach, dt, STARTS["rebound"])
+    way = approach(0.0, float(lead[1][0]), 2e-3)
+    step = float(lead[0][1] - lead[0][0])
+    long, short = (oscillations(v, reach, n, dt) for n in (count, OSCILLATIONS))
+    again = [conditioning, way] if slow else [way]
+    parts = [conditioning, way, lead, long, *again, lead, short]
+    pauses = [2e-3, 2e-3, step, rest, *[2e-3] * (len(again) - 1), 2e-3, step]
+    time, stroke, speed = joined(parts, pauses)
+    starts = np.cumsum([0, *(len(part[0]) for part in parts)])
+    per = (len(long[0]) - 1) // count
+    marks = [starts[i] + per * np.arange(n + 1) for i, n in ((3, count), (len(parts) - 1, OSCILLATIONS))]
+    return Signal(time, stroke, speed, np.concatenate(marks))
+
+
+def recovery_plan(damper: Damper) -> Iterator[Measurement]:
+    """The measurements that would decide between the closures, each at RECOVERY_LEVELS and the measured levels."""
+    for v in recovery_velocities(damper):
+        for slow in (False, True):
+            for rest in RECOVERY_RESTS:
+                how = "slow strokes" if slow else "nothing moved"
+                name = f"recovery {v:.3g} m/s {rest:g} s {how}"
+                yield Measurement(13, name, "harmonic", recovery_signal(damper, v, rest, slow))

@@ -17,6 +17,11 @@ AMPLITUDE = 0.045  # [m]: given for SA7, SA8; for the others Figure 14 (assumed)
 # velocities of a damper bench, of which 1.572 is one, so that "0.5" is 0.524 and "1" is 1.048.
 BLOCKS = (0.05, 0.131, 0.262, 0.393, 0.524, 0.786, 1.048, 1.572)
 
+# Where the first oscillation of a block begins, as a share of a cycle from the middle into rebound; the paper does not say.
+STARTS = {"rebound": 0.0, "top": 0.25, "compression": 0.5, "bottom": 0.75}
+START = "bottom"
+RUN_UP = 0.05  # cycles over which the rig takes up full velocity in 0.1 of a period: about 90 m/s2 at 1.572 m/s (assumed)
+
 
 @dataclass(frozen=True)
 class Signal:
@@ -28,27 +33,73 @@ class Signal:
     marks: NDArray[np.int64]
 
 
-def oscillations(velocity: float, amplitude: float, count: int, dt: float) -> tuple[Array, Array, Array]:
-    """Time [s], stroke [m] and velocity [m/s] of `count` sinusoidal oscillations, a whole number of samples each."""
+def oscillations(velocity: float, amplitude: float, count: int, dt: float, phase: float = 0.0) -> tuple[Array, Array, Array]:
+    """Time [s], stroke [m] and velocity [m/s] of `count` oscillations, a whole number of samples each.
+
+    `phase` [cycles] is where they begin: 0 in the middle into rebound, 0.25 at the largest stroke.
+    """
     omega = velocity / amplitude
     samples = max(32, round(2 * np.pi / omega / dt))
-    phase = np.arange(count * samples + 1) * (2 * np.pi / samples)
-    return phase / omega, amplitude * np.sin(phase), velocity * np.cos(phase)
+    angle = np.arange(count * samples + 1) * (2 * np.pi / samples)
+    at = angle + 2 * np.pi * phase
+    return angle / omega, amplitude * np.sin(at), velocity * np.cos(at)
+
+
+def run_up(velocity: float, amplitude: float, dt: float, phase: float) -> tuple[Array, Array, Array]:
+    """What brings the piston to an oscillation that begins at `phase` [cycles], as `oscillations`; its end is left out.
+
+    From rest the speed of the phase rises evenly, over RUN_UP cycles; at the ends of the stroke none is needed.
+    """
+    if phase in (0.25, 0.75):
+        return (np.zeros(0),) * 3
+    period = 2 * np.pi * amplitude / velocity
+    duration = 2 * RUN_UP * period
+    share = np.linspace(0.0, 1.0, max(10, int(np.ceil(duration / dt))), endpoint=False)
+    at = 2 * np.pi * (phase + RUN_UP * (share**2 - 1.0))
+    return share * duration, amplitude * np.sin(at), velocity * share * np.cos(at)
+
+
+def approach(begin: float, end: float, dt: float) -> tuple[Array, Array, Array]:
+    """A slow way from the stroke `begin` to `end` [m], half a cosine of at most V_PRECONDITIONING, as `oscillations`."""
+    way = end - begin
+    duration = 0.5 * np.pi * abs(way) / V_PRECONDITIONING
+    time = np.linspace(0.0, duration, max(2, round(duration / dt) + 1))
+    angle = np.pi * time / max(duration, dt)
+    speed = 0.5 * np.pi * way / max(duration, dt)
+    return time, begin + 0.5 * way * (1 - np.cos(angle)), speed * np.sin(angle)
+
+
+def joined(parts: list[tuple[Array, Array, Array]], pauses: list[float]) -> tuple[Array, Array, Array]:
+    """Time [s], stroke [m] and velocity [m/s] of parts one after another, with a pause [s] before each but the first."""
+    time = parts[0][0]
+    for (t, _, _), pause in zip(parts[1:], pauses, strict=True):
+        time = np.concatenate([time, time[-1] + pause + t])
+    return time, np.concatenate([part[1] for part in parts]), np.concatenate([part[2] for part in parts])
 
 
 @lru_cache(maxsize=64)
-def harmonic_block(velocity: float, amplitude: float = AMPLITUDE, dt: float = 5e-4, rest: float = 0.0) -> Signal:
+def harmonic_block(
+    velocity: float,
+    amplitude: float = AMPLITUDE,
+    dt: float = 5e-4,
+    rest: float = 0.0,
+    start: str = START,
+    position: float = 0.0,
+) -> Signal:
     """Six preconditioning oscillations and 19 of the maximum `velocity` [m/s] with steps of at most about `dt` [s].
 
     Between the two the damper rests for one step of `rest` [s], by default `dt`: in the paper's model nothing happens
-    at rest, effects such as the decay of foam ask for its length. The block starts at full velocity, as a sine does.
+    at rest, effects such as the decay of foam ask for its length. `start` is one of STARTS: no rig jumps to full velocity,
+    so that a block from the middle begins with a run-up. `position` [m] is the middle of all strokes, the ride position.
     """
-    t0, z0, v0 = oscillations(V_PRECONDITIONING, amplitude, PRECONDITIONING, max(dt, 2e-3))
-    t, z, v = oscillations(velocity, amplitude, OSCILLATIONS, dt)
-    per = (len(t) - 1) // OSCILLATIONS
-    return Signal(
-        time=np.concatenate([t0, t0[-1] + (rest if rest > 0.0 else dt) + t]),
-        stroke=np.concatenate([z0, z]),
-        velocity=np.concatenate([v0, v]),
-        marks=len(t0) + per * np.arange(OSCILLATIONS + 1),
-    )
+    pause, slow, phase = rest if rest > 0.0 else dt, max(dt, 2e-3), STARTS[start]
+    conditioning = oscillations(V_PRECONDITIONING, amplitude, PRECONDITIONING, slow, phase)
+    block = oscillations(velocity, amplitude, OSCILLATIONS, dt, phase)
+    lead = run_up(velocity, amplitude, dt, phase)
+    parts, pauses = [conditioning, block], [pause]
+    if len(lead[0]):
+        way = approach(float(conditioning[1][-1]), float(lead[1][0]), slow)
+        parts, pauses = [conditioning, way, lead, block], [slow, pause, float(lead[0][1])]
+    time, stroke, speed = joined(parts, pauses)
+    first, per = len(time) - len(block[0]), (len(block[0]) - 1) // OSCILLATIONS
+    return Signal(time, stroke + position, speed, first + per * np.arange(OSCILLATIONS + 1))

@@ -11,11 +11,11 @@ from typer.testing import CliRunner
 from twintube.checks import stroke_limit
 from twintube.cli import app
 from twintube.kernel import prepare
-from twintube.maneuvers import BRAKING, DT, MANEUVERS, SHIFT, ridden
 from twintube.parameters import load, names
 from twintube.plan import Measurement, plan
 from twintube.rig import OSCILLATIONS
 from twintube.variables import Derived, blank
+from twintube.vehicle.maneuvers import BRAKING, DT, MANEUVERS, SHIFT, ridden
 
 
 def signals(name: str) -> list[Measurement]:
@@ -44,10 +44,14 @@ def test_harmonic_blocks_are_the_papers() -> None:
         measured = slice(m.signal.marks[0], m.signal.marks[-1] + 1)
         assert len(m.signal.marks) == OSCILLATIONS + 1
         assert np.abs(m.signal.stroke[measured]).max() == pytest.approx(0.045, rel=1e-3)
-        before = m.signal.velocity[: m.signal.marks[0]]
-        assert np.abs(before).max() == pytest.approx(0.05)
-        crossings = np.count_nonzero(np.diff(np.sign(m.signal.stroke[: m.signal.marks[0]])) > 0)
-        assert crossings == pytest.approx(6, abs=1)
+        slow = np.abs(m.signal.velocity) <= 0.05 * (1 + 1e-9)
+        begin = int(np.argmin(slow)) if not slow.all() else int(m.signal.marks[0])
+        crossings = np.count_nonzero(np.diff(np.sign(m.signal.stroke[:begin])) > 0)
+        assert crossings == pytest.approx(6, abs=2)
+        # No rig jumps: the largest acceleration is that of the sine, or less than twice it in the run-up.
+        top = np.abs(m.signal.velocity).max()
+        rates = np.abs(np.diff(m.signal.velocity)) / np.diff(m.signal.time)
+        assert rates[begin - 1 :].max() < 2 * top**2 / 0.045
 
 
 def test_quasi_static_ramp_is_1_mm_per_second() -> None:
