@@ -1,80 +1,97 @@
-"""The dead lengths of the chambers, which no table gives, from what the paper states about results.
+"""The dead lengths of the chambers, which no table gives, from all claims that speak of a damper.
 
-Done once; its result stands in the parameter sets and is marked as assumed. SA8: the first-oscillation work of C5 and
-C7. SA1 to SA7: C2, read as "the force rises in the middle of the stroke", the least committal reading of Figure 8.
+Done once; the result stands in the parameter sets and is marked as assumed. Each claim gives deviations in units of its
+own tolerance: two-sided where the text has a figure, one-sided where it has a limit, 1 where something is missing
+altogether. Their squares are summed over a grid within physical bounds.
 """
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-import numpy as np
-
-from twintube.checks import problems
+from twintube.claims import fast, levels, slow, variants
+from twintube.claims.claim import BENCH, FRONT, MODEL_ERROR, VISIBLE, Bench
+from twintube.claims.lengths import HIGHEST, SHORTEST, candidates
 from twintube.parameters import Damper, ParameterError
-from twintube.rig import BLOCKS, harmonic_block
-from twintube.simulate import simulate, work_between
 
-GRID = np.arange(0.040, 0.1301, 0.005)  # [m]
-C5_SHORTFALL = 0.25  # of the scalar factor below the first oscillation, Figure 33
-C7_FIRST = 0.65  # work of the first oscillation at 50 % oil and 1.572 m/s, relative to intact, Figure 34
-RAISED = 0.5  # share of the stroke with raised force, C2
+FLAT = 0.05  # misfits closer to the least than this are as good
+SHORTFALL_TOLERANCE = 0.5 * (variants.LONGEST - variants.SHORTEST)
 
 
 @dataclass(frozen=True)
 class Fit:
-    """One candidate dead length [m], the figures it leads to and its misfit (sum of squares)."""
+    """One dead length [m]: its deviations by claim, each in units of the claim's tolerance, and the sum of their squares."""
 
     dead_length: float
-    figures: dict[str, float]
+    deviations: dict[str, float]
     misfit: float
 
 
-def relative_work(damper: Damper, oil_level: float, velocity: float) -> tuple[float, float]:
-    """Work of the 1st and the 19th oscillation relative to the intact damper [1]."""
-    block = harmonic_block(velocity)
-    intact = damper.with_(oil_level=1.0, gas_preload=1)
-    degraded = damper.with_(oil_level=oil_level, gas_preload=0)
-    signal = (block.stroke, block.velocity, block.marks, block.time)
-    ratio = [work_between(state, *signal)[[0, -1]] for state in (degraded, intact)]
-    first, last = ratio[0] / ratio[1]
-    return float(first), float(last)
+@dataclass(frozen=True)
+class Calibration:
+    """All admissible dead lengths [m], those as good as the best one, and the chosen one, in the middle of these."""
+
+    fits: tuple[Fit, ...]
+    range: tuple[float, float]
+    chosen: Fit
 
 
-def raised_share(damper: Damper) -> float:
-    """Share [1] of the stroke at the lowest measured oil level and 0.05 m/s where k_degr is above the mixed flow's."""
-    block = harmonic_block(BLOCKS[0])
-    state = damper.with_(oil_level=damper.measured_levels[-1], gas_preload=0)
-    result = simulate(state, block.stroke, block.velocity, block.time)
-    last = slice(block.marks[-2], block.marks[-1])
-    way = np.abs(np.diff(result.stroke[last]))
-    p = damper.parameters
-    k = result.k_degr[last][1:]
-    mixed = np.where(np.diff(result.stroke[last]) > 0, p.X_Re, p.X_Co1)
-    return float(way[k > mixed + 0.05].sum() / way.sum())
+def beyond(value: float, limit: float, tolerance: float) -> float:
+    """How far a value is above its limit, in tolerances [1]."""
+    return max(0.0, value - limit) / tolerance
 
 
-def figures(damper: Damper) -> tuple[dict[str, float], dict[str, float]]:
-    """The figures that the calibration uses for this damper, and their targets."""
-    if damper.name != "SA8":
-        return {"raised_share": raised_share(damper)}, {"raised_share": RAISED}
-    level = damper.measured_levels[0]
-    shortfall = max(1 - level / relative_work(damper, level, v)[0] for v in BLOCKS)
-    first = relative_work(damper, 0.5, BLOCKS[-1])[0]
-    return {"shortfall": shortfall, "first": first}, {"shortfall": C5_SHORTFALL, "first": C7_FIRST}
+def deviations(damper: Damper, bench: Bench = BENCH) -> dict[str, float]:
+    """How far the damper is from each claim that speaks of it, in tolerances [1]."""
+    low, states = damper.measured_levels[-1], (1.0, *damper.measured_levels)
+    found = {
+        "C1": float(max(slow.apart(damper, level, bench) for level in states) > VISIBLE),
+        "C2": float(sum(not rise.is_there for rise in slow.rises(damper, bench).values())),
+        "C3": max(beyond(fast.growth(damper, low, v, bench), 0.0, MODEL_ERROR) for v in (fast.ONE, fast.TOP)),
+        "C16": len(levels.not_falling(damper, bench)) / levels.comparisons(damper) / MODEL_ERROR,
+    }
+    if damper.name in FRONT:
+        found["C4"] = beyond(fast.drop_at_top(damper, bench), 1.0, MODEL_ERROR)
+    if damper.name == "SA1":
+        found["C3 rise"] = float(sum(late <= early for early, late in fast.rise_way(damper, low, bench).values()))
+    if damper.name in ("SA1", "SA7"):
+        found["C15"] = float(max(slow.steps(damper, bench).values()) < MODEL_ERROR)
+    return found | (of_sa8(damper, bench) if damper.name == "SA8" else {})
 
 
-def calibrate(damper: Damper) -> list[Fit]:
-    """All admissible dead lengths of the grid, best first."""
-    fits = []
-    for dead_length in GRID:
-        try:
-            candidate = damper.with_(dead_length=float(dead_length), oil_level=1.0, gas_preload=1)
-        except ParameterError:
-            continue
-        if problems(candidate.parameters):
-            continue
-        found, targets = figures(candidate)
-        if damper.name == "SA8":  # not part of the misfit: what C9 would ask for
-            found["left_at_40_percent"] = relative_work(candidate, 0.4, BLOCKS[4])[1]
-        misfit = sum((found[name] - targets[name]) ** 2 for name in targets)
-        fits.append(Fit(float(dead_length), found, misfit))
-    return sorted(fits, key=lambda fit: fit.misfit)
+def of_sa8(damper: Damper, bench: Bench) -> dict[str, float]:
+    """The deviations from the claims of Sections 3.4 and 4, which speak of SA8 only."""
+    short = variants.shortfalls(damper, bench)
+    first, last = levels.half_full(damper, bench)
+    table = levels.transition(damper, bench)
+    left = max(levels.left_at_40(table))
+    return {
+        "C5 largest": (max(short) - variants.SHORT) / SHORTFALL_TOLERANCE,
+        "C5 least": beyond(min(short), variants.SHORTEST, SHORTFALL_TOLERANCE),
+        "C5 variants": beyond(variants.ratio(damper, bench), variants.APART, MODEL_ERROR),
+        "C7 first": (first - levels.FIRST) / (levels.FIRST * MODEL_ERROR),
+        "C7 last": beyond(last, levels.ALMOST_ZERO, MODEL_ERROR),
+        "C9 60%": beyond(-min(table["60%"]), -levels.HALF, levels.HALF * MODEL_ERROR),
+        "C9 40%": beyond(left, levels.ALMOST_ZERO, MODEL_ERROR),
+    }
+
+
+def fit(damper: Damper, bench: Bench = BENCH) -> Fit:
+    """The damper's own dead length with its deviations."""
+    found = deviations(damper, bench)
+    return Fit(damper.parameters.dead_length, found, sum(x * x for x in found.values()))
+
+
+def calibrate(damper: Damper, bench: Bench = BENCH) -> Calibration:
+    """The dead length with the least misfit, or the middle of those that are as good; raises ParameterError."""
+    some = list(candidates(damper))
+    if not some:
+        raise ParameterError(
+            f"{damper.name}: no dead length from {SHORTEST * 1e3:g} mm on keeps the gas below {HIGHEST:g} bar"
+        )
+    with ThreadPoolExecutor() as pool:
+        fits = list(pool.map(lambda candidate: fit(candidate, bench), some))
+    least = min(f.misfit for f in fits)
+    good = [f for f in fits if f.misfit <= least + FLAT]
+    middle = 0.5 * (good[0].dead_length + good[-1].dead_length)
+    chosen = min(good, key=lambda f: (round(abs(f.dead_length - middle), 6), f.misfit))
+    return Calibration(tuple(fits), (good[0].dead_length, good[-1].dead_length), chosen)

@@ -31,7 +31,7 @@ SOURCES = (
     "kernel/step.py",
     "frame.py",
 )
-DRIVERS = ("model.py", "quarter_car.py", "drivers.py")
+DRIVERS = ("model.py", "vehicle/quarter_car.py", "drivers.py")
 HEAD = f"import math\nimport numba\n\nFV_POINTS = {FV_POINTS}\n"
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from twintube.effects import effects_parts
 from twintube.model import advance, advance_whole, set_up, start
-from twintube.quarter_car import kick
+from twintube.vehicle.quarter_car import damper_stroke, damper_velocity, kick
 
 # A longer step [s] that goes less than this share of the way its velocities say is a rest, where a cubic would swing.
 REST = 0.3
@@ -81,34 +81,48 @@ def run_work(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, marks: Any,
 
 
 def run_drive(
-    p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, push: Any, dt: float, limit: float, out: Any
+    p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, rates: Any, push: Any, dt: float, limit: float, out: Any
 ) -> int:
-    """Quarter car over the road heights `road` [m] (n,), one every `dt` [s], pressed down by `push` [N] (n,).
+    """Quarter car over the road heights `road` [m] (n,), one every `dt` [s], rising at `rates` [m/s], under `push` [N].
 
-    `out` (n, 4) takes the stroke [m], the damper velocity [m/s], the damper force [N] and the wheel load [N].
+    `out` (n, 6) takes the damper's stroke [m], velocity [m/s] and force [N], the wheel load [N], the damper's work [J]
+    since the start and its oil [m3].
 
     Returns the number of samples done, less than n if the piston would leave the tube (`limit` [m]) or a step failed.
     """
-    before = 0.0
     force = s.F_fluid + s.F_friction + s.F_gas
     earlier = force
+    work = s.work
     for i in range(len(road)):
-        stroke = m.z_body - m.z_wheel
-        rate = 0.5 * (road[i + 1] - road[i - 1]) / dt if 0 < i < len(road) - 1 else 0.0
-        load = kick(car, m, road[i], rate, 1.5 * force - 0.5 * earlier, push[i], dt)
-        velocity = m.v_body - m.v_wheel
+        stroke = damper_stroke(car, m)
+        load = kick(car, m, road[i], rates[i], 1.5 * force - 0.5 * earlier, push[i], dt)
+        velocity = damper_velocity(car, m)
         row = out[i]
         row[0] = stroke
         row[1] = velocity
         row[2] = force
         row[3] = load
-        end = m.z_body - m.z_wheel
-        if not (-limit <= end <= limit) or not advance(p, d, s, f, end, before, velocity, dt):
+        row[4] = s.work - work
+        row[5] = s.V1_oil + s.V1_foam_oil + s.V2_oil + s.V2_foam_oil + s.V3_oil + s.V3_foam_oil
+        # As the FMU: from the stroke at the start of the step with its mean velocity, so that both give the same bits.
+        end = stroke + velocity * dt
+        if not (-limit <= end <= limit) or not advance(p, d, s, f, end, velocity, velocity, dt):
             return i
-        before = velocity
         earlier = force
         force = s.F_fluid + s.F_friction + s.F_gas
     return len(road)
+
+
+def run_held(p: Any, d: Any, s: Any, f: Any, z: Any, dt: float) -> int:
+    """Move through the strokes `z` [m] (n,) one every `dt` [s], the velocity held within a step, as an FMU is stepped.
+
+    Returns the number of steps done, less than n - 1 if a step failed.
+    """
+    for i in range(len(z) - 1):
+        v = (z[i + 1] - z[i]) / dt if dt > 0.0 else 0.0
+        if not advance(p, d, s, f, z[i] + v * dt, v, v, dt):
+            return i
+    return len(z) - 1
 
 
 def run_means(

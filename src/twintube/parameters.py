@@ -36,6 +36,7 @@ class Damper:
     sources: Mapping[str, str]  # where the values come from, by group or by group and name
     assumed: Mapping[str, str]  # the same for stand-ins of unpublished values: the reasoning
     measured_levels: tuple[float, ...] = ()  # oil levels of the degraded states that were measured, highest first
+    measured_amplitude: float | None = None  # [m] of the harmonic measurements, where it is not 90 % of the maximum stroke
 
     def with_(self, **changes: Any) -> "Damper":
         """The same damper with other parameters, e.g. `oil_level=0.4, gas_preload=0`; raises ParameterError."""
@@ -84,7 +85,7 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     found: list[str] = []
     values: dict[str, Any] = {}
     known: dict[str, set[str]] = {
-        "": {"name", "title", "sources", "assumed", "measured_oil"},
+        "": {"name", "title", "sources", "assumed", "measured_oil", "measured_amplitude"},
         "fv": {"velocity_unit", "force_unit"},
     }
     for item in fields(Parameters):
@@ -107,6 +108,12 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     known["fv"] |= set(BRANCHES)
     found += unknown_keys(content, text, known)
     measured: list[float] = []
+    amplitude = None
+    try:
+        if "measured_amplitude" in content:
+            amplitude = quantity(content["measured_amplitude"], "m")
+    except ValueError as error:
+        found.append(f"{line_of(text, '', 'measured_amplitude')}measured_amplitude: {error}")
     try:
         measured = [quantity(volume, "m3") for volume in content.get("measured_oil", [])]
     except ValueError as error:
@@ -122,6 +129,7 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
         sources=content.get("sources", {}),
         assumed=content.get("assumed", {}),
         measured_levels=tuple(volume / p.V_oil for volume in measured),
+        measured_amplitude=amplitude,
     )
 
 
@@ -231,6 +239,9 @@ def to_toml(damper: Damper) -> str:
     document["title"] = damper.title
     if damper.measured_levels:
         document["measured_oil"] = [level * damper.parameters.V_oil for level in damper.measured_levels]
+    if damper.measured_amplitude is not None:
+        document["measured_amplitude"] = damper.measured_amplitude
+        document["measured_amplitude"].comment("m")
     p = damper.parameters
     idle = {item.name for effect in effects.EFFECTS.values() if not effect.acts(p) for item in effect.parameters}
     for item in fields(Parameters):

@@ -1,4 +1,4 @@
-"""What a claim's evaluation says, and the works it is made from."""
+"""What a claim's evaluation says, the bench it was made on, and the runs it is made from."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -6,13 +6,34 @@ from functools import lru_cache
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.closures import DEFAULT, LETTER, closed
 from twintube.parameters import Damper
-from twintube.rig import harmonic_block
-from twintube.simulate import work_between
+from twintube.plan import amplitude
+from twintube.rig import START, Signal, harmonic_block
+from twintube.simulate import Simulation, simulate, work_between
 
 Dampers = dict[str, Damper]
 FRONT = ("SA1", "SA3", "SA5", "SA7")
 REAR = ("SA2", "SA4", "SA6", "SA8")
+MODEL_ERROR = 0.10  # largest error of the model on the first oscillation, Section 3.4: what its figures cannot tell apart
+VISIBLE = 0.01  # share of an axis that the line of a diagram covers: smaller differences coincide in it
+NUMERIC = 1e-3  # relative error of a block's work from its sampling
+PAPER, READING, STAND_IN = "paper", "reading", "stand-in"
+FV_STANDIN = "F-v curves (assumed stand-ins)"
+DEAD = "dead lengths (assumed, calibrated)"
+
+
+@dataclass(frozen=True)
+class Bench:
+    """What the text leaves open about the test rig and about the gas that cavitation frees."""
+
+    start: str = START  # one of rig.STARTS
+    position: float = 0.0  # middle of all strokes [m]
+    reach: float = 0.0  # amplitude of the blocks [m]; 0: as `plan.amplitude` says
+    closure: str = ""  # of every run; none: the letter for blocks, the closure of rides for drives
+
+
+BENCH = Bench()
 
 
 @dataclass(frozen=True)
@@ -20,13 +41,16 @@ class Claim:
     """One statement of the paper and what the model says to it."""
 
     id: str
+    quote: str  # the paper's own words
     statement: str
     source: str
+    tested: str  # what is compared, with its limits and where they come from
     holds: bool
     figures: dict[str, object]
     needs: str  # unpublished data that the statement or its check rests on, with the stand-in used
-    reason: str = ""  # why it does not hold
-    calibrated: bool = False
+    because: str = ""  # what makes it fail: paper, reading or stand-in
+    reason: str = ""  # why it does not hold, with the experiment that shows it
+    calibrated: tuple[str, ...] = ()  # the dampers whose dead length was chosen on this claim
     assumed: bool = False
 
     def __post_init__(self) -> None:
@@ -36,15 +60,6 @@ class Claim:
     def evidence(self) -> bool:
         """True where the claim was neither used for the calibration nor put in by assumption."""
         return not (self.calibrated or self.assumed)
-
-
-@lru_cache(maxsize=4096)
-def cached_works(key: tuple[object, ...], velocity: float) -> Array:
-    """Works [J] of the 19 oscillations; the key carries the damper."""
-    damper = key[0]
-    assert isinstance(damper, Keyed)
-    block = harmonic_block(velocity)
-    return work_between(damper.damper, block.stroke, block.velocity, block.marks)
 
 
 class Keyed:
@@ -61,16 +76,66 @@ class Keyed:
         return isinstance(other, Keyed) and self.key == other.key
 
 
-def works(damper: Damper, oil_level: float, velocity: float) -> Array:
-    """Works [J] of the 19 oscillations at the maximum `velocity` [m/s], the gas preload lost unless full of oil."""
+def block(damper: Damper, velocity: float, bench: Bench = BENCH, samples: int = 400) -> Signal:
+    """The harmonic block of a damper with the maximum `velocity` [m/s], sampled about `samples` times per oscillation."""
+    reach = bench.reach or amplitude(damper)
+    dt = max(0.2 / samples, 2 * np.pi * reach / velocity / samples)
+    return harmonic_block(velocity, reach, dt, start=bench.start, position=bench.position)
+
+
+def condition(damper: Damper, oil_level: float, bench: Bench = BENCH, *, drive: bool = False) -> Damper:
+    """The damper at an oil level, the gas preload lost unless full of oil, with the closure of the bench."""
     state = damper.with_(oil_level=oil_level, gas_preload=1 if oil_level == 1.0 else 0)
-    return cached_works((Keyed(state),), velocity)
+    return closed(state, bench.closure or (DEFAULT if drive else LETTER))
 
 
-def relative(damper: Damper, oil_level: float, velocity: float) -> Array:
+@lru_cache(maxsize=20000)
+def cached_works(damper: Keyed, velocity: float, bench: Bench) -> Array:
+    """Works [J] of the 19 oscillations."""
+    signal = block(damper.damper, velocity, bench)
+    return work_between(damper.damper, signal.stroke, signal.velocity, signal.marks, signal.time)
+
+
+def works(damper: Damper, oil_level: float, velocity: float, bench: Bench = BENCH) -> Array:
+    """Works [J] of the 19 oscillations at the maximum `velocity` [m/s], the gas preload lost unless full of oil."""
+    return cached_works(Keyed(condition(damper, oil_level, bench)), velocity, bench)
+
+
+def fluid_works(damper: Damper, oil_level: float, velocity: float, bench: Bench = BENCH) -> Array:
+    """As `works` without the friction, which rises with the oil loss by an assumed gain."""
+    return works(damper.with_(F_FrS=0.0), oil_level, velocity, bench)
+
+
+def relative(damper: Damper, oil_level: float, velocity: float, bench: Bench = BENCH) -> Array:
     """Works of the 19 oscillations relative to the first one of the intact damper [1]."""
-    share: Array = works(damper, oil_level, velocity) / works(damper, 1.0, velocity)[0]
+    share: Array = works(damper, oil_level, velocity, bench) / works(damper, 1.0, velocity, bench)[0]
     return share
+
+
+def fluid_relative(damper: Damper, oil_level: float, velocity: float, bench: Bench = BENCH) -> Array:
+    """The same without friction."""
+    return relative(damper.with_(F_FrS=0.0), oil_level, velocity, bench)
+
+
+def floor(damper: Damper, velocity: float, bench: Bench = BENCH) -> float:
+    """Work of the damper without any oil, friction alone, relative to intact [1]."""
+    return float(relative(damper, 0.0, velocity, bench)[-1])
+
+
+def run(
+    damper: Damper,
+    oil_level: float,
+    velocity: float,
+    bench: Bench = BENCH,
+    preload: int | None = None,
+    samples: int = 400,
+) -> tuple[Signal, Simulation]:
+    """The block and everything that the model says to it; `preload` other than the paper's states is for C12."""
+    state = condition(damper, oil_level, bench)
+    if preload is not None:
+        state = state.with_(gas_preload=preload)
+    signal = block(damper, velocity, bench, samples)
+    return signal, simulate(state, signal.stroke, signal.velocity, signal.time)
 
 
 def rounded(value: float, digits: int = 3) -> float:

@@ -1,6 +1,7 @@
 """Commands about the model: parameter sets, simulation, excitations, claims."""
 
 import json
+import math
 import re
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -11,7 +12,9 @@ import typer
 from tqdm import tqdm
 
 from twintube import parameters
+from twintube import rig as rig_of
 from twintube.cli.base import answering, app, write
+from twintube.closures import acting, closed
 from twintube.effects import Parameters
 from twintube.parameters import ParameterError
 from twintube.simulate import InputError
@@ -23,7 +26,10 @@ def dampers(damper: Annotated[str | None, typer.Argument(help="Show this one: a 
     """List the named dampers, or show one as TOML with its sources."""
     with answering():
         if damper is not None:
-            typer.echo(parameters.to_toml(parameters.load(damper)), nl=False)
+            one = parameters.load(damper)
+            typer.echo(f"# Gas that cavitation frees, in blocks and identification - {acting(one)}.")
+            typer.echo(f"# In rides and FMUs - {acting(closed(one))}.")
+            typer.echo(parameters.to_toml(one), nl=False)
             return
         for name in parameters.names():
             one = parameters.load(name)
@@ -77,6 +83,9 @@ def ssv(
     damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
     oil_level: Annotated[float | None, typer.Option(help="Oil, share of the intact volume.")] = None,
     gas_lost: Annotated[bool, typer.Option("--gas-lost", help="The gas preload is lost.")] = False,
+    as_published: Annotated[
+        bool, typer.Option("--as-published", help="As build_fmu.py: freed gas never dissolves again.")
+    ] = False,
     output: Annotated[Path, typer.Option(help="SSV file for the parameters.")] = Path("parameters.ssv"),
 ) -> None:
     """Write all parameters for an importer of the FMU, as System Structure Parameter Values of SSP 1.0."""
@@ -89,6 +98,8 @@ def ssv(
         if gas_lost:
             changes["gas_preload"] = 0
         chosen = parameters.load(damper).with_(**changes)
+        if not as_published:
+            chosen = closed(chosen)
         write(output, to_ssv(chosen))
         typer.echo(f"{output}: parameters of {chosen.name}, {chosen.title}")
 
@@ -98,14 +109,18 @@ def rig(
     damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
     output: Annotated[Path, typer.Option(help="Folder for one CSV per measurement and plan.json.")] = Path("rig"),
     seed: Annotated[int, typer.Option(help="Seed of the uneven road.")] = 1,
+    recovery: Annotated[
+        bool, typer.Option("--recovery", help="The plan that decides what becomes of gas that cavitation frees.")
+    ] = False,
 ) -> None:
     """Write the excitations of the paper's measurement plan (Table 3) for a damper."""
-    from twintube.plan import REST, plan
+    from twintube.plan import RECOVERY_LEVELS, REST, plan, recovery_plan
 
     with answering():
         chosen = parameters.load(damper)
         listed = []
-        for m in tqdm(list(plan(chosen, seed)), unit="signal", leave=False):
+        wanted = recovery_plan(chosen) if recovery else plan(chosen, seed)
+        for m in tqdm(list(wanted), unit="signal", leave=False):
             name = f"{m.number:02}_{re.sub(r'[^a-z0-9.]+', '_', m.name.lower()).strip('_')}.csv"
             table = np.column_stack([m.signal.time, m.signal.stroke * 1e3, m.signal.velocity * 1e3])
             lines = ["time [s],stroke [mm],velocity [mm/s]"] + [f"{t:.6g},{z:.6g},{v:.6g}" for t, z, v in table]
@@ -115,8 +130,14 @@ def rig(
                            "measured_from_s": start, "measured_to_s": end})  # fmt: skip
         about = {"damper": chosen.name, "seed": seed, "rest_before_each_s": REST, "signals": listed}
         about["assumed"] = "block velocities, strokes of the drives (quarter car, road, obstacles), maximum stroke"
+        if recovery:
+            about["oil_levels_without_preload"] = [*RECOVERY_LEVELS, *chosen.measured_levels]
+            about["record_too"] = "temperature of the oil or the outer tube: a minute above v_cav heats the damper"
         write(output / "plan.json", json.dumps(about, indent=1) + "\n")
         typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
+
+
+START = Annotated[str, typer.Option(help="Where an oscillation begins: rebound, top, compression or bottom.")]
 
 
 @app.command(epilog="Example: twintube claims --json claims.json")
@@ -125,57 +146,100 @@ def claims(
     reading: Annotated[
         list[str] | None, typer.Option(help="Another reading of the paper, e.g. leak_carries_oil=1; repeatable.")
     ] = None,
+    start: START = rig_of.START,
+    closure: Annotated[str, typer.Option(help="A closure of every run; none: the letter, in drives that of rides.")] = "",
 ) -> None:
-    """Evaluate the paper's statements C1 to C14 with its published parameters."""
+    """Evaluate the paper's statements C1 to C16 with its published parameters."""
     from twintube.claims import EVALUATORS, evaluate
 
     with answering():
         readings = dict(parsed_reading(text) for text in reading or [])
-        found = list(tqdm(evaluate(readings), total=len(EVALUATORS), unit="claim", leave=False))
+        found = list(tqdm(evaluate(readings, bench(start, closure)), total=len(EVALUATORS), unit="claim", leave=False))
         if json_file is not None:
             write(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in found], indent=1) + "\n")
         for c in found:
             mark = "calibrated" if c.calibrated else "by assumption" if c.assumed else "evidence"
             typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{mark:15}{c.statement} ({c.source})")
+            typer.echo(f'      the paper: "{c.quote}"')
+            typer.echo(f"      tested: {c.tested}")
             for name, value in c.figures.items():
                 typer.echo(f"      {name}: {json.dumps(value)}")
-            if c.needs:
-                typer.echo(f"      needs: {c.needs}")
-            if c.reason:
-                typer.echo(f"      why not: {c.reason}")
+            typer.echo(f"      needs: {c.needs}")
+            if c.calibrated:
+                typer.echo(f"      used for the dead length of: {', '.join(c.calibrated)}")
+            if not c.holds:
+                typer.echo(f"      why not ({c.because}): {c.reason}")
         for kind in (True, False):
             some = [c for c in found if c.evidence is kind]
             what = "evidence" if kind else "calibrated or by assumption"
             typer.echo(f"{what}: {sum(c.holds for c in some)} of {len(some)} hold")
 
 
-def parsed_reading(text: str) -> tuple[str, int]:
+def bench(start: str, closure: str = "") -> Any:
+    """The bench of the claims; raises ParameterError."""
+    from twintube.claims import Bench
+    from twintube.closures import CLOSURES
+
+    if start not in rig_of.STARTS:
+        raise ParameterError(f"--start {start}: must be one of {', '.join(rig_of.STARTS)}")
+    if closure and closure not in CLOSURES:
+        raise ParameterError(f"--closure {closure}: must be one of {', '.join(CLOSURES)}")
+    return Bench(start=start, closure=closure)
+
+
+def parsed_reading(text: str) -> tuple[str, float]:
     """`name=value` of a reading; raises ParameterError."""
     name, _, value = text.partition("=")
-    known = [item.name for item in fields(Parameters) if item.metadata["group"] == "reading"]
-    if name not in known or not value.isdigit():
-        raise ParameterError(f"--reading {text}: must be NAME=INTEGER with a name of {', '.join(known)}")
-    return name, int(value)
+    known = {item.name: item.metadata["integer"] for item in fields(Parameters) if item.metadata["group"] == "reading"}
+    try:
+        number = float(value)
+    except ValueError:
+        number = math.nan
+    if name not in known or not math.isfinite(number) or (known[name] and number % 1):
+        raise ParameterError(
+            f"--reading {text}: must be NAME=NUMBER with a name of {', '.join(known)}, whole but for the last"
+        )
+    return name, int(number) if known[name] else number
 
 
 @app.command(epilog="Example: twintube calibrate SA8")
-def calibrate(damper: Annotated[str, typer.Argument(help="A name or a parameter file.")]) -> None:
-    """Find the dead length of the chambers from the claims C2, C5 and C7, as it was done for the named dampers."""
+def calibrate(
+    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
+    start: START = rig_of.START,
+) -> None:
+    """Find the dead length of the chambers from all claims, as it was done for the named dampers."""
     from twintube.calibrate import calibrate as run
 
     with answering():
-        for i, fit in enumerate(run(parameters.load(damper))):
-            found = ", ".join(f"{name} {value:.3f}" for name, value in fit.figures.items())
-            typer.echo(f"{'best' if i == 0 else '':5}{fit.dead_length * 1e3:5.0f} mm  misfit {fit.misfit:.4f}  {found}")
+        result = run(parameters.load(damper), bench(start))
+        for fit in result.fits:
+            found = ", ".join(f"{name} {value:.2f}" for name, value in fit.deviations.items() if value)
+            mark = "chosen" if fit is result.chosen else ""
+            typer.echo(f"{mark:8}{fit.dead_length * 1e3:5.0f} mm  misfit {fit.misfit:7.2f}  {found}")
+        low, high = (1e3 * x for x in result.range)
+        typer.echo(
+            f"as good as the best: {low:.0f} to {high:.0f} mm (deviations from the claims in units of their tolerances)"
+        )
 
 
-@app.command(epilog="Example: twintube readings")
-def readings() -> None:
-    """Measure what each other reading of the paper does to the claims."""
-    from twintube.claims import compare_readings
+@app.command(epilog="Example: twintube readings --json readings.json")
+def readings(
+    json_file: Annotated[Path | None, typer.Option("--json", help="Write every effect to this file.")] = None,
+) -> None:
+    """Measure what each other reading, start, ride position, amplitude and closure does to every claim."""
+    from twintube.claims.compare import alternatives, compare
 
-    for name, value, flips, moves in tqdm(compare_readings(), total=6, unit="reading", leave=False):
-        tqdm.write(f"{name} = {value}: {', '.join(flips) or 'no claim flips'}; {'; '.join(moves) or 'no figure moves'}")
+    table = []
+    for other, found in tqdm(compare(), total=len(alternatives()), unit="choice", leave=False):
+        flips = [f"{e.id} {'holds' if e.holds else 'fails'}" for e in found if e.flips]
+        tqdm.write(f"{other.name} = {other.value}: {', '.join(flips) or 'no claim flips'}")
+        for effect in found:
+            if effect.moves:
+                tqdm.write(f"      {effect.id:4}{effect.moves}")
+        table.append({"choice": other.name, "value": other.value, "claims": [asdict(effect) for effect in found]})
+    if json_file is not None:
+        with answering():
+            write(json_file, json.dumps(table, indent=1) + "\n")
 
 
 @app.command(epilog="Example: twintube variables > docs/variables.md")

@@ -19,11 +19,11 @@ import twintube
 import virtual_rig
 from twintube.arrays import Array
 from twintube.identify import Harmonic
-from twintube.maneuvers import MANEUVERS
 from twintube.parameters import load
 from twintube.plan import amplitude, drive_signal, quasi_static, velocities
 from twintube.rig import Signal, harmonic_block
 from twintube.simulate import InputError
+from twintube.vehicle.maneuvers import MANEUVERS
 from virtual_rig.rig import check
 
 PER_OSCILLATION = 240  # samples of an oscillation
@@ -119,7 +119,7 @@ def compute(job: Job, folder: Path) -> None:
 def fingerprint() -> str:
     """What the records depend on: the sources of the rig, of the excitations and the named dampers."""
     here = Path(twintube.__file__).parent
-    sources = [here / f"{name}.py" for name in ("drive", "maneuvers", "plan", "quarter_car", "rig", "road")]
+    sources = [here / "plan.py", here / "rig.py", *(here / "vehicle").rglob("*.py"), *(here / "vehicle").rglob("*.toml")]
     sources += [*Path(virtual_rig.__file__).parent.glob("*.py"), *(here / "dampers").glob("*.toml"), Path(__file__)]
     text = b"".join(path.read_bytes() for path in sorted(sources))
     return hashlib.sha256(text).hexdigest()[:12]

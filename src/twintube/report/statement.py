@@ -19,7 +19,7 @@ class Statement:
     holds: bool | None
     numbers: dict[str, Any]
     basis: str  # evidence | calibrated | by assumption | stand-in | consistency | not checkable
-    criterion: str = ""  # what decides, where the paper names no number
+    criterion: str = ""  # what decides: a claim's test, or ours where the paper names no number
     reason: str = ""  # why it does not hold, or why it cannot be checked
     claim: str = ""  # id in `twintube claims`
 
@@ -42,7 +42,8 @@ def from_claim(claim: Claim, numbers: dict[str, Any] | None = None) -> Statement
         holds=claim.holds,
         numbers=claim.figures if numbers is None else numbers,
         basis=basis,
-        reason=claim.reason,
+        criterion=claim.tested,
+        reason=f"{claim.because}: {claim.reason}" if claim.reason else "",
         claim=claim.id,
     )
 

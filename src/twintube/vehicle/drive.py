@@ -1,15 +1,17 @@
-"""The quarter car with the damper of this process, for strokes as a drive makes them."""
+"""The quarter car with the damper of this process, coupled in every step."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from twintube import compiled, quarter_car
+from twintube import compiled
 from twintube.arrays import Array
 from twintube.checks import stroke_limit
 from twintube.parameters import Damper
+from twintube.rig import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, oscillations
 from twintube.simulate import InputError, at_rest, rows
 from twintube.variables import blank
+from twintube.vehicle.quarter_car import Car, Motion
 
 
 @dataclass(frozen=True)
@@ -17,35 +19,57 @@ class Drive:
     """What the damper and the road got; arrays (n,), one value per step."""
 
     time: Array  # [s]
-    stroke: Array  # [m]
-    velocity: Array  # [m/s]
+    stroke: Array  # [m] of the damper
+    velocity: Array  # [m/s] of the damper
     force: Array  # [N] of the damper
     wheel_load: Array  # [N]
+    work: Array  # [J] dissipated by the damper since the start
+    oil: Array  # [m3] of oil in the damper, that in foam included
 
 
-CORNERS = {"front": quarter_car.PASSAT_FRONT, "rear": quarter_car.PASSAT_REAR}
+CONDITIONING_STEP = 5e-3  # [s]
 
 
-def axle(damper: Damper) -> str:
-    """`front` where the damper's title says so, else `rear`."""
-    return "front" if "front" in damper.title.lower() else "rear"
+def conditioning() -> Array:
+    """Strokes [m] of the paper's preconditioning, six times at 0.05 m/s, one every CONDITIONING_STEP; it ends at 0."""
+    return oscillations(V_PRECONDITIONING, AMPLITUDE, PRECONDITIONING, CONDITIONING_STEP)[1]
 
 
-def drive(damper: Damper, car: dict[str, float], heights: Array, dt: float, push: Array | None = None) -> Drive:
-    """Drive over the road `heights` [m] (n,), one every `dt` [s], with the damper coupled in every step.
+def slopes(heights: Array, dt: float) -> Array:
+    """Rates [m/s] of the heights [m] (n,) one every `dt` [s]: central differences, 0 at both ends."""
+    rates = np.zeros(len(heights))
+    rates[1:-1] = 0.5 * (heights[2:] - heights[:-2]) / dt
+    return rates
 
-    `push` [N] (n,) presses the body down, as braking does at the front. `car` holds the values of `quarter_car.Car`
-    but for the damper's force at rest. Raises InputError where the piston would leave the tube.
+
+def drive(
+    damper: Damper,
+    car: Car,
+    heights: Array,
+    dt: float,
+    push: Array | None = None,
+    rates: Array | None = None,
+    *,
+    preconditioned: bool = False,
+) -> Drive:
+    """Drive over the road `heights` [m] (n,), one every `dt` [s], rising at `rates` [m/s], with the damper in the loop.
+
+    `push` [N] (n,) presses the body down, as braking does at the front. `preconditioned` moves the damper before as the
+    paper does, six times at 0.05 m/s. Raises InputError where the piston would leave the tube.
     """
-    records = at_rest(damper, 0.0)
-    corner = quarter_car.Car(**car, F_rest=-damper.parameters.F_0)
-    limit = stroke_limit(records[1])
+    p, d, s, f = rows(at_rest(damper, 0.0))
+    limit = stroke_limit(at_rest(damper, 0.0)[1])
+    module = compiled.module()
+    if preconditioned:
+        # An FMU begins with a step of no length, in which it computes its outputs.
+        module.run_held(p, d, s, f, np.zeros(2), 0.0)
+        module.run_held(p, d, s, f, conditioning(), CONDITIONING_STEP)
     if push is None:
         push = np.zeros(len(heights))
-    out = np.empty((len(heights), 4))
-    done: int = compiled.module().run_drive(
-        *rows([*records, corner, blank(quarter_car.Motion)]), heights, push, dt, limit, out
-    )
+    if rates is None:
+        rates = slopes(heights, dt)
+    out = np.empty((len(heights), 6))
+    done: int = module.run_drive(p, d, s, f, *rows([car, blank(Motion)]), heights, rates, push, dt, limit, out)
     if done < len(heights):
         raise InputError(f"time {done * dt:g} s: stroke must be from {-limit:g} to {limit:g} m")
-    return Drive(np.arange(len(heights)) * dt, *out.T)
+    return Drive(np.arange(len(heights)) * dt, *np.ascontiguousarray(out.T))

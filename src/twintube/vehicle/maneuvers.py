@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube import road
 from twintube.arrays import Array
+from twintube.vehicle import road
 
 DT = 1e-3  # [s]
 BUMP_HEIGHT, BUMP_LENGTH = 0.05, 0.5  # [m]

@@ -1,6 +1,7 @@
 """A quarter car: body, wheel, spring, tyre that can leave the road, bump and rebound stop; the damper comes from outside.
 
-Heights count from the rest position on a flat road with an intact damper; forces are those beyond the weight.
+Heights count from the rest position on a flat road with an intact damper; forces are those beyond the weight. All is at the
+wheel; the damper moves `ratio` times as far and its force acts there `ratio` times.
 """
 
 from dataclasses import dataclass
@@ -12,18 +13,23 @@ GRAVITY = 9.80665  # [m/s2]
 
 @dataclass(slots=True)
 class Car:
-    """One corner of the car. The values of `PASSAT_REAR` and `PASSAT_FRONT` are assumed."""
+    """One corner of a car; values are in `cars/`."""
 
-    m_body: float = var("car", "m_b", "kg", "sprung mass of the corner")
-    m_wheel: float = var("car", "m_w", "kg", "unsprung mass of the corner")
-    c_body: float = var("car", "c_b", "N/m", "spring rate at the wheel")
-    d_links: float = var("car", "d_b", "N.s/m", "damping of bushings and links at the wheel")
-    c_tyre: float = var("car", "c_t", "N/m", "tyre stiffness")
-    d_tyre: float = var("car", "d_t", "N.s/m", "tyre damping while it touches the road")
-    travel: float = var("car", "", "m", "stroke to each side at which the rubber stop touches")
-    c_stop: float = var("car", "", "N/m3", "stiffness of the rubber stops, over the cube of their compression")
-    d_stop: float = var("car", "", "s/m", "damping of the stops relative to their stiffness")
-    F_rest: float = var("car", "", "N", "damper force at rest for which the spring is set")
+    m_body: float = var("car", "m_b", "kg", "sprung mass of the corner", lower=20, upper=5000)
+    m_wheel: float = var("car", "m_w", "kg", "unsprung mass of the corner", lower=5, upper=1000)
+    c_body: float = var("car", "c_b", "N/m", "spring rate at the wheel", lower=1e3, upper=1e6)
+    d_links: float = var("car", "d_b", "N.s/m", "damping of bushings and links at the wheel", lower=0, upper=5000)
+    c_tyre: float = var("car", "c_t", "N/m", "tyre stiffness", lower=1e4, upper=5e6)
+    d_tyre: float = var("car", "d_t", "N.s/m", "tyre damping while it touches the road", lower=0, upper=5000)
+    ratio: float = var("car", "i", "1", "motion ratio, stroke of the damper per stroke of the wheel", lower=0.2, upper=1.5)
+    travel: float = var(
+        "car", "", "m", "stroke of the wheel to each side at which the rubber stop touches", lower=0.005, upper=1
+    )
+    c_stop: float = var(
+        "car", "", "N/m3", "stiffness of the rubber stops, over the cube of their compression", lower=0, upper=1e13
+    )
+    d_stop: float = var("car", "", "s/m", "damping of the stops relative to their stiffness", lower=0, upper=100)
+    F_rest: float = var("car", "", "N", "damper force at rest for which the spring is set", default=0.0)
 
 
 @dataclass(slots=True)
@@ -36,13 +42,6 @@ class Motion:
     v_wheel: float = var("motion", "v_w", "m/s", "vertical velocity of the wheel", default=0.0)
     dv_body: float = var("motion", "", "m/s", "last change of the body's velocity", default=0.0)
     dv_wheel: float = var("motion", "", "m/s", "last change of the wheel's velocity", default=0.0)
-
-
-# Assumed: a corner of a car of the Passat B8 class with two persons (about 1650 kg, 55 % front); body near 1.3 Hz, wheel
-# near 12 Hz. Dampers act at the wheel, ratio 1. Without a damper, bushings and links leave a damping ratio of 0.08.
-PASSAT = {"c_tyre": 230e3, "d_tyre": 200.0, "d_links": 450.0, "travel": 0.055, "c_stop": 1e9, "d_stop": 1.0}
-PASSAT_FRONT = PASSAT | {"m_body": 405.0, "m_wheel": 46.0, "c_body": 26e3}
-PASSAT_REAR = PASSAT | {"m_body": 330.0, "m_wheel": 42.0, "c_body": 23e3}
 
 
 def static_load(car: Car) -> float:
@@ -74,7 +73,7 @@ def kick(car: Car, m: Motion, road: float, road_velocity: float, force: float, p
     load = max(load, 0.0)
     stroke = m.z_body - m.z_wheel
     velocity = v_body - v_wheel
-    pull = car.c_body * stroke + car.d_links * velocity + force - car.F_rest
+    pull = car.c_body * stroke + car.d_links * velocity + car.ratio * (force - car.F_rest)
     pull += stop_force(car, stroke - car.travel, velocity) - stop_force(car, -stroke - car.travel, -velocity)
     m.dv_body = -dt * (pull + push) / car.m_body
     m.dv_wheel = dt * (pull + load - weight) / car.m_wheel
@@ -83,3 +82,13 @@ def kick(car: Car, m: Motion, road: float, road_velocity: float, force: float, p
     m.z_body += dt * m.v_body
     m.z_wheel += dt * m.v_wheel
     return load
+
+
+def damper_stroke(car: Car, m: Motion) -> float:
+    """Stroke of the damper [m], positive in rebound."""
+    return car.ratio * (m.z_body - m.z_wheel)
+
+
+def damper_velocity(car: Car, m: Motion) -> float:
+    """Mean velocity of the damper [m/s] over the step that `kick` has made."""
+    return car.ratio * (m.v_body - m.v_wheel)

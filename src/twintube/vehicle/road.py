@@ -1,4 +1,8 @@
-"""Random road profiles of ISO 8608."""
+"""Random road profiles of ISO 8608: a function of place, class and seed alone.
+
+White noise along the road, shaped by a recursive filter that runs in the direction of travel: a longer road goes on where a
+shorter one ends, and whoever drives faster sees the same metres.
+"""
 
 from dataclasses import dataclass
 
@@ -12,41 +16,49 @@ WAVINESS = 2.0
 GD_N0 = {"A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6}  # geometric means of the classes [m3]
 BAND = (0.011, 2.83)  # spatial frequencies for which ISO 8608 defines the classes [cycles/m]
 SPACING = 0.02  # of the profile's samples [m]
+CORNER = BAND[0] / 2  # below it the spectrum falls off, so that no height drifts away [cycles/m]
+RUN_IN = 1500.0  # of the filter before place 0 [m]
 CONTACT_LENGTH = 0.12  # of the tyre, over which it averages the road [m]; assumed
 
 
 @dataclass(frozen=True)
 class Road:
-    """Heights [m] every `SPACING` metres: as it is, and as the tyre feels it. It repeats only after `length` [m]."""
+    """Heights [m] every `SPACING` metres from place 0: as it is, and as the tyre feels it."""
 
     height: Array
     enveloped: Array
-    length: float
 
     def at(self, position: Array) -> Array:
-        """Enveloped heights [m] at the positions [m], linear between samples."""
-        return np.interp(position, np.arange(len(self.enveloped)) * SPACING, self.enveloped, period=self.length)
+        """Enveloped heights [m] at the positions [m], linear between samples; raises ValueError beyond the road."""
+        end = (len(self.enveloped) - 1) * SPACING
+        if np.size(position) and not (np.min(position) >= 0.0 and np.max(position) <= end):
+            raise ValueError(f"position {np.min(position):g} to {np.max(position):g} m: must be from 0 to {end:g} m")
+        return np.interp(position, np.arange(len(self.enveloped)) * SPACING, self.enveloped)
+
+
+def shaping() -> tuple[Array, Array]:
+    """The filter that makes the heights of a road of Gd(n0) = 1 m3 from white noise: an integrator without drift."""
+    corner = 2 * np.pi * CORNER
+    # One-sided density of unit white noise: 2 SPACING. Far above the corner |H|^2 is (gain / (2 pi n))^2.
+    gain = 2 * np.pi * N_0 / np.sqrt(2 * SPACING)
+    b, a = signal.bilinear([gain, 0.0], [1.0, np.sqrt(2) * corner, corner**2], 1 / SPACING)
+    return np.asarray(b), np.asarray(a)
 
 
 def generate(length: float, *, road_class: str = "D", scale: float = 1.0, seed: int = 1) -> Road:
-    """A road of at least `length` [m] whose spectrum is that of the class times `scale`, with random phases from `seed`.
+    """A road of at least `length` [m], whose spectrum is that of the class times `scale`, from noise of the `seed`.
 
-    Every spatial frequency of the transform is its own wave, so that nothing repeats within the length. Below the
-    band of ISO 8608 the road is flat; above it the spectrum goes on to the limit of the sampling.
+    Within the band of ISO 8608 the density is that of waviness 2, within 4 % at its ends.
     """
-    count = 1 << int(np.ceil(np.log2(max(length, 100.0) / SPACING)))
-    n = np.fft.rfftfreq(count, SPACING)
-    density = np.zeros_like(n)
-    inside = n >= BAND[0]
-    density[inside] = scale * GD_N0[road_class] * (n[inside] / N_0) ** -WAVINESS
-    phase = np.random.default_rng(seed).uniform(0, 2 * np.pi, len(n))
-    spectrum = np.sqrt(density * n[1] / 2) * count * np.exp(1j * phase)
-    # Averaging over the contact length is a product with sinc(n * length).
-    return Road(
-        height=np.fft.irfft(spectrum, count),
-        enveloped=np.fft.irfft(spectrum * np.sinc(n * CONTACT_LENGTH), count),
-        length=count * SPACING,
-    )
+    reach = round(CONTACT_LENGTH / SPACING) // 2  # samples that the tyre feels to each side
+    before, count = round(RUN_IN / SPACING), int(np.ceil(length / SPACING)) + 1
+    noise = np.random.default_rng(seed).standard_normal(before + count + reach)
+    b, a = shaping()
+    profile = np.sqrt(scale * GD_N0[road_class]) * signal.lfilter(b, a, noise)
+    # The mean over the contact length, by trapezoids; as a recursive filter's, its bits do not depend on the length.
+    weights = np.concatenate([[0.5], np.ones(2 * reach - 1), [0.5]]) / (2 * reach)
+    felt = signal.lfilter(weights, [1.0], profile)
+    return Road(height=profile[before : before + count], enveloped=felt[before + reach :])
 
 
 def measured_density(height: Array) -> tuple[Array, Array]:

@@ -4,7 +4,7 @@ import matplotlib
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.claims.harmonic import variants
+from twintube.claims.variants import variants
 from twintube.parameters import Damper
 from twintube.plan import velocities
 from twintube.report import fitted, notes, style
