@@ -10,8 +10,10 @@ from typer.testing import CliRunner
 
 import build_fmu
 from twintube.parameters import load
-from vehicle_demo.__main__ import app, cases, corner, strengths
-from vehicle_demo.ride import Case, heights, ride
+from twintube.vehicle.cars import load_car
+from twintube.vehicle.ride import track
+from vehicle_demo.__main__ import app, cases, strengths
+from vehicle_demo.ride import Case, ride
 
 ROOT = Path(__file__).parents[2]
 
@@ -31,10 +33,22 @@ def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
         for entry in [block["intact"], *block["oil_levels"]]:
             assert {"dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share", "damping_work_J"} <= set(entry)
             assert entry["min_wheel_load_N"] >= 0.0
+        for entry in block["oil_levels"]:
+            assert len(entry["dlc_window"]) == 2
+            low, high = entry["bands"]["closures"]
+            assert low <= entry["bands"]["closure"]["return"] <= high
+            assert entry["bands"]["all_over_intact"][0] <= entry["bands"]["seeds_over_intact"][0]
+            assert entry["bands"]["closure"]["letter"] == entry["bare_paper_model"]["dlc"]
+            assert entry["scalar_factor"]["dlc"] > 0
     assert "fv" in result["assumed"]
+    assert result["largest_difference_of_dlc_fmu_to_kernel"] < 0.05
+    table = result["time_to_failure"]
+    assert all(len(row) == len(table["oil_levels"]) for rows in table["closures"].values() for row in rows)
+    for sentence in result["sentences"]:
+        assert sentence in done.stdout
     pictures = {p.name for p in (tmp_path / "out").glob("*.png")}
     assert pictures == {"dlc_over_oil_level.png", "wheel_load.png", "spectrum.png", "development.png", "loops.png",
-                        "volumes.png"}  # fmt: skip
+                        "volumes.png", "bands.png", "time_to_failure.png"}  # fmt: skip
 
 
 def test_demo_answers_bad_input_with_one_line(tmp_path: Path) -> None:
@@ -52,13 +66,14 @@ def test_a_damper_with_effects_is_driven_without_them_too(tmp_path: Path) -> Non
     off = strengths(worn)
     assert strengths(plain) == ()
     assert sum(case.off == off for case in cases(off)) == 18
+    assert len(cases(())) == 18
     case = Case(50.0, 1.0, 1)
-    height = heights(case, 10.0, 1e-3, seed=1)
+    on = track(50.0, 10.0)
     (tmp_path / "b").mkdir()
     here = (fmpy.platform,)
     fmu, extended = build_fmu.build(plain, tmp_path, platforms=here), build_fmu.build(worn, tmp_path / "b", platforms=here)
-    car = corner(plain)
-    base = ride(fmu, car, case, height, 1e-3)
-    without = ride(extended, car, Case(50.0, 1.0, 1, off=off), height, 1e-3)
+    car = load_car().corner(plain)
+    base = ride(fmu, car, case, on)
+    without = ride(extended, car, Case(50.0, 1.0, 1, off=off), on)
     assert (without.wheel_load == base.wheel_load).all()
-    assert ride(extended, car, case, height, 1e-3).wheel_load.std() > 1.02 * base.wheel_load.std()
+    assert ride(extended, car, case, on).wheel_load.std() > 1.02 * base.wheel_load.std()

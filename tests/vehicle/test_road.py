@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from twintube import road
+from twintube.vehicle import road
+from twintube.vehicle.ride import track
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("road_class", ["C", "D"])
 def test_measured_density_stays_within_the_limits_of_the_class(seed: int, road_class: str) -> None:
-    profile = road.generate(1000, road_class=road_class, seed=seed)
+    profile = road.generate(5000, road_class=road_class, seed=seed)
     centres, density = road.measured_density(profile.height)
     mean = road.GD_N0[road_class] * (centres / road.N_0) ** -2
     assert centres[0] < 0.03
@@ -29,22 +30,36 @@ def test_seeds_reproduce_and_differ() -> None:
     assert not np.array_equal(a, c)
 
 
-def test_nothing_repeats_within_the_run() -> None:
-    profile = road.generate(834, seed=1)
-    assert profile.length >= 834
-    height = profile.height - profile.height.mean()
-    spectrum = np.abs(np.fft.rfft(height)) ** 2
-    correlation = np.fft.irfft(spectrum) / np.sum(height**2)
-    middle = slice(round(60 / road.SPACING), round((profile.length - 60) / road.SPACING))
-    assert np.abs(correlation[middle]).max() < 0.9
+def test_a_longer_road_goes_on_where_a_shorter_one_ends() -> None:
+    short, long = road.generate(200, seed=3), road.generate(5000, seed=3)
+    assert np.array_equal(short.height, long.height[: len(short.height)])
+    assert np.array_equal(short.enveloped, long.enveloped[: len(short.enveloped)])
+
+
+def test_who_drives_faster_sees_the_same_metres() -> None:
+    slow, fast = track(18.0, 100.0, seed=2), track(36.0, 50.0, seed=2)  # 5 and 10 m/s
+    assert np.allclose(slow.heights[20000::2], fast.heights[10000:], rtol=0, atol=1e-12)
+
+
+def test_nothing_repeats() -> None:
+    height = road.generate(4000, seed=1).height
+    height = height - height.mean()
+    count = len(height)
+    correlation = np.correlate(height[::10], height[::10], "full")[count // 10 :] / np.sum(height[::10] ** 2)
+    assert np.abs(correlation[round(100 / road.SPACING / 10) :]).max() < 0.6
+
+
+def test_no_place_beyond_the_road() -> None:
+    with pytest.raises(ValueError, match=r"position 0 to 11 m: must be from 0 to 10 m"):
+        road.generate(10.0).at(np.array([0.0, 11.0]))
 
 
 def test_envelope_is_the_mean_over_the_contact_length() -> None:
     profile = road.generate(200, seed=4)
-    count = round(road.CONTACT_LENGTH / road.SPACING)
-    # Mean over 6 spacings: trapezoids between 7 samples, cyclic as the profile is.
-    weights = np.r_[0.5, np.ones(count - 1), 0.5] / count
-    mean = np.zeros_like(profile.height)
-    for offset, weight in zip(range(-count // 2, count // 2 + 1), weights, strict=True):
-        mean += weight * np.roll(profile.height, offset)
-    assert np.abs(profile.enveloped - mean).max() < 0.02 * profile.height.std()
+    half = round(road.CONTACT_LENGTH / road.SPACING) // 2
+    fine = np.arange(0.0, road.CONTACT_LENGTH, 1e-4) - road.CONTACT_LENGTH / 2
+    for place in (3.0, 50.02, 120.5):
+        position = place + fine
+        mean = np.interp(position, np.arange(len(profile.height)) * road.SPACING, profile.height).mean()
+        assert profile.at(np.array([place]))[0] == pytest.approx(mean, abs=0.02 * profile.height.std())
+    assert half == 3
