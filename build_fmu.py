@@ -3,6 +3,7 @@
 python build_fmu.py SA8
 python build_fmu.py SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu
 python build_fmu.py --parameters my_damper.toml
+python build_fmu.py SA8 --as-published
 python build_fmu.py SA8 --kind python
 """
 
@@ -22,6 +23,7 @@ import typer
 from fmu_src import description, documentation, python_kind, reference
 from fmu_src.description import model_name
 from fmu_src.native import binaries, sources
+from twintube.closures import acting, closed
 from twintube.parameters import Damper, ParameterError, load
 
 ROOT = Path(__file__).parent
@@ -123,9 +125,16 @@ def main(
     platform: Annotated[
         list[str] | None, typer.Option(help=f"Only for this platform; may be repeated: {', '.join(binaries.PLATFORMS)}.")
     ] = None,
+    as_published: Annotated[
+        bool,
+        typer.Option("--as-published", help="The paper's equations alone: gas that cavitation frees never dissolves again."),
+    ] = False,
     output: Annotated[Path | None, typer.Option(help="File (.fmu) or folder; default: the current folder.")] = None,
 ) -> None:
     """Build the FMU of a damper and validate it with fmpy.
+
+    As a vehicle rides for minutes, gas that cavitation frees goes back into the oil, unless --as-published asks for the
+    paper's equations alone or the parameter set says itself what becomes of it.
 
     The first build for Windows compiles the runtime too and takes a minute or two; later ones take seconds.
     """
@@ -136,12 +145,17 @@ def main(
             changes["oil_level"] = oil_level
         if gas_lost:
             changes["gas_preload"] = 0
-        built = build(chosen.with_(**changes), output, kind, platform or tuple(binaries.PLATFORMS))
+        chosen = chosen.with_(**changes)
+        if not as_published:
+            chosen = closed(chosen)
+        built = build(chosen, output, kind, platform or tuple(binaries.PLATFORMS))
     except (ParameterError, BuildError, OSError) as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from None
     typer.echo(
-        f"{built}: {chosen.name}, {chosen.title}; valid {kind} FMI 2.0 co-simulation FMU, {built.stat().st_size // 1024} kB"
+        f"{built}: {chosen.name}, {chosen.title}; valid {kind} FMI 2.0 co-simulation FMU, "
+        f"{built.stat().st_size // 1024} kB\n"
+        f"cavitation: {acting(chosen)}"
     )
 
 

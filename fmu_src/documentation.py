@@ -7,6 +7,7 @@ from html import escape
 
 from fmu_src import reference
 from twintube import __version__
+from twintube.closures import OWN, acting
 from twintube.effects import Parameters
 from twintube.parameters import Damper
 from twintube.variables import Inputs, Outputs, fmi_name
@@ -24,6 +25,11 @@ to the communication step; 1 ms is usual.</p>
 <p>A degraded damper must be preconditioned before its force means anything: the paper moves it six times at
 0.05 m/s. At rest the model holds still, however long,
 unless an effect that acts with time is switched on.</p>
+"""
+GAS = """
+<p><strong>Gas that cavitation frees</strong> in this FMU &ndash; {}. The paper's equations 40 and 41 alone never give it
+back: that suits blocks of seconds, to which they were fitted; over minutes every damper with oil loss fails. Which closure
+is right is not published. The parameters {} choose it; all 0 are the paper's equations.</p>
 """
 KINDS = {
     "native": """
@@ -61,6 +67,11 @@ def picture(damper: Damper) -> str:
     return "data:image/png;base64," + base64.b64encode(data.getvalue()).decode()
 
 
+def chosen_by() -> str:
+    """The names of the parameters that choose the closure, as HTML."""
+    return ", ".join(f"<em>{fmi_name(item)}</em>" for item in fields(Parameters) if item.name in OWN)
+
+
 def origin(damper: Damper, name: str, group: str) -> str:
     """Where a parameter's value comes from, as HTML."""
     for key in (name, group):
@@ -92,7 +103,8 @@ def page(damper: Damper, kind: str) -> str:
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>twintube {escape(damper.name)}</title>'
         f"<style>{STYLE}</style><h1>twintube: {escape(damper.name)}</h1><p>{escape(damper.title)}. Semi-physical model of "
         "a twin-tube shock absorber after oil and gas loss, after Schramm, Zwosta, Prokop, Vehicles 2025, 7(1), 26, "
-        f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}{KINDS[kind]}"
+        f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}"
+        f"{GAS.format(escape(acting(damper)), chosen_by())}{KINDS[kind]}"
         f'<figure><img alt="force over stroke and velocity" src="{picture(damper)}"><figcaption>Second half of the '
         f"reference run in extra/twintube: {reference.FREQUENCY:g} Hz, {amplitude * 1e3:.0f} mm, with the start values of "
         "this FMU.</figcaption></figure><table><tr>"
