@@ -19,7 +19,8 @@ def tube(damper: str | Damper, level: float, preload: bool, changes: dict[str, f
     p = (given.with_(**changes) if changes else given).parameters
     A_rod, A_2 = pi / 4 * p.D_PR**2, pi / 4 * p.D_li**2
     rod = A_rod / A_2
-    cavitates = 0.0 if preload or level >= 1.0 else 1.0
+    full_from = p.cavitation_loss  # oil loss; below it in proportion
+    cavitates = 0.0 if preload else 1.0 if 1.0 - level >= full_from else (1.0 - level) / full_from
     return Tube(
         A_1=A_2 - A_rod,
         A_2=A_2,

@@ -58,6 +58,18 @@ def harmonic(velocity: float, pause: float = 0.0) -> Drive:
     return Drive(pieces, tuple((float(row[0]), float(row[1])) for row in pieces[2:] if row[2] > 0.0))
 
 
+def recovery(velocity: float, seconds: float, pause: float, slow: bool) -> Drive:
+    """Preconditioning, a block of about `seconds`, a `pause` [s], slow strokes or none, and 19 oscillations.
+
+    The blocks are the long one and the 19.
+    """
+    slowly, rest = sine(V_PRECONDITIONING, PRECONDITIONING), (PAUSE, 0.0, 0.0, 0.0, 0.0, 0.0)
+    long = sine(velocity, round(seconds * velocity / (2 * np.pi * AMPLITUDE)))
+    parts = [slowly, rest, long, (pause, *rest[1:]), *([slowly, rest] if slow else []), sine(velocity, OSCILLATIONS)]
+    pieces = joined(parts)
+    return Drive(pieces, tuple((float(pieces[i, 0]), float(pieces[i, 1])) for i in (2, -1)))
+
+
 def quasi_static(amplitude: float = AMPLITUDE) -> Drive:
     """Out, in and back to the middle at 1 mm/s."""
     quarter = amplitude / V_QUASI_STATIC

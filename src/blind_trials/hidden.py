@@ -21,6 +21,8 @@ EFFECTS = (
     "smooth_transition",
     "foam_decay",
     "gas_redissolution",
+    "oil_displacement",
+    "gas_exhaustion",
     "gas_spring",
     "seal_leak",
     "end_stop",
@@ -107,6 +109,17 @@ def gas_redissolution(d: Dice, s: Secret) -> None:
     half_life = d.between(6.1, 10.2)
     s.always |= {"dissolve": d.strength * float(np.log(2)) / half_life}
     s.truth |= {"half_life_s": half_life / max(d.strength, LEAST)}
+
+
+def oil_displacement(d: Dice, s: Secret) -> None:
+    """Oil that makes room for freed gas is still in the damper: the reserve keeps a share of it."""
+    s.always |= {"give_way": min(d.strength * d.between(0.4, 0.7), 1.0)}
+
+
+def gas_exhaustion(d: Dice, s: Secret) -> None:
+    """The oil frees no more than it holds: a tenth of its volume at 1 bar, and more at the pressure where the gas is."""
+    solubility, pressure = d.between(0.093, 0.113), d.between(0.2, 0.5)  # [1] gas at 1 bar per oil, [bar]
+    s.always |= {"scarce": d.strength * pressure / solubility}
 
 
 def gas_spring(d: Dice, s: Secret) -> None:
@@ -223,6 +236,8 @@ DRAWS: dict[str, Callable[[Dice, Secret], None]] = {
         smooth_transition,
         foam_decay,
         gas_redissolution,
+        oil_displacement,
+        gas_exhaustion,
         gas_spring,
         seal_leak,
         end_stop,

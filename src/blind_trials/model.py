@@ -159,6 +159,25 @@ def force_of(base: float, foam: float, oil: float, liquid: float, c: Tube, y: Ar
 
 
 @compiled
+def freed(c: Tube, h: Hidden, y: Array, gas: float) -> float:
+    """Book the gas [m3] that a valve would free; returns the oil [m3] that does not arrive behind the valve.
+
+    The oil holds a limited gas, so that less comes out the more is free already. What gives way to gas and has room in the
+    reserve is there, as the rod draws so much less from it or the foot valve passes so much more; the rest is gone.
+    """
+    if h.scarce > 0.0:
+        gas *= max(1.0 - h.scarce * (y[CAV] - y[RETURNED]) / c.oil, 0.0)
+    if h.give_way > 0.0:
+        kept = min(h.give_way * gas, max(c.V_res - y[O3] - y[F3], 0.0))
+        y[O3] += kept
+        gone = (1.0 - h.give_way) * gas
+        y[CAV] += gone
+        return float(kept + gone)
+    y[CAV] += gas
+    return gas
+
+
+@compiled
 def rebound(c: Tube, h: Hidden, y: Array, z: float, dz: float, speed: float) -> float:
     """Move the phases from the stroke z [m] outwards by dz > 0; returns k_degr."""
     want = c.A_1 * dz
@@ -171,8 +190,7 @@ def rebound(c: Tube, h: Hidden, y: Array, z: float, dz: float, speed: float) -> 
     oil = min(y[O1], liquid - foam)
     k = force_of(blend(c.X_Re, 1.0, y[D1], h.blend), foam, oil, liquid, c, y, 0, phi)
     y[O1] -= oil
-    lost = c.Y_Re * oil if speed > c.v_cav else 0.0
-    y[CAV] += lost
+    lost = freed(c, h, y, c.Y_Re * oil) if speed > c.v_cav else 0.0
     y[O2] += oil - lost
     if y[O1] > 0.0 and foam > 0.0:  # beside oil the foam separates in the valve
         y[O2] += y[HELD] * min(foam / y[F1], 1.0)
@@ -220,8 +238,7 @@ def compression(c: Tube, h: Hidden, y: Array, z: float, dz: float, speed: float)
     carry(y, 1, 0, up * foam)
     carry(y, 1, 2, min((1.0 - up) * foam, y[F2]))
     y[O2] -= oil
-    lost = c.Y_Co * up * oil if speed > c.v_cav else 0.0
-    y[CAV] += lost
+    lost = freed(c, h, y, c.Y_Co * up * oil) if speed > c.v_cav else 0.0
     y[O1] += up * oil - lost
     y[O3] += (1.0 - up) * oil
     if out > 0.0 and speed > c.v_foam and y[O1] > 0.0:

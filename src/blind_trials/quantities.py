@@ -68,6 +68,8 @@ class Hidden(NamedTuple):
     drain_fast: float = 0.0  # [1/s]
     drain_slow: float = 0.0  # [1/s]
     dissolve: float = 0.0  # [1/s]
+    give_way: float = 0.0  # [1] share of the oil in place of freed gas that the reserve keeps
+    scarce: float = 0.0  # [1] oil at the start per gas that it can free
     residual: float = 0.0  # [Pa] gauge
     polytropic: float = 1.2  # [1]
     leak: float = 0.0  # [m3/s per (m/s)^0.5]

@@ -8,6 +8,7 @@ dataset    as the data door of `twintube` reads it
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from zlib import crc32
 
@@ -17,7 +18,7 @@ import pyarrow.parquet
 import tomlkit
 
 from blind_trials.damper import march, tube
-from blind_trials.excitation import LONG_PAUSE, V_REST, VELOCITIES, Drive, harmonic, quasi_static
+from blind_trials.excitation import LONG_PAUSE, V_REST, VELOCITIES, Drive, harmonic, quasi_static, recovery
 from blind_trials.hidden import EFFECTS, FAULTS, KINDS, OUTSIDE, Secret, secret
 from blind_trials.model import CELL
 from blind_trials.quantities import Array, Hidden
@@ -30,6 +31,7 @@ __all__ = ["DAMPER", "EFFECTS", "FAULTS", "KINDS", "OUTSIDE", "Trial", "TrialRec
 DAMPER = {"smooth_transition": "SA7"}  # the damper that shows a kind where SA8 hardly does
 SLOWEST, FASTEST, QUASI_STATIC = 100.0, 2000.0, 50.0  # [Hz] sampling
 WARM = 273.15 + 25.0  # [K]
+RESTS, FULLER = (10.0, 180.0), 0.9  # [s] and [1] rests and oil level of the recovery records beside the measured level
 MAINS = 49.98  # [Hz] not quite 50, or sampling at 50 Hz would see a constant
 TARE = 0.003  # of the peak: the largest standard deviation of the zeros of the records; 0.05 % of a 20 kN cell is 10 N
 
@@ -85,14 +87,20 @@ class Taken:
     start: float  # [K]
 
 
-def plans(damper: Damper, blocks: Sequence[float]) -> list[Plan]:
-    """The records of a dataset; those with a long rest belong to the block of their velocity."""
+def plans(damper: Damper, blocks: Sequence[float], recover: Sequence[float] = (), seconds: float = 20.0) -> list[Plan]:
+    """The records of a dataset; those with a long rest belong to the block of their velocity.
+
+    With velocities to `recover` at [m/s] also long blocks of some `seconds`, a rest and a block again, without preload.
+    """
     found = [Plan("intact_quasi_static", 1.0, True, quasi_static(), 0.0)]
     for level, preload in ((1.0, True), *((round(level, 4), False) for level in damper.measured_levels)):
         name = "intact" if preload else f"oil_{100 * level:.0f}"
         found += [Plan(f"{name}_v{1000 * v:04.0f}", level, preload, harmonic(v), v) for v in blocks]
         if not preload and V_REST in blocks:
             found.append(Plan(f"{name}_rest", level, preload, harmonic(V_REST, LONG_PAUSE), V_REST))
+    for v, level, slow, rest in product(recover, (FULLER, damper.measured_levels[0]), (False, True), RESTS):
+        name = f"oil_{100 * level:.0f}_v{1000 * v:04.0f}_{seconds:.0f}s_rest_{rest:.0f}s{'_slow' if slow else ''}"
+        found.append(Plan(name, round(level, 4), False, recovery(v, seconds, rest, slow), v))
     return found
 
 
@@ -124,11 +132,13 @@ def trial(
     damper: str | None = None,
     strength: float | None = None,
     blocks: Sequence[float] = VELOCITIES,
+    recover: Sequence[float] = (),
+    seconds: float = 20.0,
 ) -> Trial:
     """The trial of a kind, also "a+b"; the same arguments give the same numbers.
 
     `strength` 1 is typical; None draws it from 0.5 to 1.5. `damper` None is SA8, or what `DAMPER` says for the kind;
-    `blocks` are the velocities [m/s] to be measured.
+    `blocks` are the velocities [m/s] to be measured, and `recover` those of long blocks of some `seconds` with a rest.
     """
     name = damper or DAMPER.get(kind.split("+", maxsplit=1)[0], "SA8")
     given = load(name)
@@ -137,7 +147,8 @@ def trial(
     samples, jitter = rng.uniform(250, 400), rng.uniform(0.0, 0.2)
     tolerance, with_velocity, phase = rng.uniform(-0.003, 0.003), rng.random() < 0.3, rng.uniform(0, 2 * np.pi)
     room = WARM + rng.uniform(-1.5, 1.5)
-    taken = [take(plan, given, s, room + rng.uniform(-0.5, 0.5), samples, jitter, rng) for plan in plans(given, blocks)]
+    wanted = plans(given, blocks, recover, seconds)
+    taken = [take(plan, given, s, room + rng.uniform(-0.5, 0.5), samples, jitter, rng) for plan in wanted]
     peak = max(float(np.abs(one.force).max()) for one in taken)
     cell = max(float(np.abs(one.force).max()) for one in taken if not one.plan.preload)
     # The load cell is tared before every record, none too well.

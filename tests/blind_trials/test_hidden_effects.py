@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from blind_trials.damper import march, tube
-from blind_trials.excitation import VELOCITIES, harmonic
+from blind_trials.excitation import VELOCITIES, harmonic, recovery
 from blind_trials.hidden import DRAWS, EFFECTS, KINDS, secret
-from blind_trials.model import COLUMNS, FOAMED, FORCE, FREED, K_DEGR, LOST, PLACE, WARM
+from blind_trials.model import COLUMNS, FOAMED, FORCE, FREED, K_DEGR, LOST, OIL, PLACE, WARM
 from blind_trials.quantities import Hidden
 from twintube.parameters import load
 
@@ -16,12 +16,12 @@ P = load("SA8").parameters
 class Run:
     """A record of SA8 with effects hidden in it."""
 
-    def __init__(self, level, velocity, preload=False, pause=0.0, name="SA8", **hidden):
-        self.drive = harmonic(velocity, pause)
+    def __init__(self, level, velocity, preload=False, pause=0.0, name="SA8", drive=None, changes=None, **hidden):
+        self.drive = drive or harmonic(velocity, pause)
         rate = max(200.0, 400 * velocity / (2 * np.pi * 0.045))
         self.time = np.arange(int(self.drive.duration * rate)) / rate
         self.z, self.v = self.drive.sampled(self.time)
-        self.out = march(tube(name, level, preload), Hidden(**hidden), self.drive, self.time)
+        self.out = march(tube(name, level, preload, changes), Hidden(**hidden), self.drive, self.time)
         self.force = self.out[:, FORCE]
 
     def works(self, block=0):
@@ -39,7 +39,7 @@ def drawn(kind, **changes):
 
 
 def test_every_kind_has_a_draw():
-    assert set(DRAWS) == set(KINDS) and len(EFFECTS) == 13
+    assert set(DRAWS) == set(KINDS) and len(EFFECTS) == 15
 
 
 def test_strength_zero_hides_nothing():
@@ -83,7 +83,8 @@ def test_lag_makes_a_loop_about_the_curve():
 
 
 def test_transition_is_gradual():
-    smooth, plain = Run(0.56, 1.048, blend=4e-3), Run(0.56, 1.048)
+    # A long dead length, with which gas and oil take turns in every stroke.
+    smooth, plain = (Run(0.56, 1.048, changes={"dead_length": 0.11}, blend=blend) for blend in (4e-3, 0.0))
 
     def between(run):
         k = run.out[run.block(), K_DEGR]
@@ -104,6 +105,37 @@ def test_dissolved_gas_brings_the_work_back():
     assert back.works()[18] > plain.works()[18]
     assert back.works(1)[0] > 1.5 * plain.works(1)[0]
     assert back.out[-1, FREED] < plain.out[-1, FREED]
+
+
+def long_block(level=0.9, rest=10.0, slow=False, **hidden):
+    """20 s at 1.08 m/s, a rest [s], slow strokes or none, and 19 oscillations."""
+    return Run(level, 1.08, drive=recovery(1.08, 20.0, rest, slow), **hidden)
+
+
+def test_displaced_oil_is_in_the_damper_still():
+    start = tube("SA8", 0.9, False).oil
+    letter, half, whole = (long_block(give_way=share) for share in (0.0, 0.5, 1.0))
+    for one in (letter, half, whole):
+        assert one.out[:, OIL] + one.out[:, FREED] == pytest.approx(start, rel=1e-9)
+    assert letter.out[-1, OIL] < 0.6 * start and half.out[-1, OIL] > letter.out[-1, OIL]
+    assert whole.out[:, OIL] == pytest.approx(start, rel=1e-9) and whole.out[-1, FREED] == 0.0
+    assert whole.works(1)[18] > 2 * letter.works(1)[18]
+
+
+def test_slow_strokes_bring_displaced_oil_back_and_rest_does_not():
+    first, rested, slow = (
+        long_block(rest=rest, slow=slow, give_way=1.0).works(1)[0] for rest, slow in ((10, False), (180, False), (10, True))
+    )
+    assert rested == pytest.approx(first, rel=1e-3) and slow > 1.3 * first
+
+
+def test_oil_frees_no_more_gas_than_it_holds():
+    start = tube("SA8", 0.9, False).oil
+    for most in (0.2, 0.345):
+        gone = long_block(scarce=1 / most).out[:, FREED] / start
+        assert (np.diff(gone) >= 0.0).all()
+        assert 0.98 * most < gone[-1] <= most
+    assert long_block().out[-1, FREED] > 0.45 * start
 
 
 def test_residual_gas_pushes_the_rod_out_more_when_it_is_in():

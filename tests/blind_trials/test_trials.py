@@ -22,7 +22,7 @@ def same(a, b):
 
 
 def test_the_catalogue_is_the_contract_s():
-    assert len(EFFECTS) == 13 and len(FAULTS) == 5 and len(OUTSIDE) >= 4
+    assert len(EFFECTS) == 15 and len(FAULTS) == 5 and len(OUTSIDE) >= 4
     assert len(set(KINDS)) == len(KINDS) == len(EFFECTS) + len(FAULTS) + 2 + len(OUTSIDE)
 
 
@@ -30,6 +30,18 @@ def test_a_whole_dataset_has_all_records():
     names = [plan.file for plan in plans(load("SA8"), inspect.signature(trial).parameters["blocks"].default)]
     assert len(names) == len(set(names)) == 1 + 8 + 2 * 9
     assert sum(name.endswith("_rest") for name in names) == 2
+
+
+def test_recovery_records_come_beside_the_others(tmp_path):
+    usual, more = made("none"), made("none", recover=(1.08,), seconds=2.0)
+    added = more.records[len(usual.records) :]
+    assert [(one.oil_level, one.gas_preload) for one in added] == [(0.9, False)] * 4 + [(0.5604, False)] * 4
+    lengths = {one.file.split("rest_")[1]: one.time[-1] for one in added[:4]}
+    assert lengths["180s.parquet"] - lengths["10s.parquet"] == pytest.approx(170.0, abs=0.05)
+    assert lengths["10s_slow.parquet"] - lengths["10s.parquet"] == pytest.approx(
+        6.1 * 2 * np.pi * 0.045 / 0.05 + 2.0, abs=0.05
+    )
+    assert not check_dataset(write(more, tmp_path)).errors
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in ("sign_flip", "unit_error")])
