@@ -14,10 +14,11 @@ from benchmarks.timing import best
 from fmu_src.native import binaries
 from twintube import effects, model
 from twintube.parameters import Damper, load
-from twintube.quarter_car import PASSAT_REAR, Car
 from twintube.variables import Derived, Flow, blank
+from twintube.vehicle.cars import load_car
+from twintube.vehicle.ride import track
 from vehicle_demo.damper_fmu import DamperFmu
-from vehicle_demo.ride import Case, heights, ride
+from vehicle_demo.ride import Case, ride
 
 TRIVIAL = Path(__file__).parent / "trivial.c"
 HOST = Path(__file__).parent.parent / "tests" / "native" / "host.c"
@@ -120,13 +121,13 @@ def bench_fmu_step() -> dict[str, float]:
 def bench_quarter_car() -> dict[str, float]:
     """One case of the demo on one core: 60 s at 50 km/h, 60 % oil, steps of 1 ms, FMU in the loop."""
     damper = load("SA8")
-    car = Car(**PASSAT_REAR, F_rest=-damper.parameters.F_0)
+    car = load_car().corner(damper)
     case = Case(50.0, 0.6, 0)
-    height = heights(case, 60.0, 1e-3, seed=1)
+    on = track(50.0, 60.0)
 
     def seconds(kind: build_fmu.Kind, folder: str) -> float:
         fmu = build_fmu.build(damper, Path(folder) / f"{kind}.fmu", kind, (fmpy.platform,))
-        return best(lambda: ride(fmu, car, case, height, 1e-3))
+        return best(lambda: ride(fmu, car, case, on))
 
     with tempfile.TemporaryDirectory() as folder:
         native, python = seconds("native", folder), seconds("python", folder)

@@ -104,7 +104,7 @@ ERRORS = {
     "velocity gain": (scale(V, 1.2), V, None, "wrong gain?"),
     "other velocity": (lambda c: c | {V: np.cos(7 * c[T]) * 180}, V, None, "velocity is not the derivative of the stroke"),
     "force sign": (scale(F, -1), F, None, "set force_sign = -1 or stroke_sign = -1"),
-    "outside the tube": (put(Z, 400, 200.0), Z, 402, "stroke up to 0.2 m: the tube allows -0.11"),
+    "outside the tube": (put(Z, 400, 200.0), Z, 402, "stroke up to 0.2 m: the tube allows -0.1"),
     "repeated samples": (held(500, 520), Z, 503, "stroke and force stay identical while the damper moves"),
     "repeated, no velocity": (
         both(held(500, 520), without(V)),

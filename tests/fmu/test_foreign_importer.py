@@ -5,6 +5,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import pytest
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimManipulator import CosimManipulator
 from libcosimpy.CosimObserver import CosimObserver
@@ -70,7 +71,8 @@ def test_libcosim_sets_start_values(sa8_native: Path) -> None:
     damper = Libcosim(sa8_native, {OIL_LEVEL: 0.56})
     for i, force in enumerate(kernel_forces(200, oil_level=0.56)):
         assert damper.step(*motion(i))
-        assert damper.force == force
+        # libcosim's step is a difference of times, which rounding makes a little longer or shorter.
+        assert damper.force == pytest.approx(force, rel=1e-9)
 
 
 def test_a_refused_step_ends_libcosims_run_but_not_the_process(sa8_native: Path) -> None:

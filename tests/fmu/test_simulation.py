@@ -96,7 +96,7 @@ def test_full_and_tiny_steps_are_accepted(sa8_fmu: Path) -> None:
     ("stroke", "velocity", "dt", "message"),
     [
         (math.nan, 0.0, 1e-3, r"stroke = nan m: must be a number from -0\."),
-        (0.3, 0.0, 1e-3, r"stroke = 0\.3 m: must be a number from -0\.11"),
+        (0.3, 0.0, 1e-3, r"stroke = 0\.3 m: must be a number from -0\.1"),
         (0.1, 15.0, 1e-2, r"stroke at the end of the step = 0\.25 m: must be"),
         (0.0, math.inf, 1e-3, r"velocity = inf m/s: must be a number from -20 to 20 m/s"),
         (0.0, 0.0, -1e-3, r"communication step = -0\.001 s: must be"),

@@ -14,6 +14,7 @@ from lxml import etree
 from typer.testing import CliRunner
 
 from twintube.cli import app
+from twintube.closures import closed
 from twintube.parameters import Damper, elements, load, names
 from twintube.ssv import to_ssv
 from vehicle_demo.damper_fmu import DamperFmu
@@ -133,6 +134,9 @@ def test_command_writes_the_parameters(tmp_path: Path) -> None:
     run = CliRunner().invoke(app, ["ssv", "SA7", "--oil-level", "0.56", "--gas-lost", "--output", str(file)])
     assert run.exit_code == 0, run.output
     assert "SA7" in run.output
+    assert file.read_text(encoding="utf-8") == to_ssv(closed(WORN))
+    arguments = ["ssv", "SA7", "--oil-level", "0.56", "--gas-lost", "--as-published", "--output", str(file)]
+    assert CliRunner().invoke(app, arguments).exit_code == 0
     assert file.read_text(encoding="utf-8") == to_ssv(WORN)
     help_ = CliRunner().invoke(app, ["ssv", "--help"])
     assert "Example: twintube ssv" in help_.output

@@ -100,7 +100,7 @@ GOOD = to_toml(load("SA8"))
         ("X_Re = 0.01", "X_Re = -0.01", r"line \d+: degradation\.X_Re = -0\.01 1: must be a number from 0 to 1"),
         ("D_PR = 0.013 # m", "D_PR = 0.03", r"geometry\.D_PR = 0\.03 m: must be below geometry\.D_li = 0\.0298 m"),
         ("V_oil = 0.000273 # m3", 'V_oil = "100 mL"', r"geometry\.V_oil = 0\.0001 m3: must be at least"),
-        ("stroke_max = 0.05 # m", 'stroke_max = "200 mm"', r"geometry\.stroke_max = 0\.2 m: must be below 0\.1105 m"),
+        ("stroke_max = 0.08 # m", 'stroke_max = "200 mm"', r"geometry\.stroke_max = 0\.2 m: must be below 0\.1\d+ m"),
         ("rebound = [\n", "rebound = [\n    [0.2, 5000],\n", r"fv\.rebound: 21 points, must be from 2 to 20"),
         ("rebound = [\n", "rebound = 3\nother = [\n", r"fv\.rebound: must be a list of \[velocity, force\] pairs"),
     ],

@@ -73,7 +73,7 @@ def test_simulate_a_record(tmp_path: Path) -> None:
         ("time [s],stroke [mm]\n0,1\n0,2\n", "in.csv: row 3, column time: 0 s is not after the row before"),
         ("time [s],stroke [N]\n0,1\n1,2\n", "in.csv: row 1, column 'stroke [N]'"),
         ("time [s],strok [mm]\n0,1\n1,2\n", "in.csv: row 1: no column 'stroke [m]'"),
-        ("time [s],stroke [mm]\n0,1\n1,200\n", "sample 1: stroke = 0.2 m: must be a number from -0.11"),
+        ("time [s],stroke [mm]\n0,1\n1,200\n", "sample 1: stroke = 0.2 m: must be a number from -0.1"),
         ("", "in.csv: the file is empty"),
     ],
 )
@@ -97,7 +97,7 @@ def test_bad_records(tmp_path: Path, text: str, message: str) -> None:
         (["simulate", "SA8", "--amplitude-mm", "200"], "stroke = "),
         (
             ["claims", "--reading", "leaks=1"],
-            "error: --reading leaks=1: must be NAME=INTEGER with a name of leak_carries_oil",
+            "error: --reading leaks=1: must be NAME=NUMBER with a name of leak_carries_oil",
         ),
         (["reproduce", "--figure", "99"], "error: figure 99: a model can produce 3, 5"),
         (["reproduce", "--processes", "0"], "error: processes = 0: must be at least 1"),
@@ -126,7 +126,7 @@ def test_claims_as_json(tmp_path: Path) -> None:
     run = RUNNER.invoke(app, ["claims", "--json", str(out)])
     assert run.exit_code == 0, run.output
     found = json.loads(out.read_text())
-    assert [c["id"] for c in found] == [f"C{i}" for i in range(1, 15)]
+    assert [c["id"] for c in found] == [f"C{i}" for i in range(1, 17)]
     assert {"id", "holds", "figures", "needs"} <= set(found[0])
     assert "evidence: " in run.output
 

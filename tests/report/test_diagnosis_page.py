@@ -42,7 +42,7 @@ def state(damper: Damper, level: float) -> Damper:
 
 def measure(truth: Damper, level: float, v: float, rng: np.random.Generator) -> Record:
     """A record of the model itself, with noise."""
-    block = harmonic_block(v, dt=1e-3, rest=2.0)
+    block = harmonic_block(v, dt=1e-3, rest=2.0, start="rebound")
     force = simulate(state(truth, level), block.stroke, block.velocity, block.time).force
     force = force + rng.normal(0, NOISE, len(force))
     name = f"h{level * 100:.0f}_{v:g}"
@@ -209,7 +209,7 @@ def test_oscillations_and_their_work():
     case = prepared(record, 1.0)
     block = oscillations(case)
     assert len(block) == 19 and [name for name, _ in parts(case)] == ["first oscillation", "oscillation 19"]
-    marks = harmonic_block(0.524, dt=1e-3, rest=2.0).marks
+    marks = harmonic_block(0.524, dt=1e-3, rest=2.0, start="rebound").marks
     dense = [np.trapezoid(record.force[a : b + 1], record.stroke[a : b + 1]) for a, b in zip(marks, marks[1:], strict=False)]
     assert work(case, case.measured()) == pytest.approx(np.array(dense), rel=0.01)
     ends = closed(case, block[0])

@@ -92,7 +92,7 @@ def test_records_and_own_dampers_are_found_beside_the_study(tmp_path: Path) -> N
         ('dampers = "SA8"\nvariant = [5]', "line 2: variant = 5 1: must be a number from 1 to 4"),
         ('dampers = "SA8"\nvariant = [1.5]', "line 2: variant = 1.5: must be an integer"),
         ('dampers = "SA8"\nvelocity = ["1 kg"]', "line 2: velocity: '1 kg' is no quantity in m/s"),
-        ('dampers = "SA8"\namplitude = ["200 mm"]', "SA8: amplitude = 0.2 m: must be a number from 0 to 0.11"),
+        ('dampers = "SA8"\namplitude = ["200 mm"]', "SA8: amplitude = 0.2 m: must be a number from 0 to 0.1"),
         ('dampers = "SA8"\nvelocity = 0.001', "samples, at most 4000000 are possible; raise time_step"),
         ('dampers = "SA8"\noscillations = [20]', "line 2: oscillations = 20 1: must be a number from 1 to 19"),
         ('dampers = "SA8"\ntime_step = [1e-4, 2e-4]', "line 2: time_step: must be one value"),

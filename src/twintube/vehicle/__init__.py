@@ -1,0 +1,1 @@
+"""The car around the damper: road, quarter car, manoeuvres, rides."""
