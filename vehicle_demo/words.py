@@ -3,7 +3,7 @@
 from itertools import groupby
 from typing import Any
 
-NOTHING = 1.05  # DLC over the intact one's up to which nothing is seen [1]
+NOTHING = 1.10  # DLC over the intact one's up to which no rise is claimed [1]
 
 
 def verdict(entry: dict[str, Any]) -> str:
@@ -33,7 +33,7 @@ def of_speed(block: dict[str, Any]) -> list[str]:
         high = max(e["bands"]["all_over_intact"][1] for e in entries)
         head = f"{block['speed_kmh']:.0f} km/h, {span(entries)}: "
         if what == "none":
-            found.append(head + f"the wheel load shows nothing within the bands (DLC at most {percent(high)} over intact).")
+            found.append(head + f"the DLC rises by less than 10 % all over the bands (at most {percent(high)} over intact).")
         elif what == "all":
             found.append(
                 head + f"the DLC rises all over the bands, by {percent(low)} to {percent(high)} over intact."

@@ -45,8 +45,10 @@ def closure(name: str, says: str, **parameters: float) -> Closure:
 CLOSURES: Final = {item.name: item for item in (
     closure("letter", "equations 40 and 41 alone: oil becomes gas for good"),
     closure("return", f"half of the gas dissolves again in {MEAN_RETURN:.3g} s, the middle of Section 3.2", **RETURNING),
-    closure("return_fast", f"half of the gas dissolves again in {HALF_LIFE_RETURN[0]} s", redissolution_rate=rate(HALF_LIFE_RETURN[0])),
-    closure("return_slow", f"half of the gas dissolves again in {HALF_LIFE_RETURN[1]} s", redissolution_rate=rate(HALF_LIFE_RETURN[1])),
+    closure("return_fast", f"half of the gas dissolves again in {HALF_LIFE_RETURN[0]} s",
+            redissolution_rate=rate(HALF_LIFE_RETURN[0])),
+    closure("return_slow", f"half of the gas dissolves again in {HALF_LIFE_RETURN[1]} s",
+            redissolution_rate=rate(HALF_LIFE_RETURN[1])),
     closure("exhausted", f"return, and the oil frees no more gas than it holds, at {P_GAS} bar", **RETURNING,
             exhaustion=P_GAS * 2 / sum(SOLUBILITY)),
     closure("half_displaced", "return, and half of the oil stays in the reserve instead of being lost", **RETURNING,

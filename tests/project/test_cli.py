@@ -28,6 +28,8 @@ RUNNER = CliRunner()
         "study",
         "identify",
         "reproduce",
+        "ride",
+        "ssv",
     ],
 )
 def test_help_has_an_example(command: str) -> None:
@@ -152,3 +154,34 @@ def test_build_fmu_of_a_users_own_damper(tmp_path: Path) -> None:
     run = RUNNER.invoke(build_fmu.app, ["--parameters", str(mine), "--platform", fmpy.platform, "--output", str(tmp_path)])
     assert run.exit_code == 0, run.output
     assert (tmp_path / "twintube_My_damper.fmu").is_file()
+
+
+def test_ride_says_when_the_damping_is_lost(tmp_path: Path) -> None:
+    file = tmp_path / "ride.json"
+    arguments = ["ride", "SA8", "--oil-level", "0.5", "--gas-lost", "--seconds", "30", "--json", str(file)]
+    run = RUNNER.invoke(app, arguments)
+    assert run.exit_code == 0, run.output
+    found = json.loads(file.read_text())
+    assert {"dlc", "dlc_window", "time_to_failure_s", "damping_work_J", "contact_loss_share"} <= set(found)
+    assert found["dlc"] > 1.1 * found["intact"]["dlc"]
+    assert found["time_to_failure_s"] is not None
+    assert found["closure"].startswith("return")
+    letter = RUNNER.invoke(app, [*arguments, "--closure", "letter"])
+    assert letter.exit_code == 0
+    assert json.loads(file.read_text())["closure"].startswith("letter")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--road-class", "F"], "error: --road-class F: must be one of A, B, C, D, E"),
+        (["--closure", "x"], "error: --closure x: must be one of letter, return"),
+        (["--car", "x"], "error: unknown car x: neither a file nor one of passat_b8"),
+        (["--oil-level", "2"], "error: SA8: oil_level = 2 1: must be a number from 0 to 1"),
+    ],
+)
+def test_ride_answers_bad_input_with_one_line(arguments: list[str], message: str) -> None:
+    run = RUNNER.invoke(app, ["ride", "SA8", *arguments])
+    assert run.exit_code == 2
+    assert run.stderr.startswith(message)
+    assert run.stderr.count("\n") == 1
