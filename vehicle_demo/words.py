@@ -35,9 +35,7 @@ def of_speed(block: dict[str, Any]) -> list[str]:
         if what == "none":
             found.append(head + f"the DLC rises by less than 10 % all over the bands (at most {percent(high)} over intact).")
         elif what == "all":
-            found.append(
-                head + f"the DLC rises all over the bands, by {percent(low)} to {percent(high)} over intact."
-            )
+            found.append(head + f"the DLC rises all over the bands, by {percent(low)} to {percent(high)} over intact.")
         else:
             found.append(head + f"not decided by what is published: from {percent(low)} to {percent(high)} over intact, "
                          "by what becomes of the gas, by road, car and damper.")  # fmt: skip

@@ -67,17 +67,23 @@ def elements(damper: Damper) -> Iterator[tuple[str, Field[Any], int, float]]:
 
 def load(damper: str | Path) -> Damper:
     """A named damper (`"SA8"`) or a parameter file; raises ParameterError."""
-    path = FOLDER / f"{damper}.toml"
+    content, text, file = read_named(damper, FOLDER, "damper")
+    return from_content(content, text, file)
+
+
+def read_named(name: str | Path, folder: Path, what: str) -> tuple[dict[str, Any], str, str]:
+    """Content, text and file name of a TOML file: one in `folder` by its name, or any by its path; raises ParameterError."""
+    path = folder / f"{name}.toml"
     if not path.is_file():
-        path = Path(damper)
+        path = Path(name)
     if not path.is_file():
-        raise ParameterError(f"unknown damper {damper}: neither a file nor one of {', '.join(names())}")
+        known = ", ".join(sorted(item.stem for item in folder.glob("*.toml")))
+        raise ParameterError(f"unknown {what} {name}: neither a file nor one of {known}")
     try:
         text = path.read_text(encoding="utf-8")
-        content = tomllib.loads(text)
+        return tomllib.loads(text), text, path.name
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ParameterError(f"{path.name}: {error}") from error
-    return from_content(content, text, path.name)
 
 
 def from_content(content: dict[str, Any], text: str, file: str) -> Damper:

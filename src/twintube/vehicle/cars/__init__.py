@@ -1,19 +1,19 @@
 """Cars in TOML, with sources, assumed values and the bands that a result must hold for; a named one is a file here."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from twintube.checks import outside
-from twintube.parameters import Damper, ParameterError, line_of, quantity, refuse, suggestion
+from twintube.parameters import Damper, line_of, quantity, read_named, refuse, suggestion
 from twintube.vehicle.quarter_car import Car
 
 FOLDER = Path(__file__).parent
 DEFAULT = "passat_b8"
 AXLES = ("front", "rear")
 TABLE = {item.name: item.metadata for item in fields(Car) if item.name != "F_rest"}
+KEYS = ("name", "title", *AXLES, "band", "sources", "assumed")
 RUBBER = 0.025  # [m] that a rubber stop gives before the damper's own end
 
 
@@ -44,38 +44,21 @@ def axle(damper: Damper) -> str:
     return "front" if "front" in damper.title.lower() else "rear"
 
 
-def names() -> list[str]:
-    """The named cars."""
-    return sorted(path.stem for path in FOLDER.glob("*.toml"))
-
-
 def load_car(car: str | Path = DEFAULT) -> CarSet:
     """A named car or a car's file; raises ParameterError with every defect, its line and the allowed range."""
-    path = FOLDER / f"{car}.toml"
-    if not path.is_file():
-        path = Path(car)
-    if not path.is_file():
-        raise ParameterError(f"unknown car {car}: neither a file nor one of {', '.join(names())}")
-    try:
-        text = path.read_text(encoding="utf-8")
-        content = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ParameterError(f"{path.name}: {error}") from error
+    content, text, file = read_named(car, FOLDER, "car")
     found = [f"unknown {key}{suggestion(key, KEYS)}" for key in content if key not in KEYS]
     axles = {name: read_axle(content.get(name), name, text, found) for name in AXLES}
     band = read_band(content.get("band", {}), text, found)
-    refuse(path.name, found)
+    refuse(file, found)
     return CarSet(
-        str(content.get("name", path.stem)),
-        str(content.get("title", path.stem)),
+        str(content.get("name", Path(file).stem)),
+        str(content.get("title", Path(file).stem)),
         axles,
         band,
         content.get("sources", {}),
         content.get("assumed", {}),
     )
-
-
-KEYS = ("name", "title", *AXLES, "band", "sources", "assumed")
 
 
 def read_value(value: Any, name: str, group: str, text: str, found: list[str]) -> float:
