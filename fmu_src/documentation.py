@@ -28,7 +28,7 @@ unless an effect that acts with time is switched on.</p>
 """
 GAS = """
 <p><strong>Gas that cavitation frees</strong> in this FMU &ndash; {}. The paper's equations 40 and 41 alone never give it
-back: that suits blocks of seconds, to which they were fitted; over minutes every damper with oil loss fails. Which closure
+back: that suits blocks of seconds, to which they were fitted; over minutes of cavitation no oil would be left. Which closure
 is right is not published. The parameters {} choose it; all 0 are the paper's equations.</p>
 """
 KINDS = {
