@@ -16,7 +16,7 @@ from twintube.diagnose import diagnose
         ("mount_compliance", {"mount_compliance"}),
         pytest.param("fluid_lag", {"fluid_lag"}, marks=pytest.mark.slow),
         pytest.param("oil_level_error+valve_wear", {"oil_level_error", "valve_wear"}, marks=pytest.mark.slow),
-        ("valve_wear+gas_spring", {"valve_wear", "gas_spring"}),
+        pytest.param("valve_wear+gas_spring", {"valve_wear", "gas_spring"}, marks=pytest.mark.slow),
     ],
 )
 def test_look_alikes_and_pairs_are_told_apart(kind: str, named: set[str], tmp_path: Path) -> None:
