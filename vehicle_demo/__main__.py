@@ -13,6 +13,7 @@ from tqdm import tqdm
 
 import build_fmu
 from twintube import effects
+from twintube.cli.base import write
 from twintube.closures import CLOSURES, DEFAULT, LETTER, acting, closed
 from twintube.parameters import Damper, ParameterError, load
 from twintube.simulate import InputError
@@ -93,9 +94,9 @@ def entry(speed: float, level: float | None, found: dict[Case, Ride], rides: Rid
     return figures
 
 
-def failure_map(damper: Damper, car: CarSet, seconds: float, dt: float) -> dict[str, Any]:
+def failure_map(damper: Damper, car: CarSet, seconds: float, dt: float, seed: int) -> dict[str, Any]:
     """Time to failure [s] over speed and oil level (null: not within the ride) by closure."""
-    rides = Rides(damper, car, seconds, dt)
+    rides = Rides(damper, car, seconds, dt, seed)
     levels = LEVELS[1:]
     settings = {name: Setting(closure=name) for name in MAP_CLOSURES}
     rides.drive_all(MAP_SPEEDS, levels, settings.values(), "time to failure")
@@ -153,7 +154,7 @@ def summary(
         "static_wheel_load_N": static_load(corner),
         "largest_difference_of_dlc_fmu_to_kernel": max(differences),
         "speeds": speeds,
-        "time_to_failure": failure_map(damper, car, MAP_LONGER * rides.seconds, rides.dt),
+        "time_to_failure": failure_map(damper, car, MAP_LONGER * rides.seconds, rides.dt, seed),
         "moments": {
             "speed_kmh": one.case.speed_kmh,
             "oil_level": one.case.oil_level,
@@ -237,13 +238,11 @@ def main(
         with tempfile.TemporaryDirectory() as folder:
             fmu = build_fmu.build(closed(chosen), Path(folder), platforms=(fmpy.platform,))
             found = run_all(fmu, vehicle.corner(chosen), cases(off), seconds, dt, seed)
-        rides = Rides(chosen, vehicle, seconds, dt)
+        rides = Rides(chosen, vehicle, seconds, dt, seed)
         rides.drive_all(SPEEDS, LEVELS, [*everything(rides), Setting(closure=SCALAR)], "bands")
         result, looked_at = summary(chosen, vehicle, found, rides, off, seed)
         pictures = draw(output, result, found, looked_at)
-        part = output / "summary.json.part"
-        part.write_text(json.dumps(result, indent=1), encoding="utf-8")
-        part.replace(output / "summary.json")
+        write(output / "summary.json", json.dumps(result, indent=1))
     except (ParameterError, InputError, build_fmu.BuildError, FmuError, OSError) as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from None

@@ -73,13 +73,15 @@ class Rides:
     car: CarSet
     seconds: float
     dt: float
+    seed: int = 1  # of the first road; a setting's seed counts from it
     found: dict[tuple[float, float | None, Setting], dict[str, Any]] = field(default_factory=dict)
 
     def run(self, speed: float, level: float | None, setting: Setting) -> Drive:
         """One ride; `level` None is the intact damper."""
         damper = changed(self.damper, setting)
         state = condition(damper, 1.0 if level is None else level, int(level is None), setting.closure)
-        return ride(state, self.car.corner(damper, **dict(setting.car)), course(speed, self.seconds, setting.seed, self.dt))
+        on = course(speed, self.seconds, self.seed + setting.seed - 1, self.dt)
+        return ride(state, self.car.corner(damper, **dict(setting.car)), on)
 
     def group(self, speed: float, levels: Iterable[float], setting: Setting) -> Iterator[tuple[Any, dict[str, Any]]]:
         """The intact damper and all levels over the same track, with their figures."""

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
+from twintube.cli.base import write
 from twintube.closures import CLOSURES, DEFAULT
 from twintube.parameters import ParameterError, load
 from twintube.vehicle.cars import CarSet, axle, load_car
@@ -86,10 +87,7 @@ def main(
     """Drive the quarter car with everything assumed varied, and write the table of the DLC."""
     try:
         text = page(damper, car)
-        output.parent.mkdir(parents=True, exist_ok=True)
-        part = output.with_suffix(".part")
-        part.write_text(text, encoding="utf-8")
-        part.replace(output)
+        write(output, text)
     except (ParameterError, OSError) as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from None

@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 
 def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "vehicle_demo", "--output", str(tmp_path / "out"), "--seconds", "20"],
+        [sys.executable, "-m", "vehicle_demo", "--output", str(tmp_path / "out"), "--seconds", "20", "--seed", "3"],
         cwd=ROOT, capture_output=True, text=True, check=True,
     )  # fmt: skip
     assert "intact" in done.stdout
@@ -41,7 +41,7 @@ def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
             assert entry["bands"]["closure"]["letter"] == entry["bare_paper_model"]["dlc"]
             assert entry["scalar_factor"]["dlc"] > 0
     assert "fv" in result["assumed"]
-    assert result["largest_difference_of_dlc_fmu_to_kernel"] < 0.05
+    assert result["largest_difference_of_dlc_fmu_to_kernel"] == 0.0  # the same road, the same bits
     table = result["time_to_failure"]
     assert all(len(row) == len(table["oil_levels"]) for rows in table["closures"].values() for row in rows)
     for sentence in result["sentences"]:
