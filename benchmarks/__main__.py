@@ -13,7 +13,7 @@ from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.identify import bench_identify
 from benchmarks.kernel import bench_kernel
-from twintube import compiled
+from twintube.engine import compiled
 
 BENCHMARKS = {
     "kernel": bench_kernel,

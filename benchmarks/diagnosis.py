@@ -17,12 +17,12 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-import blind_trials
 import twintube
-from blind_trials.hidden import EFFECTS, FAULTS, OUTSIDE
-from blind_trials.trials import trial, write
 from twintube.data import DataError
-from twintube.diagnose.engine import diagnose, known_gain
+from twintube.diagnosis.engine import diagnose, known_gain
+from twintube.lab import blind_trials
+from twintube.lab.blind_trials.hidden import EFFECTS, FAULTS, OUTSIDE
+from twintube.lab.blind_trials.trials import trial, write
 
 PAIRS = ("valve_wear+gas_spring", "oil_temperature+end_stop", "oil_level_error+valve_wear", "side_load_friction+fluid_lag")
 KINDS = (*EFFECTS, *FAULTS, "recalibrate", "none", *PAIRS, *OUTSIDE)

@@ -9,16 +9,16 @@ import fmpy
 import numpy as np
 from fmpy.fmi2 import FMU2Slave
 
-import build_fmu
 from benchmarks.timing import best
-from fmu_src.native import binaries
-from twintube import effects, model
-from twintube.parameters import Damper, load
-from twintube.variables import Derived, Flow, blank
+from twintube.core import effects, model
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper, load
+from twintube.demo.damper_fmu import DamperFmu
+from twintube.demo.ride import Case, ride
+from twintube.fmu import binaries, build_fmu
+from twintube.fmu.platforms import PLATFORMS, Kind
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track
-from vehicle_demo.damper_fmu import DamperFmu
-from vehicle_demo.ride import Case, ride
 
 TRIVIAL = Path(__file__).parent / "trivial.c"
 HOST = Path(__file__).parent.parent / "tests" / "native" / "host.c"
@@ -29,7 +29,7 @@ HOST_STEPS = 2_000_000
 def trivial(native: Path, folder: Path) -> Path:
     """The native FMU with the library of the trivial one in its place, compiled the same way."""
     name = fmpy.read_model_description(str(native)).coSimulation.modelIdentifier
-    ending, targets = binaries.PLATFORMS[fmpy.platform]
+    ending, targets = PLATFORMS[fmpy.platform]
     library = folder / f"{name}.{ending}"
     binaries.compiled(TRIVIAL, targets[0], library)
     target = folder / "trivial.fmu"
@@ -83,7 +83,7 @@ def by_host(fmu: Path, folder: Path) -> float:
     unpacked = Path(fmpy.extract(str(fmu), str(folder / "host_unpacked")))
     host = folder / "host"
     flags = ("-std=gnu99", "-O2", f"-I{unpacked / 'sources'}", "-pthread", "-ldl")
-    binaries.compiled(HOST, binaries.PLATFORMS[fmpy.platform][1][0], host, flags)
+    binaries.compiled(HOST, PLATFORMS[fmpy.platform][1][0], host, flags)
     library = next((unpacked / "binaries" / fmpy.platform).iterdir())
     command = [str(host), str(library), "speed", str(HOST_STEPS)]
     return min(float(subprocess.run(command, check=True, capture_output=True, text=True).stdout) for _ in range(3)) * 1e-9
@@ -102,8 +102,8 @@ def bench_fmu_step() -> dict[str, float]:
     damper = load("SA8").with_(oil_level=0.6, gas_preload=0)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        native = build_fmu.build(damper, folder / "native.fmu", platforms=(fmpy.platform,))
-        python = build_fmu.build(damper, folder / "python.fmu", "python")
+        native = build_fmu(damper, folder / "native.fmu", platforms=(fmpy.platform,))
+        python = build_fmu(damper, folder / "python.fmu", "python")
         bare = trivial(native, folder)
         found = {
             "us_per_step": by_fmpy(native, folder),
@@ -125,8 +125,8 @@ def bench_quarter_car() -> dict[str, float]:
     case = Case(50.0, 0.6, 0)
     on = track(50.0, 60.0)
 
-    def seconds(kind: build_fmu.Kind, folder: str) -> float:
-        fmu = build_fmu.build(damper, Path(folder) / f"{kind}.fmu", kind, (fmpy.platform,))
+    def seconds(kind: Kind, folder: str) -> float:
+        fmu = build_fmu(damper, Path(folder) / f"{kind}.fmu", kind, (fmpy.platform,))
         return best(lambda: ride(fmu, car, case, on))
 
     with tempfile.TemporaryDirectory() as folder:

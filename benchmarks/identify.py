@@ -6,12 +6,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from benchmarks.kernel import bench_kernel
-from twintube.identify import METHODS, Harmonic, Objective, minimise
-from twintube.identify.objective import TABLE_6, TABLES_7_8
-from twintube.parameters import Damper, load
-from twintube.rig import BLOCKS, harmonic_block
-from twintube.simulate import simulate
-from twintube.variants import NO_CAVITATION, NO_FOAM
+from twintube.dampers import Damper, load
+from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
+from twintube.engine.simulate import simulate
+from twintube.identification import METHODS, Harmonic, Objective, minimise
+from twintube.identification.objective import TABLE_6, TABLES_7_8
+from twintube.rig.signals import BLOCKS, harmonic_block
 
 FINER = 16  # steps of the truth per sample: its forces are means over a step, a sensor's are not
 NOISE = 0.01  # of the peak force

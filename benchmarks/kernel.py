@@ -1,11 +1,11 @@
 """Speed of the kernel."""
 
 from benchmarks.timing import best
-from twintube import effects, model
-from twintube.parameters import load
-from twintube.rig import harmonic_block
-from twintube.simulate import work_between
-from twintube.variables import Derived, Flow, blank
+from twintube.core import effects, model
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import load
+from twintube.engine.simulate import work_between
+from twintube.rig.signals import harmonic_block
 
 
 def bench_kernel() -> dict[str, float]:

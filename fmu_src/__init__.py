@@ -1,1 +1,1 @@
-"""The FMI side of twintube: model description and documentation of the FMUs, the native kind and the Python kind."""
+"""What goes into an FMU and is not the model: C sources, the Python kind's script, a picture."""

@@ -18,10 +18,10 @@ from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Integer, Real
 from pythonfmu.default_experiment import DefaultExperiment
 from pythonfmu.enums import Fmi2Status
 
-from twintube.checks import bad_input, outside, problems, stroke_limit
-from twintube.effects import Parameters, State
-from twintube.model import advance, set_up, start
-from twintube.variables import Derived, Flow, Inputs, Outputs, blank, fmi_name
+from twintube.core.checks import bad_input, outside, problems, stroke_limit
+from twintube.core.effects import Parameters, State
+from twintube.core.model import advance, set_up, start
+from twintube.core.variables import Derived, Flow, Inputs, Outputs, blank, fmi_name
 
 # Beyond this difference [m] between the stroke that is set and the one that the velocity led to, the log has a warning.
 STROKE_JUMP = 0.02

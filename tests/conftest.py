@@ -7,8 +7,9 @@ import fmpy
 import pytest
 from hypothesis import settings
 
-import build_fmu
-from twintube.parameters import load
+from twintube.dampers import load
+from twintube.fmu import build_fmu
+from twintube.fmu.platforms import Kind
 
 # CI repeats the same examples; elsewhere new ones are tried every time.
 settings.register_profile("ci", derandomize=True)
@@ -30,20 +31,20 @@ def unpacked_in_pytests_folder(tmp_path_factory: pytest.TempPathFactory) -> Iter
 
 
 @pytest.fixture(scope="session", params=["native", "python"])
-def kind(request: pytest.FixtureRequest) -> build_fmu.Kind:
+def kind(request: pytest.FixtureRequest) -> Kind:
     return request.param
 
 
 @pytest.fixture(scope="session")
-def sa8_fmu(kind: build_fmu.Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_fmu.build(load("SA8"), tmp_path_factory.mktemp("fmu"), kind, HERE)
+def sa8_fmu(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_fmu(load("SA8"), tmp_path_factory.mktemp("fmu"), kind, HERE)
 
 
 @pytest.fixture(scope="session")
-def sa7_fmu(kind: build_fmu.Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_fmu.build(load("SA7"), tmp_path_factory.mktemp("fmu"), kind, HERE)
+def sa7_fmu(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build_fmu(load("SA7"), tmp_path_factory.mktemp("fmu"), kind, HERE)
 
 
 @pytest.fixture(scope="session")
 def sa8_native(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_fmu.build(load("SA8"), tmp_path_factory.mktemp("fmu"), platforms=HERE)
+    return build_fmu(load("SA8"), tmp_path_factory.mktemp("fmu"), platforms=HERE)

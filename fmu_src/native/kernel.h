@@ -1,4 +1,4 @@
-/* Made by fmu_src/native/translate.py from the Python sources 2eba7eed3beec398; do not edit. */
+/* Made by twintube/fmu/translate.py from the equations 2eba7eed3beec398, body fe5b121296ee68ad; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 

@@ -1,3 +1,51 @@
-"""Semi-physical model of a twin-tube shock absorber that has lost oil and gas."""
+"""Semi-physical model of a twin-tube shock absorber that has lost oil and gas.
 
-__version__ = "0.1.0"
+    load            a damper: one of the paper's eight by its name, or a parameter file
+    simulate        forces and volumes of a damper over a record
+    harmonic_block  the excitation of the paper's test rig
+    build_fmu       the damper as FMI 2.0 co-simulation FMU
+    identify        the parameters from measured data
+    diagnose        what the simulation gets wrong on measured data, and why
+"""
+
+from importlib import import_module
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from twintube.dampers import Damper as Damper
+    from twintube.dampers import ParameterError as ParameterError
+    from twintube.dampers import load as load
+    from twintube.diagnosis import diagnose as diagnose
+    from twintube.engine.simulate import InputError as InputError
+    from twintube.engine.simulate import Simulation as Simulation
+    from twintube.engine.simulate import simulate as simulate
+    from twintube.fmu import BuildError as BuildError
+    from twintube.fmu import build_fmu as build_fmu
+    from twintube.identification import identify as identify
+    from twintube.rig import Signal as Signal
+    from twintube.rig import harmonic_block as harmonic_block
+
+__version__ = version("twintube")
+
+# Imported where they are first used: numba, scipy and the FMU tools take seconds.
+HOMES = {
+    "twintube.dampers": ("Damper", "ParameterError", "load"),
+    "twintube.diagnosis": ("diagnose",),
+    "twintube.engine.simulate": ("InputError", "Simulation", "simulate"),
+    "twintube.fmu": ("BuildError", "build_fmu"),
+    "twintube.identification": ("identify",),
+    "twintube.rig": ("Signal", "harmonic_block"),
+}
+__all__ = [  # noqa: PLE0604, RUF022  # the names of HOMES, in their order
+    "__version__",
+    *(name for names in HOMES.values() for name in names),
+]
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        for home, names in HOMES.items():
+            if name in names:
+                return getattr(import_module(home), name)
+        raise AttributeError(f"module 'twintube' has no attribute {name!r}")

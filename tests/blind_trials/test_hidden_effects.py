@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from blind_trials.damper import march, tube
-from blind_trials.excitation import VELOCITIES, harmonic, recovery
-from blind_trials.hidden import DRAWS, EFFECTS, KINDS, secret
-from blind_trials.model import COLUMNS, FOAMED, FORCE, FREED, K_DEGR, LOST, OIL, PLACE, WARM
-from blind_trials.quantities import Hidden
-from twintube.parameters import load
+from twintube.dampers import load
+from twintube.lab.blind_trials.damper import march, tube
+from twintube.lab.blind_trials.excitation import VELOCITIES, harmonic, recovery
+from twintube.lab.blind_trials.hidden import DRAWS, EFFECTS, KINDS, secret
+from twintube.lab.blind_trials.model import COLUMNS, FOAMED, FORCE, FREED, K_DEGR, LOST, OIL, PLACE, WARM
+from twintube.lab.blind_trials.quantities import Hidden
 
 P = load("SA8").parameters
 

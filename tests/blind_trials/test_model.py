@@ -6,15 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import blind_trials
-from blind_trials.damper import march, tube
-from blind_trials.excitation import VELOCITIES, harmonic, quasi_static
-from blind_trials.model import FOAMED, FORCE, FREED, LOST, OIL
-from blind_trials.quantities import Hidden
-from twintube.parameters import load
-from twintube.simulate import simulate
+from twintube.dampers import load
+from twintube.engine.simulate import simulate
+from twintube.lab import blind_trials
+from twintube.lab.blind_trials.damper import march, tube
+from twintube.lab.blind_trials.excitation import VELOCITIES, harmonic, quasi_static
+from twintube.lab.blind_trials.model import FOAMED, FORCE, FREED, LOST, OIL
+from twintube.lab.blind_trials.quantities import Hidden
 
-FORBIDDEN = ("twintube.kernel", "twintube.simulate", "twintube.effects", "twintube.compiled")
+FORBIDDEN = ("twintube.core.kernel", "twintube.core.effects", "twintube.core.model", "twintube.engine", "twintube.diagnosis")
 
 
 def sampled(drive, per=300, velocity=1.0):

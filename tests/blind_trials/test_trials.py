@@ -5,10 +5,10 @@ import inspect
 import numpy as np
 import pytest
 
-from blind_trials.hidden import EFFECTS, FAULTS, KINDS, OUTSIDE, secret
-from blind_trials.trials import dataset, plans, trial, write
+from twintube.dampers import load
 from twintube.data import DataError, check_dataset
-from twintube.parameters import load
+from twintube.lab.blind_trials.hidden import EFFECTS, FAULTS, KINDS, OUTSIDE, secret
+from twintube.lab.blind_trials.trials import dataset, plans, trial, write
 
 SHORT = (0.524,)
 

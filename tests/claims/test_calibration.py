@@ -2,9 +2,9 @@
 
 import pytest
 
-from twintube.calibrate import FLAT, calibrate, deviations
+from twintube.claims.calibrate import FLAT, calibrate, deviations
 from twintube.claims.lengths import HIGHEST, LONGEST, SHORTEST, STEP, candidates, pressure
-from twintube.parameters import load, names
+from twintube.dampers import load, names
 
 
 @pytest.mark.parametrize("name", ["SA5"])

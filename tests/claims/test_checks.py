@@ -9,9 +9,9 @@ import pytest
 
 from twintube.claims import drives, fast, intact, levels, slow, variants
 from twintube.claims.claim import BENCH, Bench, Dampers, block
-from twintube.parameters import Damper, load, names
-from twintube.rig import harmonic_block
-from twintube.simulate import work_between
+from twintube.dampers import Damper, load, names
+from twintube.engine.simulate import work_between
+from twintube.rig.signals import harmonic_block
 from twintube.vehicle.maneuvers import MANEUVERS
 
 NO_CAVITATION = {"Y_Co_cav": 0.0, "Y_Re_cav": 0.0}

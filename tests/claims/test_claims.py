@@ -9,8 +9,8 @@ import pytest
 from twintube.claims import EVALUATORS, Claim, evaluate
 from twintube.claims.claim import FRONT, PAPER, READING, STAND_IN, works
 from twintube.claims.fast import SIGNIFICANTLY_LOWER
-from twintube.parameters import load
-from twintube.rig import BLOCKS
+from twintube.dampers import load
+from twintube.rig.signals import BLOCKS
 
 IDS = [f"C{i}" for i in range(1, 17)]
 

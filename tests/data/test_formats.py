@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tests.data.conftest import RECORD, Columns, as_csv, good
+from twintube.dampers import load
 from twintube.data import GIVEN, GRADIENT, MEASURED, Record, check_dataset, load_dataset
-from twintube.parameters import load
 
 Make = Callable[..., Path]
 SHORT = {"time": "time [s]", "stroke": "stroke [mm]", "velocity": "velocity [mm/s]", "force": "force [N]"}
@@ -212,7 +212,7 @@ REAL = Path(__file__).parents[2].parent / "shared" / "measured"
     ],
 )
 def test_real_sources(folder: Make, tmp_path: Path, source: str, pattern: str, columns: str) -> None:
-    from twintube.parameters import to_toml
+    from twintube.dampers import to_toml
 
     files = sorted((REAL / source).glob(pattern))
     assert files

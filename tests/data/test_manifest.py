@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from tests.data.conftest import RECORD, good
+from twintube.dampers import load, to_toml
 from twintube.data import DataError, check_dataset, load_dataset
-from twintube.parameters import load, to_toml
 
 Make = Callable[..., Path]
 GOOD = 'title = "Test"\ndamper = "SA8"\n' + RECORD.format("a.csv")

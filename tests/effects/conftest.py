@@ -4,10 +4,10 @@ from typing import Any
 
 import pytest
 
-from twintube.effects import EFFECTS
-from twintube.parameters import Damper, load
-from twintube.rig import Signal, harmonic_block
-from twintube.variables import FV_POINTS
+from twintube.core.effects import EFFECTS
+from twintube.core.variables import FV_POINTS
+from twintube.dampers import Damper, load
+from twintube.rig.signals import Signal, harmonic_block
 
 
 def strong(name: str, share: float = 0.1) -> dict[str, Any]:

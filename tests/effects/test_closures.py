@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from twintube.closures import CLOSURES, DEFAULT, LETTER, OWN, acting, closed, has_own
-from twintube.effects import active
-from twintube.parameters import Damper, ParameterError, load, names
-from twintube.plan import OSCILLATIONS, recovery_plan, recovery_signal, recovery_velocities
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate, work_between
+from twintube.core.effects import active
+from twintube.dampers import Damper, ParameterError, load, names
+from twintube.dampers.closures import CLOSURES, DEFAULT, LETTER, OWN, acting, closed, has_own
+from twintube.engine.simulate import simulate, work_between
+from twintube.rig.plan import OSCILLATIONS, recovery_plan, recovery_signal, recovery_velocities
+from twintube.rig.signals import harmonic_block
 
 REST = 180.0  # [s] of the paper between two measurements
 

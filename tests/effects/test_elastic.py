@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from twintube.parameters import Damper
-from twintube.rig import AMPLITUDE, harmonic_block
-from twintube.simulate import simulate
+from twintube.dampers import Damper
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import AMPLITUDE, harmonic_block
 
 
 def test_a_residual_spring_does_no_work_and_is_no_other_force(sa8: Damper) -> None:

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-import build_fmu
-from twintube import model
-from twintube.effects import EFFECTS, State
-from twintube.parameters import Damper, to_toml
-from twintube.variables import Derived, Flow, blank
+from twintube.cli import app
+from twintube.core import model
+from twintube.core.effects import EFFECTS, State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper, to_toml
+from twintube.demo.damper_fmu import DamperFmu
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.drive import drive
-from vehicle_demo.damper_fmu import DamperFmu
 
 
 def motion(i: int) -> tuple[float, float]:
@@ -29,7 +29,7 @@ def test_extended_fmu_is_the_model_to_the_bit(sa8: Damper, everything: dict[str,
     (tmp_path / "extended.toml").write_text(to_toml(damper))
     arguments = ["--parameters", str(tmp_path / "extended.toml"), "--output", str(tmp_path / "extended.fmu")]
     arguments += ["--kind", kind, "--platform", fmpy.platform]
-    run = CliRunner().invoke(build_fmu.app, arguments)
+    run = CliRunner().invoke(app, ["fmu", *arguments])
     assert run.exit_code == 0, run.output
     fmu = tmp_path / "extended.fmu"
     p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)

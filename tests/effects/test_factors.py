@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from twintube.parameters import Damper, load
-from twintube.rig import AMPLITUDE, harmonic_block
-from twintube.simulate import simulate, work_between
+from twintube.dampers import Damper, load
+from twintube.engine.simulate import simulate, work_between
+from twintube.rig.signals import AMPLITUDE, harmonic_block
 
 
 def test_side_load_multiplies_the_friction_and_its_work(sa8: Damper) -> None:

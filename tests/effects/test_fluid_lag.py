@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from twintube import model
-from twintube.effects import State
-from twintube.parameters import Damper
-from twintube.rig import oscillations
-from twintube.simulate import simulate
-from twintube.variables import Derived, Flow, blank
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import oscillations
 
 
 def test_force_builds_up_and_decays_exponentially(dashpot: Damper) -> None:

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from twintube import model
-from twintube.effects import State
-from twintube.parameters import Damper
-from twintube.rig import oscillations
-from twintube.variables import Derived, Flow, blank
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper
+from twintube.rig.signals import oscillations
 
 
 def test_the_piston_lacks_the_deflection(dashpot: Damper) -> None:

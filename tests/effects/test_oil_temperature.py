@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from twintube.parameters import load
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate
+from twintube.dampers import load
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import harmonic_block
 
 
 def test_fluid_force_fades_with_the_work_while_nothing_cools() -> None:

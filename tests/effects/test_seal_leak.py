@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from twintube import model
-from twintube.effects import State
-from twintube.parameters import Damper, load
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate
-from twintube.variables import Derived, Flow, blank
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper, load
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import harmonic_block
 
 
 def test_the_film_leaves_from_the_reserve_first() -> None:

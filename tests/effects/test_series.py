@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from twintube.parameters import Damper
-from twintube.rig import harmonic_block, oscillations
-from twintube.simulate import simulate
+from twintube.dampers import Damper
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import harmonic_block, oscillations
 
 D = 2000.0  # [N s/m] of the dashpot
 ELEMENTS = [

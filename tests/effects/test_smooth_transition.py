@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from twintube import model
-from twintube.effects import State
-from twintube.parameters import Damper, load
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate
-from twintube.variables import Derived, Flow, blank
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper, load
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import harmonic_block
 
 
 @pytest.mark.parametrize("steps", [1, 7])

@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from twintube import model
-from twintube.effects import State
-from twintube.parameters import Damper
-from twintube.rig import oscillations
-from twintube.variables import Derived, Flow, blank
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper
+from twintube.rig.signals import oscillations
 
 
 def foamed(damper: Damper) -> tuple[object, ...]:

@@ -9,11 +9,11 @@ import fmpy
 import pytest
 from fmpy.validation import validate_fmu
 
-import build_fmu
-from fmu_src.description import UNITS
-from twintube.effects import Parameters
-from twintube.parameters import load, names
-from twintube.variables import Inputs, Outputs, fmi_name
+from twintube.core.effects import Parameters
+from twintube.core.variables import Inputs, Outputs, fmi_name
+from twintube.dampers import load, names
+from twintube.fmu import BuildError, assemble, build_fmu
+from twintube.fmu.description import UNITS
 
 CONTRACT = (
     "stroke velocity force k_degr V1.oil V1.gas V1.foam V2.oil V2.gas V2.foam V3.oil V3.gas V3.foam force_fluid "
@@ -23,7 +23,7 @@ CONTRACT = (
 
 @pytest.mark.parametrize("name", names())
 def test_every_damper_builds_and_validates_without_a_message(name: str, tmp_path: Path) -> None:
-    fmu = build_fmu.build(load(name), tmp_path / "a.fmu", platforms=(fmpy.platform,))
+    fmu = build_fmu(load(name), tmp_path / "a.fmu", platforms=(fmpy.platform,))
     assert validate_fmu(str(fmu)) == []
     assert [p.name for p in tmp_path.iterdir()] == ["a.fmu"]
 
@@ -82,12 +82,12 @@ def test_page_icon_and_licence_travel_along(sa8_fmu: Path) -> None:
 def test_a_failed_build_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="file"):
-        build_fmu.build(load("SA8"), tmp_path / "file" / "a.fmu")
+        build_fmu(load("SA8"), tmp_path / "file" / "a.fmu")
 
     def refuse(_: Path) -> None:
-        raise build_fmu.BuildError("not valid")
+        raise BuildError("not valid")
 
-    monkeypatch.setattr(build_fmu, "validated", refuse)
-    with pytest.raises(build_fmu.BuildError):
-        build_fmu.build(load("SA8"), tmp_path / "a.fmu")
+    monkeypatch.setattr(assemble, "validated", refuse)
+    with pytest.raises(BuildError):
+        build_fmu(load("SA8"), tmp_path / "a.fmu")
     assert [p.name for p in tmp_path.iterdir()] == ["file"]

@@ -11,9 +11,9 @@ from libcosimpy.CosimManipulator import CosimManipulator
 from libcosimpy.CosimObserver import CosimObserver
 from libcosimpy.CosimSlave import CosimLocalSlave
 
-from twintube.kernel import fill, prepare, step
-from twintube.parameters import load
-from twintube.variables import Derived, Flow, State, blank
+from twintube.core.kernel import fill, prepare, step
+from twintube.core.variables import Derived, Flow, State, blank
+from twintube.dampers import load
 
 DT = 1e-3
 STROKE, VELOCITY, FORCE, OIL_LEVEL = 0, 1, 2, 17  # value references, in the order of the variables

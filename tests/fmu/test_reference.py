@@ -9,7 +9,7 @@ import pytest
 from fmpy.util import read_csv
 from numpy.typing import NDArray
 
-from vehicle_demo.damper_fmu import DamperFmu
+from twintube.demo.damper_fmu import DamperFmu
 
 
 @pytest.fixture

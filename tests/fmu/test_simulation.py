@@ -11,11 +11,11 @@ from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from twintube.kernel import fill, prepare, step
-from twintube.parameters import load
-from twintube.simulate import simulate
-from twintube.variables import Derived, Flow, State, blank
-from vehicle_demo.damper_fmu import DamperFmu, FmuError
+from twintube.core.kernel import fill, prepare, step
+from twintube.core.variables import Derived, Flow, State, blank
+from twintube.dampers import load
+from twintube.demo.damper_fmu import DamperFmu, FmuError
+from twintube.engine.simulate import simulate
 
 DEGRADED = {"oil_level": 0.56, "gas_preload": 0}
 

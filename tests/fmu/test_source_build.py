@@ -11,9 +11,9 @@ import pytest
 from fmpy.build import build_platform_binary
 from fmpy.util import create_zip_archive
 
-from fmu_src.native import binaries, sources
-from twintube.parameters import load
-from vehicle_demo.damper_fmu import DamperFmu
+from twintube.dampers import load
+from twintube.demo.damper_fmu import DamperFmu
+from twintube.fmu import binaries, sources
 
 # fmpy's copy of the header leaves out the prefix, which is for static linking.
 NO_PREFIX = "#define fmi2FullName(name) name"

@@ -14,10 +14,10 @@ from lxml import etree
 from typer.testing import CliRunner
 
 from twintube.cli import app
-from twintube.closures import closed
-from twintube.parameters import Damper, elements, load, names
-from twintube.ssv import to_ssv
-from vehicle_demo.damper_fmu import DamperFmu
+from twintube.dampers import Damper, elements, load, names
+from twintube.dampers.closures import closed
+from twintube.demo.damper_fmu import DamperFmu
+from twintube.fmu.ssv import to_ssv
 
 NS = {
     "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",

@@ -11,10 +11,9 @@ from pathlib import Path
 import fmpy
 import pytest
 
-import build_fmu
-from fmu_src.native import binaries
-from twintube.parameters import load
-from vehicle_demo.damper_fmu import DamperFmu
+from twintube.dampers import load
+from twintube.demo.damper_fmu import DamperFmu
+from twintube.fmu import binaries, build_fmu
 
 WORN = {"oil_level": 0.56, "gas_preload": 0}
 WINE = shutil.which("wine64") or shutil.which("wine")
@@ -39,7 +38,7 @@ def motion(i: int) -> tuple[float, float]:
 @pytest.mark.slow
 @pytest.mark.skipif(WINE is None, reason="wine is absent: neither wine64 nor wine is found")
 def test_the_dll_computes_what_the_linux_library_does(sa8_native: Path, wine_prefix: Path, tmp_path: Path) -> None:
-    fmu = build_fmu.build(load("SA8"), tmp_path, platforms=("win64",))
+    fmu = build_fmu(load("SA8"), tmp_path, platforms=("win64",))
     with zipfile.ZipFile(fmu) as archive:
         dll = archive.extract("binaries/win64/twintube_SA8.dll", tmp_path)
     binaries.compiled(HOST, "x86_64-windows-gnu", tmp_path / "host.exe", ("-O1",))

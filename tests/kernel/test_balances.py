@@ -6,10 +6,10 @@ from dataclasses import replace
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from twintube.checks import stroke_limit
-from twintube.kernel import fill, prepare, step
-from twintube.parameters import load, names
-from twintube.variables import Derived, Flow, Parameters, State, blank
+from twintube.core.checks import stroke_limit
+from twintube.core.kernel import fill, prepare, step
+from twintube.core.variables import Derived, Flow, Parameters, State, blank
+from twintube.dampers import load, names
 
 UNIT = st.floats(0, 1)
 SHARES = ("X_Re", "L_PV", "G_PV", "X_Co1", "X_Co2", "S_BV", "S_BVoil", "S_PV", "S_PVoil", "B", "Y_Co_cav", "Y_Re_cav")

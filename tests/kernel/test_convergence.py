@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from twintube.parameters import load, names
-from twintube.rig import harmonic_block
-from twintube.simulate import work_between
+from twintube.dampers import load, names
+from twintube.engine.simulate import work_between
+from twintube.rig.signals import harmonic_block
 
 LEVELS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 

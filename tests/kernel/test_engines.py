@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from twintube.compiled import joined_source
-from twintube.parameters import load, names
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate
+from twintube.dampers import load, names
+from twintube.engine.compiled import joined_source
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import harmonic_block
 
 
 @pytest.mark.parametrize("name", names())

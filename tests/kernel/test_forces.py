@@ -5,10 +5,10 @@ import math
 import pytest
 from scipy.integrate import solve_ivp
 
-from twintube.kernel import prepare, stribeck
-from twintube.kernel.forces import dahl, foam_factor, share_above
-from twintube.parameters import load
-from twintube.variables import Derived, blank
+from twintube.core.kernel import prepare, stribeck
+from twintube.core.kernel.forces import dahl, foam_factor, share_above
+from twintube.core.variables import Derived, blank
+from twintube.dampers import load
 
 
 @pytest.mark.parametrize("exponent", [0.5, 1.0, 1.7, 3.0])

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from twintube.kernel import fill, prepare, step
-from twintube.parameters import load, names
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate
-from twintube.variables import Derived, Flow, State, blank
+from twintube.core.kernel import fill, prepare, step
+from twintube.core.variables import Derived, Flow, State, blank
+from twintube.dampers import load, names
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import harmonic_block
 
 
 @pytest.mark.parametrize("name", names())

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Slave
 
-import build_fmu
-from fmu_src.native import translate
-from twintube import compiled, model
 from twintube.arrays import Array
-from twintube.effects import State
-from twintube.parameters import Damper, load, names
-from twintube.rig import BLOCKS, harmonic_block
-from twintube.simulate import rows
-from twintube.variables import Derived, Flow, blank
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper, load, names
+from twintube.engine import compiled
+from twintube.engine.simulate import rows
+from twintube.fmu import build_fmu, equations, translate
+from twintube.rig.signals import BLOCKS, harmonic_block
 
 VOLUMES = ("V1_oil", "V1_gas", "V1_foam", "V2_oil", "V2_gas", "V2_foam", "V3_oil", "V3_foam")
 OUTPUTS = ("force", "k_degr", *(name.replace("_", ".") for name in VOLUMES))
@@ -80,7 +80,7 @@ def slave_of(fmu: Path) -> tuple[FMU2Slave, dict[str, int]]:
 
 
 def native(damper: Damper, stroke: Array, steps: Array, folder: Path) -> Array:
-    fmu = build_fmu.build(damper, folder / f"{damper.name}.fmu", platforms=(fmpy.platform,))
+    fmu = build_fmu(damper, folder / f"{damper.name}.fmu", platforms=(fmpy.platform,))
     slave, refs = slave_of(fmu)
     given, wanted = [refs["stroke"], refs["velocity"]], [refs[name] for name in OUTPUTS]
     found, z, time = [], stroke.tolist(), 0.0
@@ -119,7 +119,7 @@ def test_same_bits_over_the_whole_harmonic_plan(name: str, velocity: float, tmp_
 
 def test_input_derivative_lets_the_velocity_go_evenly(tmp_path: Path) -> None:
     damper = load("SA8").with_(oil_level=0.6, gas_preload=0)
-    slave, refs = slave_of(build_fmu.build(damper, tmp_path, platforms=(fmpy.platform,)))
+    slave, refs = slave_of(build_fmu(damper, tmp_path, platforms=(fmpy.platform,)))
     p, d, s, f = at_rest(damper)
     z, v, h = 0.0, 0.0, 1e-3
     for i in range(500):
@@ -141,19 +141,18 @@ def test_input_derivative_lets_the_velocity_go_evenly(tmp_path: Path) -> None:
 
 
 def test_translated_equations_are_current() -> None:
-    text = (translate.FOLDER / "kernel.h").read_text(encoding="utf-8")
-    assert translate.digest() in text.splitlines()[0], "python -m fmu_src.native.translate"
+    text = equations.checked(translate.TARGET.read_text(encoding="utf-8"))
     for number in (22, 25, 28, 29, 36, 40, 41):
         assert f"Eq. {number}" in text  # a reader finds the paper's equations in the C too
 
 
 def test_translation_repeats() -> None:
     pytest.importorskip("pyccel", reason="pyccel is absent: the digest alone tells that the translation is current")
-    assert translate.translated() == (translate.FOLDER / "kernel.h").read_text(encoding="utf-8")
+    assert translate.translated() == translate.TARGET.read_text(encoding="utf-8")
 
 
 def test_functions_stand_below_those_that_they_call() -> None:
     found = {"a": "def a(x):\n    return b(x)", "b": "def b(x):\n    return x"}
-    assert translate.ordered(found | {"c": "def c(x):\n    return x"}, ["a"]) == ["b", "a"]
+    assert equations.ordered(found | {"c": "def c(x):\n    return x"}, ["a"]) == ["b", "a"]
     with pytest.raises(ValueError, match="b calls itself"):
-        translate.ordered(found | {"b": "def b(x):\n    return b(x)"}, ["a"])
+        equations.ordered(found | {"b": "def b(x):\n    return b(x)"}, ["a"])

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-import build_fmu
-from fmu_src.native.binaries import PLATFORMS, compiled
-from twintube.parameters import load
+from twintube.dampers import load
+from twintube.fmu import build_fmu
+from twintube.fmu.binaries import compiled
+from twintube.fmu.platforms import PLATFORMS
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or platform.machine() != "x86_64", reason="the host is for linux on x86-64"
@@ -23,7 +24,7 @@ HERE = Path(__file__).parent
 def host(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     """The command that a subcommand is added to."""
     folder = tmp_path_factory.mktemp("host")
-    fmu = build_fmu.build(load("SA8"), folder, platforms=("linux64",))
+    fmu = build_fmu(load("SA8"), folder, platforms=("linux64",))
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)
     flags = ("-std=gnu99", "-O2", f"-I{folder / 'sources'}", "-pthread", "-ldl")

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.native.binaries import headers
-from fmu_src.native.sources import COMPILED, sources
-from twintube.parameters import load
+from twintube.dampers import load
+from twintube.fmu.binaries import headers
+from twintube.fmu.sources import COMPILED, sources
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or platform.machine() != "x86_64", reason="the host is for linux on x86-64"

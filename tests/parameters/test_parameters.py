@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from twintube.checks import problems
-from twintube.parameters import ParameterError, load, names, to_toml
-from twintube.variables import Parameters
+from twintube.core.checks import problems
+from twintube.core.variables import Parameters
+from twintube.dampers import ParameterError, load, names, to_toml
 
 # Table 9 of the paper, typed in anew: the files must hold exactly this.
 TABLE_9 = """

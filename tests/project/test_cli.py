@@ -8,7 +8,6 @@ import fmpy
 import pytest
 from typer.testing import CliRunner
 
-import build_fmu
 from twintube.cli import app
 
 RUNNER = CliRunner()
@@ -142,7 +141,7 @@ def test_claims_as_json(tmp_path: Path) -> None:
     ],
 )
 def test_build_fmu_bad_arguments(arguments: list[str], message: str, tmp_path: Path) -> None:
-    run = RUNNER.invoke(build_fmu.app, [*arguments, "--output", str(tmp_path)])
+    run = RUNNER.invoke(app, ["fmu", *arguments, "--output", str(tmp_path)])
     assert run.exit_code == 2
     assert message in run.stderr
     assert list(tmp_path.iterdir()) == []
@@ -151,7 +150,7 @@ def test_build_fmu_bad_arguments(arguments: list[str], message: str, tmp_path: P
 def test_build_fmu_of_a_users_own_damper(tmp_path: Path) -> None:
     mine = tmp_path / "mine.toml"
     mine.write_text(RUNNER.invoke(app, ["dampers", "SA8"]).output.replace('name = "SA8"', 'name = "My damper"'))
-    run = RUNNER.invoke(build_fmu.app, ["--parameters", str(mine), "--platform", fmpy.platform, "--output", str(tmp_path)])
+    run = RUNNER.invoke(app, ["fmu", "--parameters", str(mine), "--platform", fmpy.platform, "--output", str(tmp_path)])
     assert run.exit_code == 0, run.output
     assert (tmp_path / "twintube_My_damper.fmu").is_file()
 

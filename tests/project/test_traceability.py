@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 from twintube.cli import app
 
 ROOT = Path(__file__).parents[2]
-KERNEL = ROOT / "src" / "twintube" / "kernel"
+KERNEL = ROOT / "src" / "twintube" / "core" / "kernel"
 
 
 def expanded(text: str) -> set[int]:

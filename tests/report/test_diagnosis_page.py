@@ -12,17 +12,17 @@ import numpy as np
 import pytest
 
 from tests.report.test_page import parsed
-from twintube.checks import tube_limit
+from twintube.core.checks import tube_limit
+from twintube.core.effects import EFFECTS
+from twintube.dampers import Damper, load
 from twintube.data import Record
-from twintube.diagnose.prepare import Case, prepared
-from twintube.diagnose.result import VERDICTS, Alternative, Cause, Diagnosis, Errors, Found, Gain, Map, RecordResult, Tried
-from twintube.effects import EFFECTS
-from twintube.parameters import Damper, load
+from twintube.diagnosis.prepare import Case, prepared
+from twintube.diagnosis.result import VERDICTS, Alternative, Cause, Diagnosis, Errors, Found, Gain, Map, RecordResult, Tried
+from twintube.engine.simulate import simulate
 from twintube.report.diagnosis import BADGES, write_report
 from twintube.report.diagnosis_records import closed, compared, noise, oscillations, parts, telling, work
 from twintube.report.engineering import digits, is_share, percent, with_interval
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate
+from twintube.rig.signals import harmonic_block
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 NOISE = 8.0  # [N]

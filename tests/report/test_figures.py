@@ -4,14 +4,14 @@ import json
 
 import pytest
 
-from twintube.identify import Harmonic
+from twintube.engine.simulate import simulate
+from twintube.identification import Harmonic
 from twintube.report import style
 from twintube.report.context import Context, state
 from twintube.report.figures import FIGURES
 from twintube.report.records import Job, excitation
 from twintube.report.reproduce import BASES, summary
 from twintube.report.statement import as_json
-from twintube.simulate import simulate
 
 DRAWN = (3, 7, 8, 11, 12, 14, 16, 17, 18, 19, 27, 28, 29, 31, 33)
 WITH_STAND_IN = {3, 7, 8, 11, *range(19, 34)}

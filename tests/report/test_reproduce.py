@@ -4,13 +4,13 @@ import json
 
 import pytest
 
-from twintube.parameters import ParameterError, load
+from twintube.dampers import ParameterError, load
+from twintube.engine.simulate import InputError
 from twintube.report import reproduce
 from twintube.report.figures import FIGURES
 from twintube.report.figures.validation import filling
 from twintube.report.records import Job, Records
 from twintube.report.reproduce import chosen
-from twintube.simulate import InputError
 
 
 @pytest.fixture(scope="module")

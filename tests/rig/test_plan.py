@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from twintube.checks import stroke_limit
 from twintube.cli import app
-from twintube.kernel import prepare
-from twintube.parameters import load, names
-from twintube.plan import Measurement, plan
-from twintube.rig import OSCILLATIONS
-from twintube.variables import Derived, blank
+from twintube.core.checks import stroke_limit
+from twintube.core.kernel import prepare
+from twintube.core.variables import Derived, blank
+from twintube.dampers import load, names
+from twintube.rig.plan import Measurement
+from twintube.rig.signals import OSCILLATIONS
 from twintube.vehicle.maneuvers import BRAKING, DT, MANEUVERS, SHIFT, ridden
+from twintube.vehicle.plan import plan
 
 
 def signals(name: str) -> list[Measurement]:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from twintube import studies
-from twintube.parameters import load, to_toml
-from twintube.rig import BLOCKS
+from twintube.dampers import load, to_toml
+from twintube.rig.signals import BLOCKS
 from twintube.studies.definition import Case
 
 

@@ -12,11 +12,11 @@ import pytest
 
 from twintube import studies
 from twintube.claims.claim import relative
-from twintube.parameters import load
-from twintube.rig import harmonic_block
-from twintube.simulate import simulate, work_between
+from twintube.dampers import load
+from twintube.engine.simulate import simulate, work_between
+from twintube.rig.signals import harmonic_block
 from twintube.studies import execute
-from twintube.studies.cases import chunk, fingerprint
+from twintube.studies.cases import chunk, version_mark
 
 GRID = """
 dampers = ["SA8", "SA1"]
@@ -115,7 +115,7 @@ def test_equal_bytes_whatever_the_processes_and_chunks(tmp_path: Path, monkeypat
     definition = json.loads(about[b"twintube.study"])
     assert definition["oil_level"] == [0.4, 0.6, 1.0]
     assert definition["dampers"]["SA8"]["V_oil"] == load("SA8").parameters.V_oil
-    assert about[b"twintube.fingerprint"].decode() == fingerprint()
+    assert about[b"twintube.fingerprint"].decode() == version_mark()
 
 
 def test_row_groups_are_full_whatever_the_chunks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

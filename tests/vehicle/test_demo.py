@@ -6,14 +6,15 @@ import sys
 from pathlib import Path
 
 import fmpy
+from twintube.cli import app
+from twintube.demo.job import cases, strengths
 from typer.testing import CliRunner
 
-import build_fmu
-from twintube.parameters import load
+from twintube.dampers import load
+from twintube.demo.ride import Case, ride
+from twintube.fmu import build_fmu
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track
-from vehicle_demo.__main__ import app, cases, strengths
-from vehicle_demo.ride import Case, ride
 
 ROOT = Path(__file__).parents[2]
 
@@ -52,11 +53,11 @@ def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
 
 
 def test_demo_answers_bad_input_with_one_line(tmp_path: Path) -> None:
-    run = CliRunner().invoke(app, ["--damper", "SA9", "--output", str(tmp_path / "x")])
+    run = CliRunner().invoke(app, ["demo", "--damper", "SA9", "--output", str(tmp_path / "x")])
     assert run.exit_code == 2
     assert run.stderr.startswith("error: unknown damper SA9")
     (tmp_path / "file").write_text("")
-    run = CliRunner().invoke(app, ["--output", str(tmp_path / "file" / "x")])
+    run = CliRunner().invoke(app, ["demo", "--output", str(tmp_path / "file" / "x")])
     assert run.exit_code == 2
     assert run.stderr.count("\n") == 1
 
@@ -71,7 +72,7 @@ def test_a_damper_with_effects_is_driven_without_them_too(tmp_path: Path) -> Non
     on = track(50.0, 10.0)
     (tmp_path / "b").mkdir()
     here = (fmpy.platform,)
-    fmu, extended = build_fmu.build(plain, tmp_path, platforms=here), build_fmu.build(worn, tmp_path / "b", platforms=here)
+    fmu, extended = build_fmu(plain, tmp_path, platforms=here), build_fmu(worn, tmp_path / "b", platforms=here)
     car = load_car().corner(plain)
     base = ride(fmu, car, case, on)
     without = ride(extended, car, Case(50.0, 1.0, 1, off=off), on)

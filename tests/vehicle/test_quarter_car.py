@@ -6,16 +6,17 @@ import fmpy
 import numpy as np
 import pytest
 
-import build_fmu
-from twintube.closures import closed
-from twintube.parameters import Damper, ParameterError, continued, load
+from twintube.dampers import Damper, ParameterError, load
+from twintube.dampers.closures import closed
+from twintube.dampers.toml import continued
+from twintube.demo.ride import Case, Ride, ride
+from twintube.fmu import build_fmu
 from twintube.vehicle import quarter_car
 from twintube.vehicle.cars import FOLDER, RUBBER, load_car
 from twintube.vehicle.drive import drive
 from twintube.vehicle.quarter_car import Car, static_load
 from twintube.vehicle.ride import Track, measures, track
 from twintube.vehicle.ride import ride as ride_here
-from vehicle_demo.ride import Case, Ride, ride
 
 DT = 1e-3
 SPEED = 50 / 3.6
@@ -25,7 +26,7 @@ C_DAMPER = 1500.0  # [N.s/m]
 @pytest.fixture(scope="module")
 def riding(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The FMU of SA8 as `build_fmu.py` makes it."""
-    return build_fmu.build(closed(load("SA8")), tmp_path_factory.mktemp("fmu") / "SA8.fmu", platforms=(fmpy.platform,))
+    return build_fmu(closed(load("SA8")), tmp_path_factory.mktemp("fmu") / "SA8.fmu", platforms=(fmpy.platform,))
 
 
 def rear(**changes: float) -> Car:
@@ -82,7 +83,7 @@ def test_linear_damper_gives_the_analytic_dlc() -> None:
 def test_linear_damper_as_fmu_gives_the_analytic_dlc(tmp_path: Path) -> None:
     time = np.arange(0, 82.0, DT)
     heights = waves(time)
-    fmu = build_fmu.build(linear_damper(), tmp_path / "linear.fmu", platforms=(fmpy.platform,))
+    fmu = build_fmu(linear_damper(), tmp_path / "linear.fmu", platforms=(fmpy.platform,))
     found = ride(fmu, linear_car(), Case(50, 1.0, 1), Track(50.0, DT, heights, np.gradient(heights, DT)))
     assert steady(found.wheel_load, time, linear_car()) == pytest.approx(analytic_dlc(linear_car()), rel=0.01)
 

@@ -3,8 +3,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from virtual_rig import run, virtual_damper
-from virtual_rig.dimensions import DIMENSIONS
+from twintube.lab.virtual_rig import run, virtual_damper
+from twintube.lab.virtual_rig.dimensions import DIMENSIONS
 
 DAMPER = virtual_damper("SA8")
 

@@ -3,7 +3,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from virtual_rig import DatasetRecord, measured, run, virtual_damper, write_dataset
+from twintube.lab.virtual_rig import DatasetRecord, measured, run, virtual_damper, write_dataset
 
 
 @pytest.fixture(scope="module")

@@ -10,8 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 from twintube.claims import drives, fast, intact, levels, slow, variants
 from twintube.claims.claim import BENCH, Bench, Claim, Dampers, fluid_works, works
-from twintube.parameters import load, names
-from twintube.plan import velocities
+from twintube.dampers import load, names
+from twintube.rig.plan import velocities
 
 EVALUATORS: tuple[Callable[[Dampers, Bench], Claim], ...] = (
     slow.c1,

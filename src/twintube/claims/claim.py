@@ -6,11 +6,11 @@ from functools import lru_cache
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.closures import DEFAULT, LETTER, closed
-from twintube.parameters import Damper
-from twintube.plan import amplitude
-from twintube.rig import START, Signal, harmonic_block
-from twintube.simulate import Simulation, simulate, work_between
+from twintube.dampers import Damper
+from twintube.dampers.closures import DEFAULT, LETTER, closed
+from twintube.engine.simulate import Simulation, simulate, work_between
+from twintube.rig.plan import amplitude
+from twintube.rig.signals import START, Signal, harmonic_block
 
 Dampers = dict[str, Damper]
 FRONT = ("SA1", "SA3", "SA5", "SA7")

@@ -6,9 +6,9 @@ from dataclasses import dataclass, fields, replace
 
 from twintube.claims import evaluate
 from twintube.claims.claim import BENCH, Bench, Claim
-from twintube.closures import CLOSURES
-from twintube.rig import STARTS
-from twintube.variables import Parameters
+from twintube.core.variables import Parameters
+from twintube.dampers.closures import CLOSURES
+from twintube.rig.signals import STARTS
 
 POSITIONS = (-0.015, 0.015)  # [m]
 AMPLITUDES = (0.040,)  # [m] beside 45 mm; 50 mm would be the whole assumed stroke

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from twintube.claims.claim import BENCH, STAND_IN, Bench, Claim, Dampers, Keyed, condition, rounded
-from twintube.parameters import Damper
-from twintube.plan import drive_signal
-from twintube.rig import Signal
-from twintube.simulate import work_between
+from twintube.dampers import Damper
+from twintube.engine.simulate import work_between
+from twintube.rig.signals import Signal
 from twintube.vehicle.maneuvers import MANEUVERS, Maneuver
+from twintube.vehicle.plan import drive_signal
 
 DRIVEN = ("SA7", "SA8")
 SHORTER = 0.07  # [m]

@@ -25,9 +25,9 @@ from twintube.claims.claim import (
 )
 from twintube.claims.lengths import beginning, holding, starting
 from twintube.claims.slow import DIRECTIONS, strokes
-from twintube.parameters import Damper
-from twintube.rig import BLOCKS
-from twintube.variables import Parameters
+from twintube.core.variables import Parameters
+from twintube.dampers import Damper
+from twintube.rig.signals import BLOCKS
 
 ONE, TOP = BLOCKS[-2], BLOCKS[-1]  # the paper's "1 m/s" and "1.6 m/s"
 SIGNIFICANTLY_LOWER = 0.5 * TOP  # "significantly lower maximum velocities": at most half of it

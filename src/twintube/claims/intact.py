@@ -3,10 +3,10 @@
 import numpy as np
 
 from twintube.claims.claim import BENCH, READING, STAND_IN, Bench, Claim, Dampers, condition, rounded, run
-from twintube.parameters import Damper
-from twintube.plan import amplitude
-from twintube.rig import BLOCKS
-from twintube.simulate import simulate
+from twintube.dampers import Damper
+from twintube.engine.simulate import simulate
+from twintube.rig.plan import amplitude
+from twintube.rig.signals import BLOCKS
 
 CLOSE_TO_ZERO = 0.1  # of the intact slope: an order of magnitude
 ZWOSTA = 0.10  # most that the loss of the preload costs, of force and of work

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from twintube.claims.claim import Bench
-from twintube.parameters import Damper, ParameterError
-from twintube.rig import STARTS
+from twintube.dampers import Damper, ParameterError
+from twintube.rig.signals import STARTS
 
 STEP = 0.005  # [m]
 # Piston with its valves 30-40 mm, foot valve 15-25 mm, rebound stop 15-35 mm and clearances; stops fill the annulus only.

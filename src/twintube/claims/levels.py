@@ -20,9 +20,9 @@ from twintube.claims.claim import (
     rounded,
 )
 from twintube.claims.lengths import beginning, holding, starting
-from twintube.parameters import Damper
-from twintube.plan import amplitude, velocities
-from twintube.rig import BLOCKS
+from twintube.dampers import Damper
+from twintube.rig.plan import amplitude, velocities
+from twintube.rig.signals import BLOCKS
 
 TOP = BLOCKS[-1]
 FIRST = 0.65  # work of the first oscillation at 50 % oil and 1.6 m/s

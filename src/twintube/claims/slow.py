@@ -21,8 +21,8 @@ from twintube.claims.claim import (
     run,
 )
 from twintube.claims.lengths import beginning, holding, starting
-from twintube.parameters import Damper
-from twintube.rig import BLOCKS, Signal
+from twintube.dampers import Damper
+from twintube.rig.signals import BLOCKS, Signal
 
 DIRECTIONS = ("rebound", "compression")
 SLOWEST, STEPPED = BLOCKS[0], 0.08  # maximum velocities [m/s] of Figures 8 and 27

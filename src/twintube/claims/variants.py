@@ -19,10 +19,10 @@ from twintube.claims.claim import (
     rounded,
 )
 from twintube.claims.lengths import holding
-from twintube.parameters import Damper
-from twintube.plan import velocities
-from twintube.rig import STARTS
-from twintube.variants import NO_CAVITATION, NO_FOAM
+from twintube.dampers import Damper
+from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
+from twintube.rig.plan import velocities
+from twintube.rig.signals import STARTS
 
 SHORT = 0.25  # of the scalar factor below the measurement, "in some cases"
 # The measurement is unpublished; variant 4 stands for it within the model's error of 10 %. A work measured 25 % above the

@@ -1,39 +1,36 @@
-"""What all commands share: the application, answers to bad input, files written whole."""
+"""What all commands share: the application, and answers to bad input."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from typing import Any
 
 import typer
 
-from twintube.parameters import ParameterError
-from twintube.simulate import InputError
+from twintube.dampers import ParameterError
+from twintube.engine.simulate import InputError
+
+STYLE: dict[str, Any] = {"add_completion": False, "rich_markup_mode": None, "pretty_exceptions_enable": False}
 
 app = typer.Typer(
-    add_completion=False,
+    **STYLE,
     no_args_is_help=True,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-    help="Twin-tube shock absorber after oil and gas loss: parameter sets, simulation, claims of the paper.",
+    help="Twin-tube shock absorber after oil and gas loss: parameter sets, simulation, FMU, identification, diagnosis.",
 )
 
 
+def standalone(command: Callable[..., None]) -> typer.Typer:
+    """An application of one command, for the scripts at the top level."""
+    alone = typer.Typer(**STYLE)
+    alone.command()(command)
+    return alone
+
+
 @contextmanager
-def answering() -> Iterator[None]:
-    """Bad input ends with one line on standard error and exit status 2."""
+def answering(*others: type[Exception]) -> Iterator[None]:
+    """Bad input ends with one line on standard error and exit status 2; `others` are exceptions of the same kind."""
+    refused: tuple[type[Exception], ...] = (ParameterError, InputError, OSError, *others)
     try:
         yield
-    except (ParameterError, InputError, OSError) as error:
+    except refused as error:
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from None
-
-
-def write(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(path.name + ".part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)

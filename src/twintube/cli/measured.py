@@ -8,8 +8,9 @@ from typing import Annotated
 import typer
 from tqdm import tqdm
 
-from twintube.cli.base import answering, app, write
-from twintube.simulate import InputError
+from twintube.cli.base import answering, app
+from twintube.engine.simulate import InputError
+from twintube.files import write_text
 
 
 @app.command(epilog="Example: twintube check my_dataset")
@@ -64,9 +65,9 @@ def identify(
 
     A run that was killed goes on where it was when it is started again with the same output folder.
     """
+    from twintube.dampers import to_toml
     from twintube.data import load_dataset
-    from twintube.identify import METHODS, PAPER, QUICK, identify_dataset, summary
-    from twintube.parameters import to_toml
+    from twintube.identification import METHODS, PAPER, QUICK, identify_dataset, summary
 
     with answering():
         if method not in METHODS:
@@ -85,9 +86,9 @@ def identify(
             result = identify_dataset(read, method=method, budget=budget, seed=seed, journal=journal, progress=progress)
         from twintube.report.identification import write_report
 
-        write(output / "identified.toml", to_toml(result.identification.damper))
+        write_text(output / "identified.toml", to_toml(result.identification.damper))
         found = summary(result)
-        write(output / "identification.json", json.dumps(found, indent=1) + "\n")
+        write_text(output / "identification.json", json.dumps(found, indent=1) + "\n")
         write_report(result, output)
         shutil.rmtree(journal)
         for remark in result.remarks:
@@ -140,9 +141,9 @@ def diagnose(
 
     How often it is right is stated in docs/diagnosis.md.
     """
-    from twintube.diagnose import as_json
-    from twintube.diagnose import diagnose as run
-    from twintube.parameters import to_toml
+    from twintube.dampers import to_toml
+    from twintube.diagnosis import as_json
+    from twintube.diagnosis import diagnose as run
     from twintube.report.diagnosis import write_report
 
     with answering():
@@ -154,8 +155,8 @@ def diagnose(
 
             found = run(dataset, progress)
         output.mkdir(parents=True, exist_ok=True)
-        write(output / "extended.toml", to_toml(found.extended))
-        write(output / "diagnosis.json", json.dumps(as_json(found), indent=1) + "\n")
+        write_text(output / "extended.toml", to_toml(found.extended))
+        write_text(output / "diagnosis.json", json.dumps(as_json(found), indent=1) + "\n")
         write_report(found, output)
         typer.echo(found.sentence)
         typer.echo(f"{output}: diagnosis.json, extended.toml, report.html ({found.seconds:.0f} s)")

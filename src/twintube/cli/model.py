@@ -11,28 +11,29 @@ import numpy as np
 import typer
 from tqdm import tqdm
 
-from twintube import parameters
-from twintube import rig as rig_of
-from twintube.cli.base import answering, app, write
-from twintube.closures import acting, closed
-from twintube.effects import Parameters
-from twintube.parameters import ParameterError
-from twintube.simulate import InputError
-from twintube.variables import Inputs, Outputs, fmi_name
+from twintube import dampers
+from twintube.cli.base import answering, app
+from twintube.core.effects import Parameters
+from twintube.core.variables import Inputs, Outputs, fmi_name
+from twintube.dampers import ParameterError
+from twintube.dampers.closures import acting, closed
+from twintube.engine.simulate import InputError
+from twintube.files import write_text
+from twintube.rig import signals
 
 
-@app.command(epilog="Example: twintube dampers SA8")
-def dampers(damper: Annotated[str | None, typer.Argument(help="Show this one: a name or a parameter file.")] = None) -> None:
+@app.command("dampers", epilog="Example: twintube dampers SA8")
+def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this one: a name or a file.")] = None) -> None:
     """List the named dampers, or show one as TOML with its sources."""
     with answering():
         if damper is not None:
-            one = parameters.load(damper)
+            one = dampers.load(damper)
             typer.echo(f"# Gas that cavitation frees, in blocks and identification - {acting(one)}.")
             typer.echo(f"# In rides and FMUs - {acting(closed(one))}.")
-            typer.echo(parameters.to_toml(one), nl=False)
+            typer.echo(dampers.to_toml(one), nl=False)
             return
-        for name in parameters.names():
-            one = parameters.load(name)
+        for name in dampers.names():
+            one = dampers.load(name)
             levels = ", ".join(f"{level:.0%}" for level in one.measured_levels)
             typer.echo(f"{name}  {one.title:36} {one.parameters.V_oil * 1e6:4.0f} mL, measured at 100%, {levels}")
 
@@ -50,12 +51,12 @@ def simulate(
     output: Annotated[Path, typer.Option(help="CSV file for the result.")] = Path("simulation.csv"),
 ) -> None:
     """Simulate a record, or a harmonic block with its preconditioning, and write forces and volumes."""
-    from twintube.record import read_csv
-    from twintube.rig import harmonic_block
-    from twintube.simulate import simulate as run
+    from twintube.data.record import read_csv
+    from twintube.engine.simulate import simulate as run
+    from twintube.rig.signals import harmonic_block
 
     with answering():
-        chosen = parameters.load(damper).with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1)
+        chosen = dampers.load(damper).with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1)
         if record is not None:
             time, stroke, speed = read_csv(record)
         elif not (0.001 <= velocity <= 20 and 0.1 <= amplitude_mm <= 500):
@@ -71,37 +72,11 @@ def simulate(
             head.append(f"{name} [{units.get(name, 'N' if name[0] == 'F' else 'm3')}]")
             columns.append(values)
         lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-        write(output, "\n".join(lines) + "\n")
+        write_text(output, "\n".join(lines) + "\n")
         typer.echo(
             f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
             f"force from {result.force.min():.0f} to {result.force.max():.0f} N"
         )
-
-
-@app.command(epilog="Example: twintube ssv SA8 --oil-level 0.6 --gas-lost --output worn.ssv")
-def ssv(
-    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
-    oil_level: Annotated[float | None, typer.Option(help="Oil, share of the intact volume.")] = None,
-    gas_lost: Annotated[bool, typer.Option("--gas-lost", help="The gas preload is lost.")] = False,
-    as_published: Annotated[
-        bool, typer.Option("--as-published", help="As build_fmu.py: freed gas never dissolves again.")
-    ] = False,
-    output: Annotated[Path, typer.Option(help="SSV file for the parameters.")] = Path("parameters.ssv"),
-) -> None:
-    """Write all parameters for an importer of the FMU, as System Structure Parameter Values of SSP 1.0."""
-    from twintube.ssv import to_ssv
-
-    with answering():
-        changes: dict[str, Any] = {}
-        if oil_level is not None:
-            changes["oil_level"] = oil_level
-        if gas_lost:
-            changes["gas_preload"] = 0
-        chosen = parameters.load(damper).with_(**changes)
-        if not as_published:
-            chosen = closed(chosen)
-        write(output, to_ssv(chosen))
-        typer.echo(f"{output}: parameters of {chosen.name}, {chosen.title}")
 
 
 @app.command(epilog="Example: twintube rig SA8 --output excitations")
@@ -114,17 +89,18 @@ def rig(
     ] = False,
 ) -> None:
     """Write the excitations of the paper's measurement plan (Table 3) for a damper."""
-    from twintube.plan import RECOVERY_LEVELS, REST, plan, recovery_plan
+    from twintube.rig.plan import RECOVERY_LEVELS, REST, recovery_plan
+    from twintube.vehicle.plan import plan
 
     with answering():
-        chosen = parameters.load(damper)
+        chosen = dampers.load(damper)
         listed = []
         wanted = recovery_plan(chosen) if recovery else plan(chosen, seed)
         for m in tqdm(list(wanted), unit="signal", leave=False):
             name = f"{m.number:02}_{re.sub(r'[^a-z0-9.]+', '_', m.name.lower()).strip('_')}.csv"
             table = np.column_stack([m.signal.time, m.signal.stroke * 1e3, m.signal.velocity * 1e3])
             lines = ["time [s],stroke [mm],velocity [mm/s]"] + [f"{t:.6g},{z:.6g},{v:.6g}" for t, z, v in table]
-            write(output / name, "\n".join(lines) + "\n")
+            write_text(output / name, "\n".join(lines) + "\n")
             start, end = (float(m.signal.time[m.signal.marks[i]]) for i in (0, -1))
             listed.append({"number": m.number, "name": m.name, "measurement": m.kind, "file": name,
                            "measured_from_s": start, "measured_to_s": end})  # fmt: skip
@@ -133,7 +109,7 @@ def rig(
         if recovery:
             about["oil_levels_without_preload"] = [*RECOVERY_LEVELS, *chosen.measured_levels]
             about["record_too"] = "temperature of the oil or the outer tube: a minute above v_cav heats the damper"
-        write(output / "plan.json", json.dumps(about, indent=1) + "\n")
+        write_text(output / "plan.json", json.dumps(about, indent=1) + "\n")
         typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
 
 
@@ -146,7 +122,7 @@ def claims(
     reading: Annotated[
         list[str] | None, typer.Option(help="Another reading of the paper, e.g. leak_carries_oil=1; repeatable.")
     ] = None,
-    start: START = rig_of.START,
+    start: START = signals.START,
     closure: Annotated[str, typer.Option(help="A closure of every run; none: the letter, in drives that of rides.")] = "",
 ) -> None:
     """Evaluate the paper's statements C1 to C16 with its published parameters."""
@@ -156,7 +132,7 @@ def claims(
         readings = dict(parsed_reading(text) for text in reading or [])
         found = list(tqdm(evaluate(readings, bench(start, closure)), total=len(EVALUATORS), unit="claim", leave=False))
         if json_file is not None:
-            write(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in found], indent=1) + "\n")
+            write_text(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in found], indent=1) + "\n")
         for c in found:
             mark = "calibrated" if c.calibrated else "by assumption" if c.assumed else "evidence"
             typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{mark:15}{c.statement} ({c.source})")
@@ -178,10 +154,10 @@ def claims(
 def bench(start: str, closure: str = "") -> Any:
     """The bench of the claims; raises ParameterError."""
     from twintube.claims import Bench
-    from twintube.closures import CLOSURES
+    from twintube.dampers.closures import CLOSURES
 
-    if start not in rig_of.STARTS:
-        raise ParameterError(f"--start {start}: must be one of {', '.join(rig_of.STARTS)}")
+    if start not in signals.STARTS:
+        raise ParameterError(f"--start {start}: must be one of {', '.join(signals.STARTS)}")
     if closure and closure not in CLOSURES:
         raise ParameterError(f"--closure {closure}: must be one of {', '.join(CLOSURES)}")
     return Bench(start=start, closure=closure)
@@ -205,13 +181,13 @@ def parsed_reading(text: str) -> tuple[str, float]:
 @app.command(epilog="Example: twintube calibrate SA8")
 def calibrate(
     damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
-    start: START = rig_of.START,
+    start: START = signals.START,
 ) -> None:
     """Find the dead length of the chambers from all claims, as it was done for the named dampers."""
-    from twintube.calibrate import calibrate as run
+    from twintube.claims.calibrate import calibrate as run
 
     with answering():
-        result = run(parameters.load(damper), bench(start))
+        result = run(dampers.load(damper), bench(start))
         for fit in result.fits:
             found = ", ".join(f"{name} {value:.2f}" for name, value in fit.deviations.items() if value)
             mark = "chosen" if fit is result.chosen else ""
@@ -232,14 +208,14 @@ def readings(
     table = []
     for other, found in tqdm(compare(), total=len(alternatives()), unit="choice", leave=False):
         flips = [f"{e.id} {'holds' if e.holds else 'fails'}" for e in found if e.flips]
-        tqdm.write(f"{other.name} = {other.value}: {', '.join(flips) or 'no claim flips'}")
+        tqdm.write_text(f"{other.name} = {other.value}: {', '.join(flips) or 'no claim flips'}")
         for effect in found:
             if effect.moves:
-                tqdm.write(f"      {effect.id:4}{effect.moves}")
+                tqdm.write_text(f"      {effect.id:4}{effect.moves}")
         table.append({"choice": other.name, "value": other.value, "claims": [asdict(effect) for effect in found]})
     if json_file is not None:
         with answering():
-            write(json_file, json.dumps(table, indent=1) + "\n")
+            write_text(json_file, json.dumps(table, indent=1) + "\n")
 
 
 @app.command(epilog="Example: twintube variables > docs/variables.md")

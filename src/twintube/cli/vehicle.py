@@ -6,9 +6,10 @@ from typing import Annotated
 
 import typer
 
-from twintube import parameters
-from twintube.cli.base import answering, app, write
-from twintube.parameters import ParameterError
+from twintube import dampers
+from twintube.cli.base import answering, app
+from twintube.dampers import ParameterError
+from twintube.files import write_text
 
 
 @app.command(epilog="Example: twintube ride SA8 --oil-level 0.6 --gas-lost --speed 50 --json ride.json")
@@ -25,7 +26,7 @@ def ride(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write the figures to this file.")] = None,
 ) -> None:
     """Drive the quarter car over a random road and compare the damper with the intact one over the same metres."""
-    from twintube.closures import CLOSURES, DEFAULT, acting, closed
+    from twintube.dampers.closures import CLOSURES, DEFAULT, acting, closed
     from twintube.vehicle.cars import axle, load_car
     from twintube.vehicle.ride import WINDOW, measures, track
     from twintube.vehicle.ride import ride as run
@@ -36,7 +37,7 @@ def ride(
             raise ParameterError(f"--road-class {road_class}: must be one of {', '.join(GD_N0)}")
         if closure is not None and closure not in CLOSURES:
             raise ParameterError(f"--closure {closure}: must be one of {', '.join(CLOSURES)}")
-        chosen, vehicle = parameters.load(damper), load_car(car)
+        chosen, vehicle = dampers.load(damper), load_car(car)
         state = closed(chosen.with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1), closure or DEFAULT)
         corner, on = vehicle.corner(chosen), track(speed, seconds, road_class=road_class, seed=seed)
         intact = run(chosen.with_(oil_level=1.0, gas_preload=1), corner, on)
@@ -54,7 +55,7 @@ def ride(
         }
         found |= {"intact": measures(intact, corner)}
         if json_file is not None:
-            write(json_file, json.dumps(about | found, indent=1) + "\n")
+            write_text(json_file, json.dumps(about | found, indent=1) + "\n")
         failed = found["time_to_failure_s"]
         typer.echo(f"{chosen.name}, {oil_level:.0%} oil, {'no ' if gas_lost else ''}preload; {acting(state)}")
         typer.echo(

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
 from twintube.arrays import Array
-from twintube.checks import VELOCITY
+from twintube.core.checks import VELOCITY
 from twintube.data.findings import Notes, more
 from twintube.data.table import Table
 

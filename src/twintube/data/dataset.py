@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.checks import tube_limit
+from twintube.core.checks import tube_limit
+from twintube.dampers import Damper, ParameterError, load, names
 from twintube.data.checks import check, computed
 from twintube.data.findings import DataError, Finding, Notes, UnreadableError
 from twintube.data.formats import read_raw
 from twintube.data.manifest import Entry, Manifest, read_manifest
 from twintube.data.table import Table, convert
-from twintube.parameters import Damper, ParameterError, load, names
 
 FILE = "dataset.toml"
 MEASURED = "measured"

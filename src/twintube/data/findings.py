@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
-from twintube.simulate import InputError
+from twintube.engine.simulate import InputError
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from twintube.dampers.damper import suggestion
+from twintube.dampers.quantity import quantity
+from twintube.dampers.toml import line_of
 from twintube.data.findings import Notes
 from twintube.data.formats import Format
 from twintube.data.table import UNITS, split_header
-from twintube.parameters import line_of, quantity, suggestion
 
 MEASUREMENTS = ("quasi-static", "harmonic", "stochastic")
 SPLITS = ("fit", "heldout")

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
+from twintube.dampers.damper import suggestion
+from twintube.dampers.quantity import quantity, registry
 from twintube.data.findings import Notes, more
 from twintube.data.formats import Format, Raw
-from twintube.parameters import quantity, registry, suggestion
 
 UNITS = {"time": "s", "stroke": "m", "force": "N", "velocity": "m/s", "temperature": "degC"}
 EXAMPLES = {"time": "time [s]", "stroke": "stroke [mm]", "force": "force [N]"}  # these must be there

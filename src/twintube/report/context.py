@@ -1,6 +1,5 @@
 """What the figures draw from: dampers, claims, loops of the model, records of the virtual rig, identified dampers."""
 
-import hashlib
 from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
@@ -8,15 +7,16 @@ from typing import Any
 
 from tqdm import tqdm
 
-from twintube import parameters
+from twintube import dampers
 from twintube.arrays import Array
 from twintube.claims import EVALUATORS, Claim
-from twintube.parameters import Damper
-from twintube.plan import amplitude
-from twintube.report import fitted
-from twintube.report.records import Records, fingerprint, harmonic_jobs, slow_jobs
-from twintube.rig import BLOCKS, Signal, harmonic_block
-from twintube.simulate import Simulation, simulate, work_between
+from twintube.dampers import Damper
+from twintube.engine.simulate import Simulation, simulate, work_between
+from twintube.provenance import fingerprint
+from twintube.report import fitted, records
+from twintube.report.records import Records, harmonic_jobs, slow_jobs
+from twintube.rig.plan import amplitude
+from twintube.rig.signals import BLOCKS, Signal, harmonic_block
 
 ONE, TOP, SLOW = 1.048, 1.572, 0.05  # the paper's "1 m/s", "1.6 m/s" and slowest block [m/s]
 
@@ -61,7 +61,7 @@ class Context:
     @cached_property
     def dampers(self) -> dict[str, Damper]:
         """The eight named dampers with the published parameters of Table 9."""
-        return {name: parameters.load(name) for name in parameters.names()}
+        return {name: dampers.load(name) for name in dampers.names()}
 
     def claim(self, name: str) -> Claim:
         """A claim of `twintube.claims`, by its id."""
@@ -103,4 +103,4 @@ class Context:
         return self.fit(name).with_(**values)
 
     def _key(self) -> str:
-        return hashlib.sha256(f"{fingerprint()} {fitted.fingerprint()} {self.quick}".encode()).hexdigest()[:12]
+        return f"{fingerprint(fitted.__name__)}_{fingerprint(records.__name__)}_{'quick' if self.quick else 'paper'}"

@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from twintube.diagnose.result import Cause, Diagnosis, Errors
-from twintube.diagnose.where import FALSE_ALARM
-from twintube.effects import EFFECTS, Parameters
+from twintube.core.effects import EFFECTS, Parameters
+from twintube.diagnosis.result import Cause, Diagnosis, Errors
+from twintube.diagnosis.where import FALSE_ALARM
+from twintube.files import write_bytes, write_text
 from twintube.report import style
 from twintube.report.diagnosis_pictures import MOST, pictures, shown_record
 from twintube.report.diagnosis_records import compared, models, name_of, noise, ranked
@@ -223,6 +224,6 @@ def write_report(diagnosis: Diagnosis, folder: Path) -> list[Path]:
     text = page(diagnosis, images)
     files = [folder / f"{name}.png" for name in images]
     for file, data in zip(files, images.values(), strict=True):
-        file.write_bytes(data)
-    (folder / "report.html").write_text(text, encoding="utf-8")
+        write_bytes(file, data)
+    write_text(folder / "report.html", text)
     return [*files, folder / "report.html"]

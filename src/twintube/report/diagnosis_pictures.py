@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from twintube.arrays import Array
-from twintube.diagnose.result import Diagnosis, Map, RecordResult, Tried
+from twintube.diagnosis.result import Diagnosis, Map, RecordResult, Tried
 from twintube.report import style
 from twintube.report.diagnosis_records import (
     Model,

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
-from twintube.diagnose.prepare import Case
-from twintube.diagnose.result import Diagnosis, RecordResult
+from twintube.diagnosis.prepare import Case
+from twintube.diagnosis.result import Diagnosis, RecordResult
 from twintube.report import style
 
 SHOWN = 6  # records of which curves are drawn

@@ -3,7 +3,7 @@
 import math
 from dataclasses import fields
 
-from twintube.effects import EFFECTS, Parameters
+from twintube.core.effects import EFFECTS, Parameters
 
 # From the SI unit: name and factor, largest first; the last one serves what is smaller still.
 UNITS: dict[str, tuple[tuple[float, str, float], ...]] = {  # least SI value, unit, factor

@@ -1,25 +1,18 @@
 """The damper identified from records, as `twintube identify` does it; kept as a parameter file beside the report."""
 
-import hashlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from twintube import parameters
+from twintube import dampers
 from twintube.arrays import Array
-from twintube.identify import Harmonic
-from twintube.identify.workflow import PAPER, Budget, identify_damper
-from twintube.parameters import Damper
+from twintube.dampers import Damper
+from twintube.files import write_text
+from twintube.identification import Harmonic
+from twintube.identification.workflow import PAPER, Budget, identify_damper
 
 HOW = "identified from the virtual rig's records in the paper's four steps and two searches over all parameters together"
 # Small swarms for eight dampers in minutes; the walkers make intervals, which a report of curves does not show.
 QUICK = Budget(table_6=(32, 60), tables_7_8=(64, 120), together=(24, 100), intervals=(32, 2))
-
-
-def fingerprint() -> str:
-    """What an identification depends on beside its records: the sources of the identification and of the kernel."""
-    here = Path(parameters.__file__).parent
-    sources = sorted([*(here / "identify").glob("*.py"), *(here / "kernel").glob("*.py"), Path(__file__)])
-    return hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:12]
 
 
 def fit(
@@ -42,10 +35,8 @@ def fit(
         journal.mkdir(exist_ok=True)
         budget = QUICK if quick else PAPER
         found = identify_damper(damper, slow, intact, degraded, budget=budget, journal=journal, progress=progress).damper
-        part = kept.with_suffix(".part")
-        part.write_text(parameters.to_toml(found.with_(oil_level=1.0, gas_preload=1)), encoding="utf-8")
-        part.replace(kept)
-    return parameters.load(kept)
+        write_text(kept, dampers.to_toml(found.with_(oil_level=1.0, gas_preload=1)))
+    return dampers.load(kept)
 
 
 def generations(quick: bool) -> int:

@@ -6,11 +6,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from twintube.identify import Harmonic, Result
-from twintube.identify.dataset import is_intact, totals
-from twintube.identify.intact import fv_points
-from twintube.identify.validation import Validated, predicted
-from twintube.kernel import fluid_force
+from twintube.core.kernel import fluid_force
+from twintube.files import write_bytes, write_text
+from twintube.identification import Harmonic, Result
+from twintube.identification.dataset import is_intact, totals
+from twintube.identification.intact import fv_points
+from twintube.identification.validation import Validated, predicted
 from twintube.report import style
 from twintube.report.page import Picture, Section, Table, html
 
@@ -217,8 +218,8 @@ def write_report(result: Result, folder: Path) -> list[Path]:
     text = html(f"Identification: {result.dataset.title}", result.remarks, sections, [errors])
     files = [folder / f"{name}.png" for name in pictures]
     for file, figure in zip(files, pictures.values(), strict=True):
-        file.write_bytes(style.png(figure))
-    (folder / "report.html").write_text(text, encoding="utf-8")
+        write_bytes(file, style.png(figure))
+    write_text(folder / "report.html", text)
     return [*files, folder / "report.html"]
 
 

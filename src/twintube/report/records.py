@@ -1,6 +1,5 @@
 """Records of the virtual rig, which stand for the paper's unpublished measurements: from all cores, kept as Parquet."""
 
-import hashlib
 import os
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -15,16 +14,18 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-import twintube
-import virtual_rig
 from twintube.arrays import Array
-from twintube.identify import Harmonic
-from twintube.parameters import load
-from twintube.plan import amplitude, drive_signal, quasi_static, velocities
-from twintube.rig import Signal, harmonic_block
-from twintube.simulate import InputError
+from twintube.dampers import load
+from twintube.engine.simulate import InputError
+from twintube.files import replacing
+from twintube.identification import Harmonic
+from twintube.lab import virtual_rig
+from twintube.lab.virtual_rig.rig import check
+from twintube.provenance import fingerprint
+from twintube.rig.plan import amplitude, quasi_static, velocities
+from twintube.rig.signals import Signal, harmonic_block
 from twintube.vehicle.maneuvers import MANEUVERS
-from virtual_rig.rig import check
+from twintube.vehicle.plan import drive_signal
 
 PER_OSCILLATION = 240  # samples of an oscillation
 KEPT_BEFORE = 10  # every so many samples of the preconditioning are kept
@@ -110,26 +111,15 @@ def compute(job: Job, folder: Path) -> None:
     table = pa.table({name: column[kept] for name, column in zip(names, columns, strict=True)})
     marks = np.searchsorted(kept, signal.marks)
     table = table.replace_schema_metadata({"marks": " ".join(str(m) for m in marks), "stand_in": "virtual rig"})
-    part = folder / (job.file + ".part")
-    pq.write_table(table, part, compression="zstd")
-    part.replace(folder / job.file)
-
-
-@lru_cache(maxsize=1)
-def fingerprint() -> str:
-    """What the records depend on: the sources of the rig, of the excitations and the named dampers."""
-    here = Path(twintube.__file__).parent
-    sources = [here / "plan.py", here / "rig.py", *(here / "vehicle").rglob("*.py"), *(here / "vehicle").rglob("*.toml")]
-    sources += [*Path(virtual_rig.__file__).parent.glob("*.py"), *(here / "dampers").glob("*.toml"), Path(__file__)]
-    text = b"".join(path.read_bytes() for path in sorted(sources))
-    return hashlib.sha256(text).hexdigest()[:12]
+    with replacing(folder / job.file) as part:
+        pq.write_table(table, part, compression="zstd")
 
 
 class Records:
     """The records of a run, in `folder`; those of another version of the rig are not taken."""
 
     def __init__(self, folder: Path, processes: int | None = None, progress: bool = True) -> None:
-        self.folder = folder / fingerprint()
+        self.folder = folder / fingerprint(__name__)
         self.processes = processes or os.cpu_count() or 1
         self.progress = progress
 

@@ -1,7 +1,6 @@
 """The reproduction report: the figures of the paper that a model can produce, and what became of its statements."""
 
 import json
-import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,13 +10,14 @@ from typing import Any
 from tqdm import tqdm
 
 from twintube import __version__
-from twintube.parameters import ParameterError
+from twintube.dampers import ParameterError
+from twintube.engine.simulate import InputError
+from twintube.files import write_bytes
 from twintube.report import style
 from twintube.report.context import Context
 from twintube.report.figures import FIGURES
 from twintube.report.page import Finding, Picture, Section, Table, html
 from twintube.report.statement import Plot, Statement, as_json, plain
-from twintube.simulate import InputError
 
 TITLE = "Degraded twin-tube shock absorbers: the paper's figures, reproduced"
 PAPER = (
@@ -105,7 +105,7 @@ def reproduce(
         plot = FIGURES[number].draw(context)
         png = style.png(plot.figure)
         path = output / f"figure_{number:02}.png"
-        write(path, png)
+        write_bytes(path, png)
         pictures.append(path)
         entries.append(as_json(plot))
         sections.append(section(plot, png))
@@ -113,20 +113,10 @@ def reproduce(
         if report is not None:
             report(f"Figure {number:2}  {plot.verdict:14} {plot.tally}")
     about: dict[str, Any] = {"paper": PAPER, "twintube": __version__, "bases": BASES, "figures": entries}
-    write(output / "reproduce.json", (json.dumps(about, indent=1) + "\n").encode())
+    write_bytes(output / "reproduce.json", (json.dumps(about, indent=1) + "\n").encode())
     page = html(TITLE, LEAD, sections, [summary(entries)], f"twintube {__version__}")
-    write(output / "index.html", page.encode())
+    write_bytes(output / "index.html", page.encode())
     return Report(output / "index.html", output / "reproduce.json", tuple(pictures), verdicts)
-
-
-def write(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all."""
-    part = path.with_name(f"{path.name}.{os.getpid()}.part")
-    try:
-        part.write_bytes(content)
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 def section(plot: Plot, png: bytes) -> Section:

@@ -1,43 +1,40 @@
 """One case of a study: a pure function of the study and the case's number."""
 
-import hashlib
-from dataclasses import fields
-from functools import cache, lru_cache
+from functools import lru_cache
 from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube import __version__, compiled, kernel
+from twintube import __version__
 from twintube.arrays import Array
-from twintube.effects import Parameters
-from twintube.parameters import Damper
-from twintube.rig import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, harmonic_block, oscillations
-from twintube.simulate import InputError, simulate
+from twintube.core import kernel
+from twintube.core.variables import Derived, blank
+from twintube.dampers import Damper
+from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
+from twintube.engine import compiled
+from twintube.engine.simulate import InputError, simulate
+from twintube.provenance import fingerprint
+from twintube.rig.signals import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, harmonic_block, oscillations
 from twintube.studies.definition import FIELDS, Case, Signal, Study, StudyError
-from twintube.variables import Derived, blank
-from twintube.variants import NO_CAVITATION, NO_FOAM
 
 RESULTS = ("work_J", "work_relative", "peak_rebound_N", "peak_compression_N")
 COMPILING = Lock()  # the threads of a Dask worker start together
 
 
-@cache
-def fingerprint() -> str:
-    """What the results depend on beside the study: the version and the sources of the compiled kernel."""
-    table = [(item.name, sorted((k, str(v)) for k, v in item.metadata.items())) for item in fields(Parameters)]
-    text = compiled.joined_source() + repr(table)
-    return f"{__version__} {hashlib.sha256(text.encode()).hexdigest()[:16]}"
+def version_mark() -> str:
+    """What the results depend on beside the study: version and sources."""
+    return f"{__version__} {fingerprint(__name__)}"
 
 
 def chunk(study: Study, start: int, stop: int, expected: str) -> Array:
     """Results of the cases from `start` to before `stop`, one row per case and oscillation; columns as in `RESULTS`.
 
     Raises StudyError where a case fails, or where this process has another twintube than the one with the
-    fingerprint `expected`.
+    mark `expected`.
     """
-    if fingerprint() != expected:
-        raise StudyError(f"a worker has twintube {fingerprint()}, this is twintube {expected}: install the same on both")
+    if version_mark() != expected:
+        raise StudyError(f"a worker has twintube {version_mark()}, this is twintube {expected}: install the same on both")
     with COMPILING:
         compiled.module()
     return np.concatenate([results(study, number) for number in range(start, stop)])

@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.effects import Parameters
-from twintube.parameters import Damper, ParameterError
-from twintube.rig import OSCILLATIONS
-from twintube.variables import fmi_name
+from twintube.core.effects import Parameters
+from twintube.core.variables import fmi_name
+from twintube.dampers import Damper, ParameterError
+from twintube.rig.signals import OSCILLATIONS
 
 FIELDS = {fmi_name(item): item for item in fields(Parameters)}
 

@@ -22,7 +22,8 @@ from tqdm import tqdm
 
 from twintube import __version__
 from twintube.arrays import Array
-from twintube.studies.cases import RESULTS, chunk, fingerprint
+from twintube.files import replacing
+from twintube.studies.cases import RESULTS, chunk, version_mark
 from twintube.studies.definition import FIELDS, Study, StudyError
 
 ROW_GROUP = 65536
@@ -61,35 +62,30 @@ def run(
         parts = on_cluster(study, spans, cluster)
     else:
         parts = locally(study, spans, processes or ((cpu_count() or 1) if study.samples > SMALL else 1))
-    output.parent.mkdir(parents=True, exist_ok=True)
-    part = output.with_name(output.name + ".part")
-    try:
-        rows = 0
-        with (
-            closing(parts),
-            pq.ParquetWriter(part, schema(study), compression="zstd") as writer,
-            tqdm(total=len(study), unit="case", leave=False, disable=None if progress else True) as bar,
-        ):
-            waiting: list[pa.Table] = []
-            for span, found in zip(spans, parts, strict=True):
-                waiting.append(table(study, span, found))
-                rows += waiting[-1].num_rows
-                bar.update(span[1] - span[0])
-                if sum(one.num_rows for one in waiting) >= ROW_GROUP:
-                    joined = pa.concat_tables(waiting)
-                    writer.write_table(joined.slice(0, ROW_GROUP).combine_chunks(), row_group_size=ROW_GROUP)
-                    waiting = [joined.slice(ROW_GROUP)]
-            if waiting:
-                writer.write_table(pa.concat_tables(waiting).combine_chunks(), row_group_size=ROW_GROUP)
-        part.replace(output)
-    finally:
-        part.unlink(missing_ok=True)
+    rows = 0
+    with (
+        replacing(output) as part,
+        closing(parts),
+        pq.ParquetWriter(part, schema(study), compression="zstd") as writer,
+        tqdm(total=len(study), unit="case", leave=False, disable=None if progress else True) as bar,
+    ):
+        waiting: list[pa.Table] = []
+        for span, found in zip(spans, parts, strict=True):
+            waiting.append(table(study, span, found))
+            rows += waiting[-1].num_rows
+            bar.update(span[1] - span[0])
+            if sum(one.num_rows for one in waiting) >= ROW_GROUP:
+                joined = pa.concat_tables(waiting)
+                writer.write_table(joined.slice(0, ROW_GROUP).combine_chunks(), row_group_size=ROW_GROUP)
+                waiting = [joined.slice(ROW_GROUP)]
+        if waiting:
+            writer.write_table(pa.concat_tables(waiting).combine_chunks(), row_group_size=ROW_GROUP)
     return rows
 
 
 def locally(study: Study, spans: list[Span], processes: int) -> Generator[Array, None, None]:
     """The chunks' results in order, from processes of this machine."""
-    mark = fingerprint()
+    mark = version_mark()
     if min(processes, len(spans)) == 1:
         yield from (chunk(study, start, stop, mark) for start, stop in spans)
         return
@@ -145,7 +141,8 @@ def on_cluster(study: Study, spans: list[Span], address: str) -> Generator[Array
             raise StudyError(f"the Dask scheduler at {address} has no workers after {CONNECTING} s") from error
         shared = client.submit(same, study, pure=True)
         starts, stops = zip(*spans, strict=True)
-        futures = client.map(chunk, [shared] * len(spans), starts, stops, expected=fingerprint(), pure=True, retries=RETRIES)
+        options = {"expected": version_mark(), "pure": True, "retries": RETRIES}
+        futures = client.map(chunk, [shared] * len(spans), starts, stops, **options)
         futures.reverse()
         try:
             while futures:
@@ -174,7 +171,7 @@ def schema(study: Study) -> pa.Schema:
         column("oscillation", pa.int64(), "1"),
         *(column(name, pa.float64(), UNITS[name]) for name in RESULTS),
     ]
-    about = {"twintube.version": __version__, "twintube.fingerprint": fingerprint(), "twintube.study": study.text}
+    about = {"twintube.version": __version__, "twintube.fingerprint": version_mark(), "twintube.study": study.text}
     return pa.schema(columns, metadata=about)
 
 

@@ -30,12 +30,15 @@ from typing import Any
 
 import numpy as np
 
-from twintube import parameters
-from twintube.checks import outside, problems, tube_limit
-from twintube.parameters import Damper, ParameterError, line_of, quantity, suggestion
-from twintube.record import read_csv
-from twintube.rig import AMPLITUDE, BLOCKS, OSCILLATIONS, V_PRECONDITIONING
-from twintube.simulate import InputError, checked
+from twintube import dampers
+from twintube.core.checks import outside, problems, tube_limit
+from twintube.dampers import Damper, ParameterError
+from twintube.dampers.damper import suggestion
+from twintube.dampers.quantity import quantity
+from twintube.dampers.toml import line_of
+from twintube.data.record import read_csv
+from twintube.engine.simulate import InputError, checked
+from twintube.rig.signals import AMPLITUDE, BLOCKS, OSCILLATIONS, V_PRECONDITIONING
 from twintube.studies.definition import FIELDS, Signal, Study, StudyError
 
 MAX_CASES = 1_000_000
@@ -58,7 +61,7 @@ KEYS = {*AXES, "title", "dampers", "records", "parameters"}
 
 def variants() -> dict[str, Any]:
     """Figure 33: the model variants at the measured 60 % state."""
-    levels = [parameters.load("SA8").measured_levels[0]]
+    levels = [dampers.load("SA8").measured_levels[0]]
     return {"title": "Figure 33: model variants", "dampers": ["SA8"], "oil_level": levels, "variant": [1, 2, 3, 4]}
 
 
@@ -216,7 +219,7 @@ def read_dampers(content: dict[str, Any], text: str, folder: Path, found: list[s
     read: list[Damper] = []
     try:
         for name in strings(content["dampers"]):
-            one = parameters.load(name if name in parameters.names() else folder / name)
+            one = dampers.load(name if name in dampers.names() else folder / name)
             read.append(replace(one, sources={}, assumed={}))
     except ParameterError as error:
         found.append(f"{line}dampers: {error}")

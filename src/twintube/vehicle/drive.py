@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube import compiled
 from twintube.arrays import Array
-from twintube.checks import stroke_limit
-from twintube.parameters import Damper
-from twintube.rig import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, oscillations
-from twintube.simulate import InputError, at_rest, rows
-from twintube.variables import blank
+from twintube.core.checks import stroke_limit
+from twintube.core.variables import blank
+from twintube.dampers import Damper
+from twintube.engine import compiled
+from twintube.engine.simulate import InputError, at_rest, rows
+from twintube.rig.signals import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, oscillations
 from twintube.vehicle.quarter_car import Car, Motion
 
 

@@ -6,7 +6,7 @@ wheel; the damper moves `ratio` times as far and its force acts there `ratio` ti
 
 from dataclasses import dataclass
 
-from twintube.variables import var
+from twintube.core.variables import var
 
 GRAVITY = 9.80665  # [m/s2]
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.parameters import Damper
+from twintube.dampers import Damper
 from twintube.vehicle import road
 from twintube.vehicle.drive import Drive, drive
 from twintube.vehicle.quarter_car import Car, static_load

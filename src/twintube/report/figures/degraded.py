@@ -12,7 +12,7 @@ from twintube.report import notes, style
 from twintube.report.context import ONE, SLOW, TOP, Context, loop, works
 from twintube.report.records import Job, harmonic_jobs, levels
 from twintube.report.statement import Plot, Statement, from_claim
-from twintube.rig import BLOCKS
+from twintube.rig.signals import BLOCKS
 
 
 def jobs_8(name: str) -> list[Job]:

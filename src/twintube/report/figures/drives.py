@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.plan import drive_signal
 from twintube.report import fitted, notes, style
 from twintube.report.context import Context
 from twintube.report.figures.validation import model_works, on_record
 from twintube.report.records import Job, drive_jobs, harmonic_jobs, levels, slow_jobs
 from twintube.report.statement import Plot, Statement, from_claim
 from twintube.vehicle.maneuvers import MANEUVERS
+from twintube.vehicle.plan import drive_signal
 
 BUMP = 3  # number in Table 3
 FORCE, MOVING = 0.20, 0.05  # error of the force [1] while the damper moves faster than this [m/s]

@@ -5,17 +5,17 @@ from typing import Any
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.identify import Harmonic
-from twintube.identify.intact import fv_points, quasi_static
-from twintube.kernel import fluid_force, stribeck
-from twintube.parameters import Damper
-from twintube.plan import quasi_static as ramps
+from twintube.core.kernel import fluid_force, stribeck
+from twintube.dampers import Damper
+from twintube.engine.simulate import simulate
+from twintube.identification import Harmonic
+from twintube.identification.intact import fv_points, quasi_static
 from twintube.report import notes, style
 from twintube.report.context import Context, levels, loop, state
 from twintube.report.records import Job, harmonic_jobs, slow_jobs
 from twintube.report.statement import Plot, Statement, from_claim
-from twintube.rig import BLOCKS
-from twintube.simulate import simulate
+from twintube.rig.plan import quasi_static as ramps
+from twintube.rig.signals import BLOCKS
 
 
 def jobs_3(name: str) -> list[Job]:

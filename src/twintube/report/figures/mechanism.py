@@ -8,13 +8,13 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 
-from twintube.kernel.forces import foam_factor
-from twintube.parameters import Damper
+from twintube.core.kernel.forces import foam_factor
+from twintube.dampers import Damper
+from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
+from twintube.engine.simulate import Simulation
 from twintube.report import notes, style
 from twintube.report.context import ONE, SLOW, Context, loop
 from twintube.report.statement import Plot, Statement
-from twintube.simulate import Simulation
-from twintube.variants import NO_CAVITATION, NO_FOAM
 
 
 def figure_14(context: Context) -> Plot:

@@ -5,13 +5,13 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.claims.variants import variants
-from twintube.parameters import Damper
-from twintube.plan import velocities
+from twintube.dampers import Damper
 from twintube.report import fitted, notes, style
 from twintube.report.context import Context, works
 from twintube.report.records import Job
 from twintube.report.statement import Plot, Statement, from_claim
-from twintube.rig import BLOCKS
+from twintube.rig.plan import velocities
+from twintube.rig.signals import BLOCKS
 from twintube.studies.cases import scaled
 
 NAMES = {1: "1 scalar factor", 2: "2 basic model", 3: "3 with foam", 4: "4 with foam and cavitation"}

@@ -6,16 +6,16 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.claims.claim import FRONT
-from twintube.identify import Harmonic
-from twintube.kernel import prepare
-from twintube.parameters import Damper
-from twintube.plan import amplitude, velocities
+from twintube.core.kernel import prepare
+from twintube.core.variables import Derived, blank
+from twintube.dampers import Damper
+from twintube.engine.simulate import Simulation, simulate, work_between
+from twintube.identification import Harmonic
 from twintube.report import fitted, notes, style
 from twintube.report.context import TOP, Context, state
 from twintube.report.records import Job, filled, levels
 from twintube.report.statement import Plot, Statement, from_claim
-from twintube.simulate import Simulation, simulate, work_between
-from twintube.variables import Derived, blank
+from twintube.rig.plan import amplitude, velocities
 
 SAME = 0.99  # work of the 19th over that of the 1st oscillation above which nothing fell
 SPENT = 0.05  # share of the intact work below which a state is not judged, as in C3

@@ -5,8 +5,11 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from twintube.checks import outside
-from twintube.parameters import Damper, line_of, quantity, read_named, refuse, suggestion
+from twintube.core.checks import outside
+from twintube.dampers import Damper
+from twintube.dampers.damper import refuse, suggestion
+from twintube.dampers.quantity import quantity
+from twintube.dampers.toml import line_of, read_named
 from twintube.vehicle.quarter_car import Car
 
 FOLDER = Path(__file__).parent

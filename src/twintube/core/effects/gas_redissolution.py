@@ -1,0 +1,47 @@
+"""Gas freed by cavitation goes back into the oil: first-order decay of V_cav, the oil lost to gas.
+
+What comes back takes the place of gas in V1 and V2, in proportion to the gas they hold; beyond that it joins the reserve.
+Oil and V_cav together stay the same.
+"""
+
+import math
+from dataclasses import dataclass
+
+from twintube.core import variables
+from twintube.core.frame import Frame
+from twintube.core.variables import var
+
+TITLE = "Gas goes back into the oil"
+CAUSE = "Bubbles freed by cavitation collapse and dissolve again under pressure, which the paper's model does not give back."
+ABSENCE = "The model loses force from oscillation to oscillation where the measured damper recovers, at rest above all."
+DECIDES = "rests of 5, 20 and 60 s between blocks above the cavitation threshold"
+STRENGTH = ("redissolution_rate",)
+NEEDS_TIME = True
+
+
+@dataclass(slots=True)
+class Parameters(variables.Parameters):
+    """Rate of the return."""
+
+    redissolution_rate: float = var("gas_redissolution", "", "1/s", "share of the freed gas that dissolves per second",
+                                    lower=0, upper=2, source="first-order mass transfer (Henry's law)",
+                                    default=0.0)  # fmt: skip
+
+
+def gas_redissolution_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:
+    """Turn gas back into oil."""
+    back = s.V_cav * (1.0 - math.exp(-p.redissolution_rate * dt))
+    s.V_cav -= back
+    gas = s.V1_gas + s.V2_gas
+    if gas <= back:
+        s.V1_oil += s.V1_gas
+        s.V2_oil += s.V2_gas
+        s.V3_oil += back - gas
+        s.V1_gas = 0.0
+        s.V2_gas = 0.0
+        return
+    part = back / gas
+    s.V1_oil += part * s.V1_gas
+    s.V2_oil += part * s.V2_gas
+    s.V1_gas -= part * s.V1_gas
+    s.V2_gas -= part * s.V2_gas

@@ -1,0 +1,38 @@
+"""The recorded fill is wrong: the damper starts with another oil level in its degraded states (preload lost).
+
+The level is oil_level + level_error within 0 to 1. Friction keeps the recorded level: its rise stands for age, not for
+the fill.
+"""
+
+from dataclasses import dataclass
+
+from twintube.core import variables
+from twintube.core.kernel.prepare import cavitate
+from twintube.core.variables import Derived, var
+
+TITLE = "The recorded fill is wrong"
+CAUSE = "The oil that was drained or filled in is not what the record says, by the same share of the volume in every state."
+ABSENCE = (
+    "In every degraded state the model's force rises at another stroke than the measured one, from the first oscillation."
+)
+DECIDES = "the oil weighed"
+STRENGTH = ("level_error",)
+NEEDS_TIME = False
+
+
+@dataclass(slots=True)
+class Parameters(variables.Parameters):
+    """Error of the level."""
+
+    level_error: float = var("oil_level_error", "", "1", "true oil level beyond the recorded one", lower=-0.3, upper=0.3,
+                             source="", default=0.0)  # fmt: skip
+
+
+def oil_level_error_level(p: Parameters, level: float) -> float:
+    """The true level [1]."""
+    return max(0.0, min(1.0, level + p.level_error)) if p.gas_preload == 0 else level
+
+
+def oil_level_error_derive(p: Parameters, d: Derived) -> None:
+    """Cavitation goes with the oil that is truly lost."""
+    cavitate(p, d, oil_level_error_level(p, p.oil_level))

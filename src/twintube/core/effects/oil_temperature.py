@@ -1,0 +1,58 @@
+"""Self-heating: the dissipated work thins the oil, the fluid force fades and recovers at rest.
+
+The damper is one heat store with one way out (lumped capacity, Newton cooling); H is the heat in it beyond that of the
+start: dH/dt = P - H / cooling_time. Viscosity falls exponentially with temperature (Reynolds), and so does the force:
+F_Fl exp(-fade_heat (H + H_start)), H_start being the heat at the start beyond that at the temperature of the F-v curve.
+Heat capacity and viscosity index act only through their ratio `fade_heat`.
+"""
+
+import math
+from dataclasses import dataclass
+
+from twintube.core import variables
+from twintube.core.frame import Frame
+from twintube.core.variables import var
+
+TITLE = "Self-heating of the oil"
+CAUSE = "The dissipated work heats the oil, whose viscosity falls exponentially with temperature and recovers at rest."
+ABSENCE = "The measured fluid force falls from oscillation to oscillation below the model's and comes back after a rest."
+DECIDES = "a rest of ten minutes within a record: heat goes, lost oil does not come back"
+STRENGTH = ("fade_heat",)
+NEEDS_TIME = True
+
+
+@dataclass(slots=True)
+class Parameters(variables.Parameters):
+    """Fade and cooling."""
+
+    fade_heat: float = var("oil_temperature", "", "1/J", "relative loss of fluid force per retained heat", lower=0,
+                           upper=1e-3, source="Reynolds 1886 (viscosity), lumped heat capacity", default=0.0)  # fmt: skip
+    cooling_time: float = var("oil_temperature", "", "s", "time constant of the cooling", lower=5, upper=2000,
+                              source="Newton's law of cooling, lumped", default=300.0)  # fmt: skip
+    H_start: float = var("oil_temperature", "", "J", "heat at the start beyond that of the F-v curve's temperature",
+                         lower=-2000, upper=2000, source="some kelvins of a rig's room", default=0.0)  # fmt: skip
+
+
+@dataclass(slots=True)
+class State(Frame):
+    """The heat store."""
+
+    heat: float = var("oil_temperature", "H", "J", "heat retained since the start", default=0.0)
+
+
+def oil_temperature_phases(p: Parameters, s: State, way: float, dt: float) -> None:
+    """Cool down over `dt` [s]."""
+    s.heat *= math.exp(-dt / p.cooling_time)
+
+
+def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
+    """Share of the fluid force that is left [1]."""
+    return math.exp(-p.fade_heat * (p.H_start + s.heat))
+
+
+def oil_temperature_finish(p: Parameters, s: State, dt: float) -> None:
+    """Take up the step's work, less what of it has already gone."""
+    share = dt / p.cooling_time
+    kept = (1.0 - math.exp(-share)) / share if share > 1e-9 else 1.0
+    # Where stroke and velocity of a record do not agree, a step can do negative work.
+    s.heat = max(0.0, s.heat + s.W_step * kept)

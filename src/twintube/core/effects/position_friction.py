@@ -1,0 +1,32 @@
+"""Friction that depends on the position: F_Fr (1 + friction_slope z + friction_bow z^2), not below 0.
+
+Side forces press guide and piston to the walls with a lever: the further the rod is out, the shorter the span between the
+two and the longer the overhang. A tube worn where the piston usually runs rubs less there than at both ends.
+"""
+
+from dataclasses import dataclass
+
+from twintube.core import variables
+from twintube.core.variables import var
+
+TITLE = "Friction that depends on the position"
+CAUSE = "A side force with its lever, or a tube worn in the middle: rod and piston rub more at some strokes than at others."
+ABSENCE = "The residual has the sign of the velocity and grows with the stroke, the same at every velocity and oil level."
+DECIDES = "slow records about other middles of the stroke"
+STRENGTH = ("friction_slope", "friction_bow")
+NEEDS_TIME = False
+
+
+@dataclass(slots=True)
+class Parameters(variables.Parameters):
+    """Relative change of the friction with the stroke."""
+
+    friction_slope: float = var("position_friction", "", "1/m", "relative rise of the friction with the stroke (extension)",
+                                lower=-60, upper=60, source="lever of guide and piston", default=0.0)  # fmt: skip
+    friction_bow: float = var("position_friction", "", "1/m2", "relative rise of the friction to both ends of the stroke",
+                              lower=0, upper=4000, source="tube worn in the middle", default=0.0)  # fmt: skip
+
+
+def position_friction_scale_friction(p: Parameters, z: float, v: float) -> float:
+    """Factor of the friction force [1] at the stroke `z` [m]."""
+    return max(0.0, 1.0 + z * (p.friction_slope + z * p.friction_bow))

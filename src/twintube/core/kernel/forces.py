@@ -1,0 +1,78 @@
+"""Forces of equations 1, 2 and 36: F-v curve, friction, foam."""
+
+import math
+
+from twintube.core.variables import FV_POINTS, Derived, Parameters, State
+
+
+def branch(v: float, velocities: list[float], forces: list[float]) -> float:
+    """Force [N] of one branch of the F-v curve at the speed `v` >= 0 [m/s]; the last segment goes on beyond it."""
+    i = 0
+    while i < FV_POINTS - 1 and velocities[i] < v:
+        i += 1
+    if i == 0:
+        return forces[0] * v / velocities[0]
+    slope = (forces[i] - forces[i - 1]) / (velocities[i] - velocities[i - 1])
+    return forces[i - 1] + slope * (v - velocities[i - 1])
+
+
+def fluid_force(p: Parameters, v: float) -> float:
+    """Friction-reduced force of the intact damper [N] at the velocity `v` [m/s]."""
+    # Eq. 3: A2*p2 - A1*p1 explains this force; as in the paper the measured F-v curve stands for it.
+    if v >= 0.0:
+        return branch(v, p.v_re, p.F_re)
+    return -branch(-v, p.v_co, p.F_co)
+
+
+def stribeck(p: Parameters, v: float) -> float:
+    """Scaling k_FrS [1] of the friction at the velocity `v` [m/s]; the shape of Figure 12 is assumed."""
+    return p.k_high + (1.0 - p.k_high) * math.exp(-abs(v) / p.v_S)
+
+
+def dahl(p: Parameters, d: Derived, F_D: float, dz: float) -> float:
+    """Dahl friction force [N] after the stroke `dz` [m]: the exact solution of equation 2 over the stroke."""
+    if d.F_FrS <= 0.0:
+        return 0.0
+    direction = 1.0 if dz > 0.0 else -1.0
+    gap = 1.0 - direction * F_D / d.F_FrS
+    side = 1.0 if gap >= 0.0 else -1.0
+    # Eq. 2 divided by the velocity: d|gap|/d|z| = -(sigma_0/F_FrS) |gap|^delta_D
+    way = p.sigma_0 / d.F_FrS * abs(dz)
+    size = abs(gap)
+    if size > 0.0:
+        q = 1.0 - p.delta_D
+        if abs(q) < 1e-6:  # the limit, free of 0/0
+            size *= math.exp(-way)
+        else:
+            left = math.exp(q * math.log(size)) - q * way
+            size = math.exp(math.log(left) / q) if left > 0.0 else 0.0
+    return direction * d.F_FrS * (1.0 - side * size)
+
+
+def foam_factor(p: Parameters, oil: float, foam: float) -> float:
+    """Force of a foam holding the volume `oil` in the volume `foam` [m3], relative to that of oil [1]."""
+    # Eq. 36: B p^E
+    if p.E == 0.0:
+        return p.B
+    if oil <= 0.0:
+        return 0.0
+    return p.B * math.exp(p.E * math.log(oil / foam))
+
+
+def share_above(v0: float, v1: float, threshold: float) -> float:
+    """Share [1] of a step during which the speed exceeds `threshold`, the speed going from |v0| to |v1| evenly."""
+    a = abs(v0)
+    b = abs(v1)
+    if a > threshold and b > threshold:
+        return 1.0
+    if a <= threshold and b <= threshold:
+        return 0.0
+    return (max(a, b) - threshold) / abs(a - b)
+
+
+def set_forces(p: Parameters, d: Derived, s: State, F_potential: float, v: float) -> None:
+    """The three forces of equation 1 at the state `s`; `F_potential` is the intact fluid force [N] at `v` [m/s]."""
+    # Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr; the paper's F_S is a slope, the force F_0 at stroke 0 is added here
+    s.F_gas = d.c_gas * s.z - d.F_0
+    s.F_friction = stribeck(p, v) * s.F_D
+    s.F_fluid = F_potential * s.k_degr

@@ -1,0 +1,118 @@
+"""The model that is simulated: the paper's kernel with the effects around it, in the kernel's own subset of Python.
+
+Without an active effect every function here is the kernel's own, to the last bit.
+"""
+
+from twintube.core.effects import (
+    Parameters,
+    State,
+    effects_active,
+    effects_derive,
+    effects_elastic,
+    effects_finish,
+    effects_force,
+    effects_level,
+    effects_motion,
+    effects_parts,
+    effects_phases,
+    effects_reset,
+    effects_rub,
+    effects_scale_fluid,
+    effects_scale_friction,
+    effects_transition,
+)
+from twintube.core.kernel import fill, fluid_force, pour, prepare, step
+from twintube.core.variables import Derived, Flow
+
+
+def set_up(p: Parameters, d: Derived) -> None:
+    """Fill `d` from `p`; to be called again after a parameter has changed."""
+    prepare(p, d)
+    d.extended = effects_active(p)
+    if d.extended > 0:
+        effects_derive(p, d)
+
+
+def start(p: Parameters, d: Derived, s: State, z: float) -> None:
+    """The state at rest at the stroke `z` [m]."""
+    if d.extended == 0:
+        fill(p, d, s, z)
+        return
+    pour(d, s, z, effects_level(p, p.oil_level) * p.V_oil)
+    effects_reset(s)
+    s.z_rod = z
+    s.F_gas += effects_elastic(p, z)
+
+
+def advance(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
+    """Carry `s` to the stroke `z` [m] in the time `dt` [s] >= 0, the velocity going evenly from `v0` to `v1` [m/s].
+
+    As `kernel.step`, whose result it returns; `dt` acts through effects that need time and is else ignored.
+    """
+    if d.extended == 0:
+        return step(p, d, s, f, z, v0, v1)
+    return extended_step(p, d, s, f, z, v0, v1, dt)
+
+
+def extended_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
+    """`advance` with at least one effect, in as many equal parts as the effects ask for."""
+    n = effects_parts(p, dt)
+    # Stroke and velocity go evenly, each by itself: samples of the two need not agree, at a rest above all.
+    z0 = s.z_rod
+    before = v0
+    for i in range(1, n):
+        share = i / n
+        after = v0 + share * (v1 - v0)
+        if not extended_part(p, d, s, f, z0 + share * (z - z0), before, after, dt / n):
+            return False
+        before = after
+    s.z_rod = z
+    return extended_part(p, d, s, f, z, before, v1, dt / n)
+
+
+def advance_whole(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
+    """`advance` in one part, for a caller that has divided the step itself."""
+    if d.extended == 0:
+        return step(p, d, s, f, z, v0, v1)
+    s.z_rod = z
+    return extended_part(p, d, s, f, z, v0, v1, dt)
+
+
+def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
+    """The kernel's step with the effects around it."""
+    work = s.work
+    friction = s.F_friction
+    gas = s.F_gas
+    s.goal_z = z
+    s.goal_v0 = v0
+    s.goal_v1 = v1
+    effects_motion(p, d, s, z, v0, v1, dt)
+    dz = s.goal_z - s.z
+    effects_phases(p, s, abs(dz), dt)
+    s.k_degr = s.k_flow
+    done = step(p, d, s, f, s.goal_z, s.goal_v0, s.goal_v1)
+    s.k_flow = s.k_degr
+    v = s.goal_v1
+    effects_transition(p, s, f, v, dz)
+    scale = effects_scale_fluid(p, s, v)
+    s.k_degr *= scale
+    if v > 0.0 or (v == 0.0 and dz > 0.0):
+        s.k_re = s.k_degr
+    elif v < 0.0 or dz < 0.0:
+        s.k_co = s.k_degr
+    F_1 = fluid_force(p, v)
+    s.F_fluid = F_1 * s.k_degr
+    s.F_friction = s.F_friction * effects_scale_friction(p, s.z, v) + effects_rub(p, s.z, v)
+    s.F_gas += effects_elastic(p, s.z)
+    # As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end.
+    s.k_mean = f.k_mean * effects_scale_fluid(p, s, dz)
+    s.F_mean = 0.5 * (fluid_force(p, s.goal_v0) + F_1) * s.k_mean
+    s.W_step = s.F_mean * dz
+    s.F_valve = s.F_fluid
+    effects_force(p, s, v1, dz, dt)
+    s.W_step += 0.5 * (friction + s.F_friction) * dz
+    s.impulse += (s.F_mean + 0.5 * (friction + s.F_friction + gas + s.F_gas)) * dt
+    s.work = work + s.W_step
+    s.elapsed += dt
+    effects_finish(p, s, dt)
+    return done

@@ -1,0 +1,185 @@
+"""What a result depends on: the same rides with the damper of this process, over seeds, closures and assumed values."""
+
+import os
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any
+
+from tqdm import tqdm
+
+from twintube.dampers import Damper, ParameterError
+from twintube.dampers.closures import CLOSURES, DEFAULT, closed
+from twintube.vehicle.cars import CarSet
+from twintube.vehicle.drive import Drive
+from twintube.vehicle.ride import Track, measures, ride, track
+
+SEEDS = (1, 2, 3, 4, 5)
+DEAD_LENGTH = 0.010  # [m] to each side of the calibrated one
+FORCES = (0.75, 1.33)  # of the assumed F-v curve
+LOSSES = (0.05, 0.4)  # of oil, from which cavitation acts in full (assumed)
+NAMES = {  # of the car's values on pictures
+    "d_links": "links [N s/m]",
+    "d_tyre": "tyre damping [N s/m]",
+    "c_tyre": "tyre stiffness [N/m]",
+    "ratio": "motion ratio",
+    "travel": "bump travel [m]",
+}
+SCALAR = "scalar factor"  # variant 1 of Section 3.4
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One set of assumptions: `forces` scales the F-v curve, `dead_length` [m] is added; `car` and `damper` are changes."""
+
+    closure: str = DEFAULT
+    seed: int = 1
+    car: tuple[tuple[str, float], ...] = ()
+    forces: float = 1.0
+    dead_length: float = 0.0
+    damper: tuple[tuple[str, float], ...] = field(default=())
+
+
+def changed(damper: Damper, setting: Setting) -> Damper:
+    """The damper with the setting's assumed values; raises ParameterError where they do not fit."""
+    p = damper.parameters
+    values: dict[str, Any] = dict(setting.damper)
+    if setting.forces != 1.0:
+        values |= {name: [setting.forces * F for F in getattr(p, name)] for name in ("F_re", "F_co")}
+    if setting.dead_length != 0.0:
+        values["dead_length"] = p.dead_length + setting.dead_length
+    return damper.with_(**values)
+
+
+def condition(damper: Damper, oil_level: float, gas_preload: int, closure: str) -> Damper:
+    """The damper at an oil level with a closure, or with the oil level as a factor of its fluid force (variant 1)."""
+    if closure == SCALAR:
+        return damper.with_(oil_level=1.0, gas_preload=0, wear_re=oil_level - 1.0, wear_co=oil_level - 1.0)
+    return closed(damper.with_(oil_level=oil_level, gas_preload=gas_preload), closure)
+
+
+@lru_cache(maxsize=64)
+def course(speed: float, seconds: float, seed: int, dt: float) -> Track:
+    """The class D road at a speed."""
+    return track(speed, seconds, seed=seed, dt=dt)
+
+
+@dataclass(frozen=True)
+class Rides:
+    """Rides of one damper in one car, by speed [km/h], oil level and setting; each is driven once."""
+
+    damper: Damper
+    car: CarSet
+    seconds: float
+    dt: float
+    seed: int = 1  # of the first road; a setting's seed counts from it
+    found: dict[tuple[float, float | None, Setting], dict[str, Any]] = field(default_factory=dict)
+
+    def run(self, speed: float, level: float | None, setting: Setting) -> Drive:
+        """One ride; `level` None is the intact damper."""
+        damper = changed(self.damper, setting)
+        state = condition(damper, 1.0 if level is None else level, int(level is None), setting.closure)
+        on = course(speed, self.seconds, self.seed + setting.seed - 1, self.dt)
+        return ride(state, self.car.corner(damper, **dict(setting.car)), on)
+
+    def group(self, speed: float, levels: Iterable[float], setting: Setting) -> Iterator[tuple[Any, dict[str, Any]]]:
+        """The intact damper and all levels over the same track, with their figures."""
+        corner = self.car.corner(changed(self.damper, setting), **dict(setting.car))
+        intact = self.run(speed, None, setting)
+        yield (speed, None, setting), measures(intact, corner, intact)
+        for level in levels:
+            yield (speed, level, setting), measures(self.run(speed, level, setting), corner, intact)
+
+    def drive_all(self, speeds: Iterable[float], levels: Iterable[float], settings: Iterable[Setting], label: str) -> None:
+        """Drive what is missing, on all cores: the compiled damper runs beside others in one process."""
+        levels = tuple(levels)
+        jobs = [(speed, setting) for setting in dict.fromkeys(settings) for speed in speeds]
+        jobs = [job for job in jobs if any((job[0], level, job[1]) not in self.found for level in (None, *levels))]
+
+        def work(job: tuple[float, Setting]) -> dict[Any, dict[str, Any]]:
+            return dict(self.group(job[0], levels, job[1]))
+
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for some in tqdm(pool.map(work, jobs), total=len(jobs), unit="setting", desc=label):
+                self.found.update(some)
+
+    def get(self, speed: float, level: float | None, setting: Setting, figure: str) -> Any:
+        """A figure of a ride that has been driven."""
+        return self.found[speed, level, setting][figure]
+
+
+def assumptions(damper: Damper, car: CarSet) -> dict[str, tuple[Setting, Setting]]:
+    """The two ends of everything that is assumed, by name; what does not fit into the damper is left out."""
+    ends = {
+        f"{NAMES.get(name, name)} {low:g}-{high:g}": (Setting(car=((name, low),)), Setting(car=((name, high),)))
+        for name, (low, high) in car.band.items()
+    }
+    ends[f"F-v curve x {FORCES[0]:g}-{FORCES[1]:g}"] = (Setting(forces=FORCES[0]), Setting(forces=FORCES[1]))
+    ends[f"dead length +-{1e3 * DEAD_LENGTH:g} mm"] = (Setting(dead_length=-DEAD_LENGTH), Setting(dead_length=DEAD_LENGTH))
+    ends[f"cavitation in full from {LOSSES[0]:g}-{LOSSES[1]:g} of loss"] = (loss(LOSSES[0]), loss(LOSSES[1]))
+    return {name: pair for name, pair in ends.items() if all(fits(damper, setting) for setting in pair)}
+
+
+def loss(value: float) -> Setting:
+    """Cavitation in full from an oil loss [1] on."""
+    return Setting(damper=(("cavitation_loss", value),))
+
+
+def fits(damper: Damper, setting: Setting) -> bool:
+    """Whether the damper is admissible with a setting."""
+    try:
+        changed(damper, setting)
+    except ParameterError:
+        return False
+    return True
+
+
+def over(rides: Rides, speed: float, level: float | None, settings: Iterable[Setting], figure: str = "dlc") -> list[float]:
+    """Smallest and largest value of a figure over settings."""
+    values = [rides.get(speed, level, setting, figure) for setting in settings]
+    return [min(values), max(values)]
+
+
+def seeds() -> list[Setting]:
+    """The default assumptions on five roads."""
+    return [Setting(seed=seed) for seed in SEEDS]
+
+
+def closures() -> list[Setting]:
+    """Every closure on one road."""
+    return [Setting(closure=name) for name in CLOSURES]
+
+
+def everything(rides: Rides) -> list[Setting]:
+    """All settings of the bands: one assumption varied at a time, the two that matter most together."""
+    ends = [end for pair in assumptions(rides.damper, rides.car).values() for end in pair]
+    pairs = [
+        Setting(closure=name, car=(("d_links", links),)) for name in CLOSURES for links in rides.car.band.get("d_links", ())
+    ]
+    return list(dict.fromkeys([*seeds(), *closures(), *ends, *pairs]))
+
+
+def rises(rides: Rides, speed: float, level: float, settings: Iterable[Setting]) -> list[float]:
+    """DLC over that of the intact damper in the same car on the same road [1], for every setting."""
+    return [rides.get(speed, level, s, "dlc") / rides.get(speed, None, s, "dlc") for s in settings]
+
+
+def bands(rides: Rides, speed: float, level: float | None) -> dict[str, Any]:
+    """The bands of the DLC at one speed and level, JSON ready; every entry [smallest, largest] but `closure`."""
+    half_lives = [Setting(closure=name) for name in ("return_fast", "return_slow")]
+    found: dict[str, Any] = {
+        "seeds": over(rides, speed, level, seeds()),
+        "half_life": over(rides, speed, level, [*half_lives, Setting()]),
+        "closures": over(rides, speed, level, closures()),
+        "closure": {s.closure: rides.get(speed, level, s, "dlc") for s in closures()},
+        "assumed": {
+            name: [rides.get(speed, level, end, "dlc") for end in pair]
+            for name, pair in assumptions(rides.damper, rides.car).items()
+        },
+    }
+    if level is not None:
+        for name, settings in (("seeds_over_intact", seeds()), ("all_over_intact", everything(rides))):
+            values = rises(rides, speed, level, settings)
+            found[name] = [min(values), max(values)]
+    return found

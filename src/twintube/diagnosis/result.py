@@ -1,0 +1,176 @@
+"""What a diagnosis says; `as_json` is the contract of diagnosis.json."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from twintube.arrays import Array
+from twintube.dampers import Damper
+from twintube.diagnosis.prepare import Case
+
+VERDICTS = ("cause", "none", "recalibrate", "ambiguous", "unexplained", "measurement_fault")
+
+
+@dataclass(frozen=True)
+class Signature:
+    """What was seen: its name, one sentence about it and the force RMS [N] that it stands for."""
+
+    name: str
+    text: str
+    size: float
+
+
+@dataclass(frozen=True)
+class Found:
+    """A parameter of a cause with its interval (95 %)."""
+
+    value: float
+    low: float
+    high: float
+    unit: str
+    doubt: str = ""  # why the value is not to be relied on
+
+
+@dataclass(frozen=True)
+class Gain:
+    """Share of the explainable squared force error (base minus noise floor) that goes away."""
+
+    fit: float
+    heldout: float
+    heldout_interval: tuple[float, float]  # by resampling the records
+    worst_record: float  # of the held-out ones
+
+
+@dataclass(frozen=True)
+class Cause:
+    """An effect or fault that was found; the largest comes first."""
+
+    effect: str  # a name of the contract
+    title: str
+    explanation: str  # one sentence
+    parameters: dict[str, Found]
+    gain: Gain
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """A candidate that explains the data about as well, or that was named beside."""
+
+    effect: str
+    heldout_gain: float
+    separable_by: str
+
+
+@dataclass(frozen=True)
+class Tried:
+    """One candidate in one round of the selection."""
+
+    round: int
+    effect: str
+    heldout_gain: float  # of the explainable error, against the model of the round before
+    interval: tuple[float, float]
+    decision: str  # chosen | rejected | alternative
+    reason: str
+
+
+@dataclass(frozen=True)
+class Map:
+    """Root mean square of the residual over bins of one quantity, of all records of the degraded or all states."""
+
+    quantity: str  # stroke, velocity, acceleration, time, cycle, dissipated energy, oil level, frequency
+    unit: str
+    centres: Array  # (b,)
+    base: Array  # (b,) [N], NaN where a bin is empty
+    extended: Array
+    noise: Array
+    mean: Array  # (b,) mean residual of the base model [N]: its sign
+
+
+@dataclass(frozen=True)
+class RecordResult:
+    """One record: measured and simulated mean forces (n,) over its intervals, and errors [N]."""
+
+    case: Case
+    split: str  # fit | heldout
+    measured: Array
+    base: Array
+    recalibrated: Array
+    extended: Array
+
+    def rms(self, force: Array) -> float:
+        """Error of a simulation [N]."""
+        return float((((force - self.measured)[1:]) ** 2).mean() ** 0.5)
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Force and work errors over some records."""
+
+    force_rmse_N: float
+    work_rmse_J: float
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The whole answer."""
+
+    title: str
+    verdict: str
+    sentence: str
+    causes: list[Cause]
+    alternatives: list[Alternative]
+    errors: dict[str, dict[str, Errors]]  # split (fit, heldout) -> base, recalibrated, extended, noise_floor
+    where: str
+    signature: str  # of what no candidate explains; empty if nothing is left
+    maps: list[Map]
+    tried: list[Tried]
+    records: list[RecordResult]
+    base: Damper
+    recalibrated: Damper
+    extended: Damper
+    next_measurements: list[str]
+    structure: dict[str, list[str]]  # base, recalibrated, extended -> records in which its residual is no white noise
+    remarks: list[str] = field(default_factory=list)
+    seconds: float = 0.0
+
+
+def as_json(d: Diagnosis) -> dict[str, Any]:
+    """The entries of diagnosis.json."""
+    heldout = d.errors["heldout"]
+    return {
+        "verdict": d.verdict,
+        "sentence": d.sentence,
+        "causes": [
+            {
+                "effect": c.effect,
+                "parameters": {
+                    name: {"value": f.value, "interval": [f.low, f.high], "unit": f.unit, "doubt": f.doubt}
+                    for name, f in c.parameters.items()
+                },
+                "gain": {
+                    "fit": c.gain.fit, "heldout": c.gain.heldout, "heldout_interval": list(c.gain.heldout_interval),
+                    "worst_record": c.gain.worst_record,
+                },
+            }
+            for c in d.causes
+        ],
+        "alternatives": [
+            {"effect": a.effect, "heldout_gain": a.heldout_gain, "separable_by": a.separable_by} for a in d.alternatives
+        ],
+        "error": {name: vars(value) for name, value in heldout.items()},
+        "error_fit": {name: vars(value) for name, value in d.errors["fit"].items()},
+        "where": d.where,
+        "signature": d.signature,
+        "structure": d.structure,
+        "tried": [vars(t) | {"interval": list(t.interval)} for t in d.tried],
+        "records": [
+            {
+                "record": r.case.name, "split": r.split, "oil_level": r.case.oil_level, "top_speed": r.case.top_speed,
+                "base_rmse_N": r.rms(r.base), "recalibrated_rmse_N": r.rms(r.recalibrated),
+                "extended_rmse_N": r.rms(r.extended), "noise_N": float((r.case.noise**2).mean() ** 0.5),
+            }
+            for r in d.records
+        ],
+        "next_measurements": d.next_measurements,
+        "remarks": d.remarks,
+        "seconds": d.seconds,
+    }  # fmt: skip

@@ -1,0 +1,1 @@
+"""The compiled kernel: records and swarms of them at machine speed."""

@@ -1,0 +1,157 @@
+"""Loops over the kernel, in the kernel's own subset so that numba compiles them together with it.
+
+`p`, `d`, `s`, `f` are records of `variables.py`: dataclasses in the interpreter, rows of structured arrays in numba.
+"""
+
+from typing import Any
+
+from twintube.core.effects import effects_parts
+from twintube.core.model import advance, advance_whole, set_up, start
+
+# A longer step [s] that goes less than this share of the way its velocities say is a rest, where a cubic would swing.
+REST = 0.3
+UNMOVED = 0.05
+
+# Columns that `run_record` writes, in this order; all but the shares and `z` are in SI units of the state's fields.
+COLUMNS = (
+    "force",
+    "k_degr",
+    "F_fluid",
+    "F_friction",
+    "F_gas",
+    "work",
+    "V1_oil",
+    "V1_gas",
+    "V1_foam",
+    "V2_oil",
+    "V2_gas",
+    "V2_foam",
+    "V3_oil",
+    "V3_foam",
+    "V_cav",
+)
+
+
+def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any) -> int:
+    """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,), and write `out` (n, 15).
+
+    Row 0 is the state at the first sample. Returns the number of samples done, less than n if a step failed.
+    """
+    before = v[0]
+    time = t[0]
+    for i in range(len(z)):
+        if not advance(p, d, s, f, z[i], before, v[i], t[i] - time):
+            return i
+        before = v[i]
+        time = t[i]
+        row = out[i]
+        row[0] = s.F_fluid + s.F_friction + s.F_gas
+        row[1] = s.k_degr
+        row[2] = s.F_fluid
+        row[3] = s.F_friction
+        row[4] = s.F_gas
+        row[5] = s.work
+        row[6] = s.V1_oil
+        row[7] = s.V1_gas
+        row[8] = s.V1_foam
+        row[9] = s.V2_oil
+        row[10] = s.V2_gas
+        row[11] = s.V2_foam
+        row[12] = s.V3_oil
+        row[13] = s.V3_foam
+        row[14] = s.V_cav
+    return len(z)
+
+
+def run_work(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, marks: Any, out: Any) -> int:
+    """As `run_record`, but only the dissipated work [J] at the samples `marks` (m,), written to `out` (m,)."""
+    before = v[0]
+    time = t[0]
+    mark = 0
+    for i in range(len(z)):
+        if not advance(p, d, s, f, z[i], before, v[i], t[i] - time):
+            return i
+        before = v[i]
+        time = t[i]
+        if mark < len(marks) and i == marks[mark]:
+            out[mark] = s.work
+            mark += 1
+    return len(z)
+
+
+def run_held(p: Any, d: Any, s: Any, f: Any, z: Any, dt: float) -> int:
+    """Move through the strokes `z` [m] (n,) one every `dt` [s], the velocity held within a step, as an FMU is stepped.
+
+    Returns the number of steps done, less than n - 1 if a step failed.
+    """
+    for i in range(len(z) - 1):
+        v = (z[i + 1] - z[i]) / dt if dt > 0.0 else 0.0
+        if not advance(p, d, s, f, z[i] + v * dt, v, v, dt):
+            return i
+    return len(z) - 1
+
+
+def run_means(
+    p: Any, d: Any, s: Any, f: Any, states: Any, t: Any, z: Any, v: Any, starts: Any, parts: int, force: Any, work: Any
+) -> int:
+    """Records laid end to end: the mean force [N] over the time since the sample before and the work [J] since the start.
+
+    `states` (r, 2) are the records' oil level and preload, `starts` (r + 1,) where they begin; `force` and `work` (n,) are
+    written. Between two samples the stroke follows the cubic of their strokes and velocities in `parts` steps, but across
+    a rest. Returns the number of records done.
+    """
+    for r in range(len(states)):
+        p.oil_level = states[r, 0]
+        p.gas_preload = int(states[r, 1])
+        set_up(p, d)
+        first = starts[r]
+        start(p, d, s, z[first])
+        before = v[first]
+        time = t[first]
+        at = z[first]
+        for i in range(first, starts[r + 1]):
+            dt = t[i] - time
+            n = max(parts, effects_parts(p, dt)) if d.extended > 0 else parts
+            if dt <= 0.0 or (dt > REST and abs(z[i] - at) < UNMOVED * dt * max(abs(before), abs(v[i]))):
+                n = 1
+            v0 = before
+            z0 = at
+            total = 0.0
+            for j in range(1, n + 1):
+                x = j / n
+                goal = z[i]
+                speed = v[i]
+                if j < n:
+                    goal = cubic(x, z0, before, z[i], v[i], dt)
+                    speed = cubic_slope(x, z0, before, z[i], v[i], dt)
+                from_work = s.work
+                from_impulse = s.impulse
+                if not advance_whole(p, d, s, f, goal, v0, speed, dt / n):
+                    return r
+                way = goal - at
+                if d.extended > 0 and dt > 0.0:
+                    total += (s.impulse - from_impulse) / dt
+                elif d.extended == 0 and abs(way) > 1e-9:
+                    # The work over the stroke is the mean force, wherever in the step it jumped.
+                    total += ((s.work - from_work) / way + d.c_gas * 0.5 * (at + goal) - d.F_0) / n
+                else:
+                    total += (s.F_fluid + s.F_friction + s.F_gas) / n
+                at = goal
+                v0 = speed
+            force[i] = total
+            work[i] = s.work
+            before = v[i]
+            time = t[i]
+    return len(states)
+
+
+def cubic(x: float, z0: float, v0: float, z1: float, v1: float, dt: float) -> float:
+    """Stroke [m] at the share x of a step whose strokes [m] and velocities [m/s] at both ends are given."""
+    y = 1.0 - x
+    return y * y * ((1.0 + 2.0 * x) * z0 + x * v0 * dt) + x * x * ((1.0 + 2.0 * y) * z1 - y * v1 * dt)
+
+
+def cubic_slope(x: float, z0: float, v0: float, z1: float, v1: float, dt: float) -> float:
+    """Velocity [m/s] of the same."""
+    y = 1.0 - x
+    return 6.0 * x * y * (z1 - z0) / dt + y * (1.0 - 3.0 * x) * v0 + x * (3.0 * x - 2.0) * v1

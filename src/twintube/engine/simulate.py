@@ -1,0 +1,133 @@
+"""The kernel driven over records: stroke and velocity in, forces and volumes out."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from twintube.arrays import Array
+from twintube.core import effects, model
+from twintube.core.checks import bad_input, problems, stroke_limit
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper
+from twintube.dampers.damper import refuse
+from twintube.engine import compiled, loops
+
+
+class InputError(ValueError):
+    """A record that cannot be simulated; the message names the quantity, the sample, the value and the range."""
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What `simulate` returns; all arrays (n,), SI units, row i belongs to sample i of the record."""
+
+    stroke: Array
+    velocity: Array
+    columns: dict[str, Array]  # the names of loops.COLUMNS, and V3_gas
+
+    def __getattr__(self, name: str) -> Array:
+        if name == "columns" or name not in self.columns:
+            raise AttributeError(f"no column {name}")
+        return self.columns[name]
+
+
+def checked(stroke: ArrayLike, velocity: ArrayLike, limit: float) -> tuple[Array, Array]:
+    """Stroke [m] and velocity [m/s] as arrays (n,); raises InputError at the first sample that is no good."""
+    z = np.ascontiguousarray(stroke, dtype=float)
+    v = np.ascontiguousarray(velocity, dtype=float)
+    if z.ndim != 1 or z.shape != v.shape or z.size == 0:
+        raise InputError(f"stroke {z.shape} and velocity {v.shape} must be arrays of one length above 0")
+    for i in np.flatnonzero(~(np.abs(z) <= limit) | ~(np.abs(v) <= 20.0))[:1]:
+        raise InputError(f"sample {i}: " + bad_input(float(z[i]), float(v[i]), limit))
+    return z, v
+
+
+def at_rest(damper: Damper, z: float) -> list[Any]:
+    """The kernel's records p, d, s, f with the damper at rest at the stroke `z` [m]; raises ParameterError."""
+    p = damper.parameters
+    refuse(damper.name, problems(p))
+    d, s, f = blank(Derived), blank(effects.State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, z)
+    return [p, d, s, f]
+
+
+def checked_time(damper: Damper, time: ArrayLike | None, size: int) -> Array:
+    """Times [s] (n,), zeros where the damper needs none; raises InputError where it does or where time goes back."""
+    if time is None:
+        needing = effects.needing_time(damper.parameters)
+        if needing:
+            raise InputError(f"a record without time, but {', '.join(needing)} of {damper.name} acts with time")
+        return np.zeros(size)
+    t = np.ascontiguousarray(time, dtype=float)
+    if t.shape != (size,):
+        raise InputError(f"time {t.shape} and stroke ({size},) must be arrays of one length")
+    for i in np.flatnonzero(~np.isfinite(t))[:1]:
+        raise InputError(f"sample {i}: time = {t[i]:g} s is no number")
+    for i in np.flatnonzero(np.diff(t) < 0.0)[:1]:
+        raise InputError(f"sample {i + 1}: time = {t[i + 1]:g} s is before {t[i]:g} s")
+    return t
+
+
+def started(
+    damper: Damper, stroke: ArrayLike, velocity: ArrayLike, time: ArrayLike | None
+) -> tuple[list[Any], Array, Array, Array]:
+    """The kernel's records at the first sample, and the checked record: time, stroke, velocity."""
+    p, d, s, f = at_rest(damper, 0.0)
+    z, v = checked(stroke, velocity, stroke_limit(d))
+    t = checked_time(damper, time, len(z))
+    model.start(p, d, s, float(z[0]))
+    return [p, d, s, f], t, z, v
+
+
+def rows(records: list[Any]) -> list[Any]:
+    """The records as numba takes them."""
+    return [compiled.as_row(record)[0] for record in records]
+
+
+def finished(done: int, z: Array) -> None:
+    """Raise InputError if not all samples were done."""
+    if done < len(z):
+        raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
+
+
+def simulate(
+    damper: Damper, stroke: ArrayLike, velocity: ArrayLike, time: ArrayLike | None = None, *, interpreted: bool = False
+) -> Simulation:
+    """Simulate a record from rest at its first sample.
+
+    Args:
+        damper: parameters and condition (oil level, gas preload).
+        stroke: (n,) [m], positive in rebound, 0 in the middle position.
+        velocity: (n,) [m/s], positive in rebound; between two samples it changes evenly.
+        time: (n,) [s], not falling; needed only where the damper has an effect that acts with time.
+        interpreted: run the kernel in plain Python instead of numba; the result is the same to the last bit.
+
+    Raises:
+        InputError: a sample is not finite, the piston would leave the tube, or a needed time is missing.
+        ParameterError: the parameters are not admissible.
+
+    """
+    records, t, z, v = started(damper, stroke, velocity, time)
+    out = np.empty((len(z), len(loops.COLUMNS)))
+    if interpreted:
+        p, d, s, f = records
+        done = loops.run_record(p, d, s, f, t.tolist(), z.tolist(), v.tolist(), out)
+    else:
+        done = compiled.module().run_record(*rows(records), t, z, v, out)
+    finished(done, z)
+    columns: dict[str, Array] = {name: out[:, i] for i, name in enumerate(loops.COLUMNS)}
+    columns["V3_gas"] = np.maximum(0.0, records[1].V_reserve - columns["V3_oil"] - columns["V3_foam"])
+    return Simulation(z, v, columns)
+
+
+def work_between(
+    damper: Damper, stroke: Array, velocity: Array, marks: NDArray[np.int64], time: Array | None = None
+) -> Array:
+    """Work [J] dissipated between the samples `marks` (m,), shape (m-1,); as `simulate`, without the other outputs."""
+    records, t, z, v = started(damper, stroke, velocity, time)
+    out = np.empty(len(marks))
+    finished(compiled.module().run_work(*rows(records), t, z, v, marks, out), z)
+    return np.diff(out)

@@ -1,0 +1,36 @@
+"""A reference run for importers: input and output of the default experiment, computed by the interpreted model."""
+
+import math
+
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper
+
+AMPLITUDE = 0.9  # of the largest stroke
+FREQUENCY = 2.0  # [Hz]
+STEP, STEPS = 1e-3, 2000
+
+
+def rows(damper: Damper) -> list[tuple[float, float, float, float, float]]:
+    """Time [s], stroke [m], velocity [m/s] at the start of each step, force [N] and k_degr [1] then."""
+    p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    model.advance(p, d, s, f, 0.0, 0.0, 0.0, 0.0)
+    stroke = [AMPLITUDE * p.stroke_max * math.sin(2 * math.pi * FREQUENCY * i * STEP) for i in range(STEPS + 2)]
+    found = []
+    for i in range(STEPS + 1):
+        # The mean velocity of the coming step, so that the damper meets the strokes.
+        v = (stroke[i + 1] - stroke[i]) / STEP
+        found.append((i * STEP, stroke[i], v, s.F_fluid + s.F_friction + s.F_gas, s.k_degr))
+        model.advance(p, d, s, f, stroke[i] + v * STEP, v, v, STEP)
+    return found
+
+
+def files(damper: Damper) -> dict[str, str]:
+    """`input.csv` (time, stroke, velocity) and `reference.csv` (time, force, k_degr), one row per communication point."""
+    found = rows(damper)
+    given = ['"time","stroke","velocity"', *(f"{t!r},{z!r},{v!r}" for t, z, v, _, _ in found)]
+    made = ['"time","force","k_degr"', *(f"{t!r},{force!r},{k!r}" for t, _, _, force, k in found)]
+    return {"input.csv": "\n".join(given) + "\n", "reference.csv": "\n".join(made) + "\n"}

@@ -1,0 +1,32 @@
+"""Identification: parameters of the degradation model from measured records (Section 3.2, equations 42 and 43).
+
+    identify_dataset    a dataset folder in, the four steps, validation on all records
+    identify_damper     the four steps on records
+    Objective, minimise equations 42 and 43 for whole swarms, and the optimisers
+
+First step: intact.py, sines.py; third and fourth: objective.py, optimise.py; what is known of the result: uncertainty.py,
+validation.py.
+"""
+
+from twintube.identification.dataset import Result, identify_dataset, summary
+from twintube.identification.objective import Harmonic, Objective
+from twintube.identification.optimise import METHODS, Best, minimise
+from twintube.identification.oscillations import harmonic
+from twintube.identification.workflow import PAPER, QUICK, Budget, Identification, identify_damper
+
+__all__ = [
+    "METHODS",
+    "PAPER",
+    "QUICK",
+    "Best",
+    "Budget",
+    "Harmonic",
+    "Identification",
+    "Objective",
+    "Result",
+    "harmonic",
+    "identify_damper",
+    "identify_dataset",
+    "minimise",
+    "summary",
+]

@@ -1,0 +1,156 @@
+"""Step one of the identification: F-v curve, friction and gas spring from records of the intact damper."""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from twintube.arrays import Array
+from twintube.core.kernel import fluid_force, stribeck
+from twintube.core.variables import FV_POINTS
+from twintube.dampers import Damper
+from twintube.dampers.toml import continued
+from twintube.engine.simulate import InputError
+from twintube.identification.objective import Harmonic
+
+# The middle of the stroke, in which friction is saturated and no stop is near [share of the largest stroke].
+MIDDLE = 0.6
+NOISE = 0.01  # of the stroke's range: a reversal is more than that
+V_SLOW = 1e-3  # velocity of the quasi-static measurement [m/s]
+
+
+@dataclass(frozen=True)
+class QuasiStatic:
+    """What the quasi-static record tells."""
+
+    c_gas: float  # slope of the force over the stroke [N/m]
+    F_0: float  # gas force at stroke 0, pushes the rod out [N]
+    F_FrS: float  # half the width of the hysteresis at stroke 0 [N]
+    sigma_0: float  # slope of the hysteresis at reversal [N/m]
+
+
+def turns(stroke: Array) -> list[int]:
+    """The samples of all reversals by more than the noise of a stroke, the first and the last sample included."""
+    least = NOISE * float(np.ptp(stroke))
+    found, extreme, rising = [0], 0, 0
+    for i, z in enumerate(stroke.tolist()):
+        if (rising >= 0 and z > stroke[extreme]) or (rising <= 0 and z < stroke[extreme]):
+            if rising == 0 and abs(z - stroke[0]) > least:
+                rising = 1 if z > stroke[0] else -1
+            if rising != 0:
+                extreme = i
+        elif rising != 0 and abs(z - stroke[extreme]) > least:
+            found.append(extreme)
+            extreme, rising = i, -rising
+    return [*found, len(stroke) - 1]
+
+
+def branches(stroke: Array) -> list[slice]:
+    """The strokes of one direction between reversals, those that cross the middle only."""
+    found = [slice(a, b + 1) for a, b in itertools.pairwise(turns(stroke)) if b > a]
+    reach = MIDDLE * np.abs(stroke).max()
+    return [s for s in found if np.abs(stroke[s]).max() >= reach and stroke[s].min() < 0 < stroke[s].max()]
+
+
+def quasi_static(stroke: Array, force: Array) -> QuasiStatic:
+    """Gas spring and friction from a slow record (n,) [m], [N] (Figure 7).
+
+    Raises InputError where the record has no full stroke in either direction.
+    """
+    reach = MIDDLE * np.abs(stroke).max()
+    lines: dict[bool, list[NDArray[np.floating]]] = {True: [], False: []}
+    for part in branches(stroke):
+        z, F = stroke[part], force[part]
+        inner = np.abs(z) <= reach
+        if inner.sum() >= 10:
+            lines[bool(z[-1] > z[0])].append(np.polyfit(z[inner], F[inner], 1))
+    if not lines[True] or not lines[False]:
+        raise InputError("quasi-static record: no full stroke in both directions")
+    up, down = (np.mean(lines[direction], axis=0) for direction in (True, False))
+    F_FrS = float(up[1] - down[1]) / 2
+    if F_FrS <= 0:
+        raise InputError(f"quasi-static record: half the hysteresis is {F_FrS:g} N, it must be above 0; check the signs")
+    middle = (up + down) / 2
+    return QuasiStatic(
+        c_gas=float(middle[0]), F_0=float(-middle[1]), F_FrS=F_FrS, sigma_0=reversal_slope(stroke, force, middle, F_FrS)
+    )
+
+
+def reversal_slope(stroke: Array, force: Array, line: Array, F_FrS: float) -> float:
+    """sigma_0 [N/m] from the stroke after a reversal that the friction needs to change its sign (delta_D = 1).
+
+    After a reversal F = F_FrS (1 - 2 exp(-sigma_0 x / F_FrS)), which is zero at x = F_FrS ln 2 / sigma_0.
+    """
+    found = []
+    for part in branches(stroke)[1:]:
+        z = stroke[part]
+        friction = (force[part] - np.polyval(line, z)) * (1.0 if z[-1] > z[0] else -1.0)
+        crossed = np.flatnonzero((friction[:-1] < 0) & (friction[1:] >= 0))
+        if len(crossed):
+            i = int(crossed[0])
+            share = -friction[i] / (friction[i + 1] - friction[i])
+            found.append(abs(z[i] + share * (z[i + 1] - z[i]) - z[0]))
+    if not found or np.median(found) <= 0:
+        raise InputError("quasi-static record: no reversal of the friction found; sample more densely")
+    return float(F_FrS * np.log(2) / np.median(found))
+
+
+def direction(stroke: Array) -> NDArray[np.bool_]:
+    """Whether the stroke rises (n,), reversals by its noise apart."""
+    found = np.zeros(len(stroke), dtype=bool)
+    for a, b in itertools.pairwise(turns(stroke)):
+        found[a : b + 1] = stroke[b] > stroke[a]
+    return found
+
+
+def fv_points(damper: Damper, records: Sequence[Harmonic]) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
+    """Friction-reduced points (velocity [m/s], force [N]) of rebound and compression at stroke 0 (Figure 3)."""
+    p = damper.parameters
+    points: dict[bool, list[tuple[float, float]]] = {True: [], False: []}
+    for record in records:
+        span = slice(int(record.marks[0]), int(record.marks[-1]) + 1)
+        z, v, F = record.stroke[span], record.velocity[span], record.force[span]
+        for rising in (True, False):
+            i = np.flatnonzero((z[:-1] < 0) & (z[1:] >= 0) if rising else (z[:-1] > 0) & (z[1:] <= 0))
+            if len(i) == 0:
+                raise InputError(f"harmonic record up to {record.top_speed:g} m/s never crosses stroke 0")
+            share = -z[i] / (z[i + 1] - z[i])
+            # The median: the first crossing may still be the start from rest.
+            speed = float(np.median(v[i] + share * (v[i + 1] - v[i])))
+            total = float(np.median(F[i] + share * (F[i + 1] - F[i])))
+            friction = stribeck(p, speed) * p.F_FrS * (1.0 if rising else -1.0)
+            fluid = total + p.F_0 - friction
+            points[rising].append((abs(speed), fluid if rising else -fluid))
+    return sorted(points[True]), sorted(points[False])
+
+
+def identify_intact(damper: Damper, slow: tuple[Array, Array] | None, records: Sequence[Harmonic]) -> Damper:
+    """The damper with F-v curve, friction and gas spring from its intact records.
+
+    `slow` is stroke [m] and force [N] of the quasi-static record; without it friction and gas spring stay. The Stribeck
+    scaling stays: these records do not determine it. Raises InputError, and ParameterError where the curve is not monotone.
+    """
+    if not 2 <= len(records) <= FV_POINTS:
+        raise InputError(f"{len(records)} intact harmonic records, from 2 to {FV_POINTS} are needed for the F-v curve")
+    if slow is None:
+        return with_curve(damper, records)
+    stroke, force = slow
+    for _ in range(3):  # the curve needs the friction, the friction the little fluid force at 1 mm/s
+        q = quasi_static(stroke, force)
+        damper = damper.with_(c_gas=max(0.0, q.c_gas), F_0=max(0.0, q.F_0), F_FrS=q.F_FrS, sigma_0=q.sigma_0)
+        damper = with_curve(damper, records)
+        rising = direction(stroke)
+        p = damper.parameters
+        force = slow[1] - np.where(rising, fluid_force(p, V_SLOW), fluid_force(p, -V_SLOW))
+    return damper
+
+
+def with_curve(damper: Damper, records: Sequence[Harmonic]) -> Damper:
+    """The damper with the F-v curve of the records; raises ParameterError where it is not monotone."""
+    rebound, compression = (continued(branch) for branch in fv_points(damper, records))
+    return damper.with_(
+        v_re=[v for v, _ in rebound], F_re=[F for _, F in rebound],
+        v_co=[v for v, _ in compression], F_co=[F for _, F in compression],
+    )  # fmt: skip

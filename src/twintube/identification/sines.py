@@ -1,0 +1,115 @@
+"""The intact damper from sines alone, where no quasi-static record tells friction and gas spring apart.
+
+Force = F-v curve + friction + gas spring is linear in all but the stroke over which the friction reverses: bounded least
+squares for the linear part inside a search over that one length (variable projection).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import qr
+from scipy.optimize import lsq_linear, minimize_scalar
+
+from twintube.arrays import Array
+from twintube.core.kernel import stribeck
+from twintube.dampers import Damper
+from twintube.dampers.toml import continued
+from twintube.engine.simulate import InputError
+from twintube.identification.averaging import averaged
+from twintube.identification.objective import Harmonic
+
+KNOTS = 8  # of each branch, spaced evenly in the logarithm
+SLOWEST = 0.05  # first knot as a share of the largest velocity
+REVERSAL = (1e-6, 5e-3)  # [m] length over which the friction reverses, F_FrS / sigma_0
+MOST = 4000  # samples of a record that the fit takes, evenly spread
+RISING = 1e-3  # smallest rise from knot to knot as a share of the largest force: velocities below it tell nothing
+
+
+@dataclass(frozen=True)
+class SineFit:
+    """What the sines tell, and the error of the fit."""
+
+    damper: Damper
+    rmse: float  # over the fitted records, each with the same weight [N]
+    offset: float  # constant force [N] that pulls the rod in, which no gas does: zero of the load cell, or signs
+
+
+def saturation(stroke: Array, length: float) -> Array:
+    """Dahl's friction (n,) relative to its saturated value: the exact solution of equation 2 for delta_D = 1."""
+    way = np.diff(stroke)
+    decay = np.exp(-np.abs(way) / length)
+    found = np.empty(len(stroke))
+    found[0] = 0.0
+    state = 0.0
+    for i, (share, direction) in enumerate(zip(decay.tolist(), np.sign(way).tolist(), strict=True)):
+        state = direction + (state - direction) * share if direction else state
+        found[i + 1] = state
+    return found
+
+
+def ramps(velocity: Array, knots: Array) -> Array:
+    """Rise (n, k) from knot to knot of a curve through the origin; the last one goes on."""
+    edges = np.concatenate([[0.0], knots])
+    share = (velocity[:, None] - edges[:-1]) / np.diff(edges)
+    share[:, :-1] = np.minimum(share[:, :-1], 1.0)
+    found: Array = np.maximum(share, 0.0)
+    return found
+
+
+def identify_sines(damper: Damper, records: Sequence[Harmonic]) -> SineFit:
+    """The damper with F-v curve, friction and gas spring from harmonic records of the intact damper.
+
+    The Stribeck scaling and delta_D = 1 are not determined by sines and stay. A force channel that was averaged is fitted
+    by a model averaged alike. Raises InputError without records.
+    """
+    if not records:
+        raise InputError("no intact harmonic record to identify from")
+    spans = [slice(int(r.marks[0]), int(r.marks[-1]) + 1, 1 + int(r.marks[-1] - r.marks[0]) // MOST) for r in records]
+    F = np.concatenate([r.force[s] for r, s in zip(records, spans, strict=True)])
+
+    def seen(columns: Sequence[Array]) -> Array:
+        """What the fit takes of the records' columns, as the force channel shows it."""
+        several = zip(records, columns, spans, strict=True)
+        return np.concatenate([averaged(r.time, column, r.averaged)[s] for r, column, s in several])
+
+    sizes = [len(range(*s.indices(s.stop))) for s in spans]
+    weight = np.concatenate([np.full(n, 1 / np.sqrt(n)) for n in sizes])
+    weight /= np.sqrt(len(records))
+    top = max(r.top_speed for r in records)
+    knots = np.geomspace(SLOWEST, 1.0, KNOTS) * top
+    scaling = [np.array([stribeck(damper.parameters, float(x)) for x in r.velocity]) for r in records]
+    fixed = seen([np.column_stack([ramps(r.velocity, knots), -ramps(-r.velocity, knots), -np.ones_like(r.time), r.stroke])
+                  for r in records])  # fmt: skip
+    lower = np.concatenate([np.full(2 * KNOTS, RISING * np.abs(F).max() / KNOTS), [-np.inf, 0.0, 0.0]])
+
+    def solved(log_length: float) -> tuple[float, NDArray[np.float64]]:
+        length = float(np.exp(log_length))
+        rubbing = seen([saturation(r.stroke, length) * scale for r, scale in zip(records, scaling, strict=True)])
+        # The triangular factor holds all that least squares needs of thousands of samples.
+        R = qr(np.column_stack([fixed, rubbing, F]) * weight[:, None], mode="r")[0][: fixed.shape[1] + 2]
+        fit = lsq_linear(R[:, :-1], R[:, -1], bounds=(lower, np.inf))
+        return float(np.sqrt(2 * fit.cost)), fit.x
+
+    # A coarse scan first, as the error over the length may have more than one valley.
+    grid = np.log(np.geomspace(*REVERSAL, 16))
+    errors = [solved(x)[0] for x in grid]
+    best = int(np.argmin(errors))
+    found = minimize_scalar(
+        lambda x: solved(x)[0], bounds=(grid[max(0, best - 1)], grid[min(len(grid) - 1, best + 1)]), method="bounded"
+    )
+    rmse, x = solved(float(found.x))
+    F_0, c_gas, F_FrS = (float(value) for value in x[2 * KNOTS :])
+    offset, F_0 = max(0.0, -F_0), max(0.0, F_0)
+    forces = [np.cumsum(x[:KNOTS]).tolist(), np.cumsum(x[KNOTS : 2 * KNOTS]).tolist()]
+    rebound, compression = (continued(list(zip(knots.tolist(), branch, strict=True))) for branch in forces)
+    return SineFit(
+        damper.with_(
+            v_re=[a for a, _ in rebound], F_re=[b for _, b in rebound],
+            v_co=[a for a, _ in compression], F_co=[b for _, b in compression],
+            F_0=F_0, c_gas=c_gas, F_FrS=F_FrS, delta_D=1.0, sigma_0=min(1e8, max(1.0, F_FrS / float(np.exp(found.x)))),
+        ),
+        rmse,
+        offset,
+    )  # fmt: skip

@@ -1,0 +1,207 @@
+"""How well the records determine the parameters: a sample of all parameter sets that explain them about as well.
+
+The sample is drawn by emcee (affine-invariant ensemble) from the likelihood of the force errors, flat within the bounds.
+A residual that repeats in every oscillation is an error of the model or of the sampling and tells nothing new the
+second time, so it counts once per record, noise once per sample.
+"""
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import norm
+
+from twintube.arrays import Array
+from twintube.identification.objective import Objective
+from twintube.identification.optimise import Journal
+
+LEVEL = 0.95  # for all parameters together (Bonferroni)
+BURN_IN = 0.4  # share of the chain that is dropped
+UNDETERMINED = 0.5  # an interval wider than this share of the allowed range says nothing
+AT_BOUND = 1e-3  # share of the allowed range
+SLOPE = 1e-3  # step of a derivative as a share of the allowed range: smaller ones meet the kinks of the model
+POLISHING = 40  # most evaluations of the last least squares
+SHARP = 0.1  # share of the allowed range: an interval narrower than that needs no profile
+PROFILING = 6  # most evaluations of a least squares along a profile
+LEAST = 0.01  # half an interval's least width as a share of the allowed range: what the optimum can be found to
+PHASES = 32  # phases of an oscillation at which its residuals are compared
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One identified parameter: value, interval and what is to be said about it."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    bounds: tuple[float, float]
+
+    @property
+    def determined(self) -> bool:
+        """Whether the interval is narrower than half of the allowed range."""
+        return self.high - self.low <= UNDETERMINED * (self.bounds[1] - self.bounds[0])
+
+    @property
+    def at_bound(self) -> bool:
+        """Whether the value is at an end of the allowed range."""
+        width = self.bounds[1] - self.bounds[0]
+        return min(self.value - self.bounds[0], self.bounds[1] - self.value) <= AT_BOUND * width
+
+
+def variance(residual: Array, marks: Array) -> float:
+    """Variance [N2] with which a sample counts in the likelihood; `residual` (n,) of the oscillations between `marks`."""
+    cycles = [residual[a:b] for a, b in itertools.pairwise(marks)]
+    folded = np.array([[part.mean() for part in np.array_split(c, PHASES)] for c in cycles if len(c) >= PHASES])
+    if len(folded) < 2:
+        return float(np.mean(residual**2)) * len(residual) / PHASES
+    repeated = folded.mean(axis=0)
+    spread = float(np.mean((folded - repeated) ** 2)) * len(folded) / (len(folded) - 1)
+    bias = max(0.0, float(np.mean(repeated**2)) - spread / len(folded))
+    noise = max(float(np.mean(residual**2)) - bias, 1e-12)
+    # Neighbouring phases share a model error, so its correlation length counts as well.
+    centred = repeated - repeated.mean()
+    power = float(centred @ centred)
+    lags = [float(centred[:-k] @ centred[k:]) / power for k in range(1, PHASES // 2)] if power > 0 else []
+    first = next((i for i, c in enumerate(lags) if c <= 0), len(lags))
+    correlation = 1.0 + 2.0 * sum(lags[:first])
+    per_phase = len(residual) / (len(folded) * PHASES)
+    return noise + bias * len(folded) * per_phase * correlation
+
+
+def weights(objective: Objective, x: Array) -> Array:
+    """One over twice the variance (r,) of each record's samples at the parameters x (k,)."""
+    found = objective.residuals(x[None])[0]
+    edges = np.cumsum([0, *(len(r.time) - 1 - r.marks[0] for r in objective.records)])
+    return np.array([
+        0.5 / variance(found[a:b], r.marks - r.marks[0])
+        for r, a, b in zip(objective.records, edges[:-1], edges[1:], strict=True)
+    ])  # fmt: skip
+
+
+def slopes(objective: Objective, x: Array) -> Array:
+    """Derivatives (n, k) of all residuals by the parameters in units of their ranges, one-sided, away from the bounds."""
+    low, high = objective.bounds.T
+    step = SLOPE * (high - low) * np.where(x + SLOPE * (high - low) <= high, 1.0, -1.0)
+    found = objective.residuals(np.vstack([x, x + np.diag(step)]))
+    rates: Array = ((found[1:] - found[0]) / (step / (high - low))[:, None]).T
+    return rates
+
+
+def polished(objective: Objective, x: Array) -> Array:
+    """The least-squares optimum of the force errors next to x (k,): the end of a search that a swarm leaves undone."""
+    low, high = objective.bounds.T
+    width = high - low
+    inside = np.clip((x - low) / width, 1e-6, 1 - 1e-6)
+    fit = least_squares(
+        lambda u: objective.residuals((low + u * width)[None])[0],
+        inside, jac=lambda u: slopes(objective, low + u * width), bounds=(0, 1), max_nfev=POLISHING,
+    )  # fmt: skip
+    return np.asarray(low + fit.x * width)
+
+
+def estimates(
+    objective: Objective,
+    x: Array,
+    moved: Array,
+    *,
+    walkers: int,
+    steps: int,
+    seed: int,
+    journal: Path | None,
+    progress: Callable[[float], None] | None,
+) -> tuple[list[Estimate], Array]:
+    """Intervals of all parameters of the objective around its optimum x (k,), and the correlation matrix (k, k).
+
+    The intervals are wider by `moved` (k,) on each side.
+    """
+    import emcee
+
+    low, high = objective.bounds.T
+    weight = weights(objective, x)
+
+    def misfit(X: Array) -> Array:
+        return np.nan_to_num(objective.sums(X)[:, :, 0] @ weight, nan=np.inf)
+
+    memory = Journal(misfit, journal, progress)
+
+    def log_probability(X: Array) -> Array:
+        inside = ((low <= X) & (high >= X)).all(axis=1)
+        values = np.full(len(X), -np.inf)
+        if inside.any():
+            values[inside] = -memory(X[inside])
+        return values
+
+    rng = np.random.default_rng(seed)
+    rows = np.repeat(np.sqrt(2 * weight), [len(r.time) - 1 - r.marks[0] for r in objective.records])
+    J = slopes(objective, x) * rows[:, None]
+    # What no residual tells has the spread of its range.
+    spread = np.linalg.cholesky(np.linalg.inv(J.T @ J + 12 * np.eye(len(x))))
+    start = reflected(x + rng.standard_normal((walkers, len(x))) @ spread.T * (high - low), low, high)
+    sampler = emcee.EnsembleSampler(walkers, len(x), log_probability, vectorize=True)
+    state = emcee.State(start, random_state=np.random.RandomState(seed).get_state())
+    sampler.run_mcmc(state, steps)
+    chain = sampler.get_chain(discard=int(BURN_IN * steps), flat=True)
+    z = float(norm.ppf(1 - (1 - LEVEL) / 2 / len(x)))
+    pulls = z * scatter(objective, x, J, rows) * (high - low)
+    q16, q50, q84 = np.quantile(chain, norm.cdf([-1, 0, 1]), axis=0)
+    pulls = np.maximum(pulls, LEAST * (high - low))
+    found = []
+    for i, name in enumerate(objective.names):
+        a = max(low[i], min(x[i] - pulls[i], q50[i] - z * (q50[i] - q16[i])) - moved[i])
+        b = min(high[i], max(x[i] + pulls[i], q50[i] + z * (q84[i] - q50[i])) + moved[i])
+        # The walkers may not have found the way: whether a bound itself explains the records as well.
+        if b - a > SHARP * (high[i] - low[i]):
+            a = low[i] if profiled(objective, x, i, low[i], rows) <= z * z else a
+            b = high[i] if profiled(objective, x, i, high[i], rows) <= z * z else b
+        found.append(Estimate(name, float(x[i]), float(a), float(b), (float(low[i]), float(high[i]))))
+    with np.errstate(invalid="ignore"):
+        related: Array = np.nan_to_num(np.corrcoef(chain.T))
+    return found, related
+
+
+def profiled(objective: Objective, x: Array, i: int, value: float, rows: Array) -> float:
+    """Rise of the weighted squared error with parameter i at `value`, the others at their best: profile likelihood."""
+    low, high = objective.bounds.T
+    width = high - low
+    others = np.flatnonzero(np.arange(len(x)) != i)
+
+    def full(u: Array) -> Array:
+        found = x.copy()
+        found[others] = low[others] + u * width[others]
+        found[i] = value
+        return found
+
+    def errors(u: Array) -> Array:
+        return np.asarray(objective.residuals(full(u)[None])[0] * rows)
+
+    start = np.clip((x[others] - low[others]) / width[others], 1e-6, 1 - 1e-6)
+    fit = least_squares(
+        errors, start, jac=lambda u: slopes(objective, full(u))[:, others] * rows[:, None], bounds=(0, 1), max_nfev=PROFILING
+    )
+    base = objective.residuals(x[None])[0] * rows
+    return float(2 * fit.cost - base @ base)
+
+
+def scatter(objective: Objective, x: Array, J: Array, rows: Array) -> Array:
+    """Standard deviations (k,), as shares of the ranges, from how differently the records pull (sandwich estimate).
+
+    What a record's samples have in common, an error of model or sampling, is no noise; records tell it apart.
+    """
+    errors = objective.residuals(x[None])[0] * rows
+    edges = np.cumsum([0, *(len(r.time) - 1 - r.marks[0] for r in objective.records)])
+    pulls = np.array([J[a:b].T @ errors[a:b] for a, b in itertools.pairwise(edges)])
+    pulls -= pulls.mean(axis=0)
+    inverse = np.linalg.inv(J.T @ J + 12 * np.eye(len(x)))
+    count = len(pulls)
+    found: Array = np.sqrt(np.diag(inverse @ (pulls.T @ pulls * count / max(1, count - 1)) @ inverse))
+    return found
+
+
+def reflected(X: Array, low: Array, high: Array) -> Array:
+    """Points beyond a bound thrown back inside it."""
+    inside = np.maximum(X, 2 * low - X)
+    return np.clip(np.minimum(inside, 2 * high - inside), low, high)

@@ -1,0 +1,69 @@
+"""Constants of a damper of `twintube` in one condition, and runs of it."""
+
+from math import pi
+
+import numpy as np
+
+from twintube.dampers import Damper, load
+from twintube.lab.blind_trials.excitation import Drive
+from twintube.lab.blind_trials.model import COLUMNS, P_ATM, STATES, run
+from twintube.lab.blind_trials.quantities import Array, Hidden, Tube
+
+DZ, DT = 40e-6, 1e-3  # [m], [s] longest step of the march
+DT_SWINGS = 2e-4  # [s] the same where the rod's mass or the rig swings
+
+
+def tube(damper: str | Damper, level: float, preload: bool, changes: dict[str, float] | None = None) -> Tube:
+    """The damper with `level` [1] of its oil, with gas preload or without; `changes` are parameters that differ."""
+    given = load(damper) if isinstance(damper, str) else damper
+    p = (given.with_(**changes) if changes else given).parameters
+    A_rod, A_2 = pi / 4 * p.D_PR**2, pi / 4 * p.D_li**2
+    rod = A_rod / A_2
+    full_from = p.cavitation_loss  # oil loss; below it in proportion
+    cavitates = 0.0 if preload else 1.0 if 1.0 - level >= full_from else (1.0 - level) / full_from
+    return Tube(
+        A_1=A_2 - A_rod,
+        A_2=A_2,
+        A_rod=A_rod,
+        half=(p.h_l - p.dead_length) / 2,
+        V_res=pi / 4 * (p.D_a**2 - p.D_la**2) * p.h_l,
+        oil=level * p.V_oil,
+        X_Re=p.X_Re,
+        W_PV=(1 - p.L_PV) * p.X_Re,
+        X_Co1=p.X_Co1,
+        W_BV1=rod * p.X_Co1,
+        W_BV2=rod * p.X_Co2,
+        k_Co2=p.X_Co2 + p.G_PV * (1 - p.X_Co2),
+        S_BV=p.S_BV,
+        S_BVoil=p.S_BVoil,
+        S_PV=p.S_PV,
+        S_PVoil=p.S_PVoil,
+        B=p.B,
+        E=p.E,
+        # A block whose largest velocity is the threshold itself stays below it whatever the rounding.
+        v_foam=p.v_foam * (1 + 1e-9),
+        v_cav=p.v_cav * (1 + 1e-9),
+        Y_Co=cavitates * p.Y_Co_cav,
+        Y_Re=cavitates * p.Y_Re_cav,
+        F_sat=p.F_FrS * (1 + p.oil_loss_gain * (1 - level)),
+        sigma=p.sigma_0,
+        delta=p.delta_D,
+        k_high=p.k_high,
+        v_S=p.v_S,
+        F_0=p.F_0 if preload else 0.0,
+        c_gas=p.c_gas if preload else p.c_gas_lost,
+        p_fill=P_ATM + (p.F_0 / A_rod if preload else 0.0),
+        fast_share=0.5,
+        v_re=np.array(p.v_re),
+        F_re=np.array(p.F_re),
+        v_co=np.array(p.v_co),
+        F_co=np.array(p.F_co),
+    )
+
+
+def march(c: Tube, h: Hidden, drive: Drive, times: Array, dz: float = DZ) -> Array:
+    """What the damper does at the rising `times` (n,) [s]: (n, COLUMNS), columns as in model.py."""
+    out = np.empty((len(times), COLUMNS))
+    dt = DT_SWINGS if h.mount + h.mode > 0.0 else DT
+    run(c, h, drive.pieces, np.ascontiguousarray(times, float), np.zeros(STATES), dz, dt, out)
+    return out

@@ -1,0 +1,69 @@
+"""What a stored result depends on, for every cache, journal and FMU: the sources behind it, found by their imports.
+
+Nobody keeps a list of files: a new import of a module, a new effect or a changed parameter file changes the fingerprint.
+"""
+
+import ast
+import hashlib
+from collections.abc import Iterator
+from functools import cache
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+
+PACKAGE = "twintube"
+ROOT = Path(__file__).parent
+# Their results differ in the last bits, which a search or a chaotic drive enlarges.
+LIBRARIES = ("numpy", "scipy", "numba")
+
+
+def location(module: str) -> Path | None:
+    """The file of a module; None where the name is no module."""
+    try:
+        spec = find_spec(module)
+    except ModuleNotFoundError:
+        return None
+    return Path(spec.origin) if spec is not None and spec.origin is not None else None
+
+
+def named(path: Path) -> Iterator[Path]:
+    """The files that a source file depends on: by imports, by naming them in a text, by importing its folder's files."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        modules: list[str] = []
+        match node:
+            case ast.Import():
+                modules = [item.name for item in node.names]
+            case ast.ImportFrom(module=str(module)):
+                parts = [f"{module}.{item.name}" for item in node.names]
+                modules = [part if part.startswith(f"{PACKAGE}.") and location(part) else module for part in parts]
+            case ast.Constant(value=str(text)) if text.endswith(".py") and (ROOT / text).is_file():
+                yield ROOT / text
+            case ast.Name(id="importlib") if path.name == "__init__.py":
+                yield from path.parent.glob("*.py")
+        for module in modules:
+            found = location(module) if module.split(".")[0] == PACKAGE else None
+            if found is not None:
+                yield found
+
+
+@cache
+def files(module: str) -> tuple[Path, ...]:
+    """The files of a module and of all that it imports from this package, with the parameter files beside them."""
+    waiting = [found for found in [location(module)] if found is not None]
+    seen: set[Path] = set()
+    while waiting:
+        path = waiting.pop()
+        if path not in seen:
+            seen.add(path)
+            seen.update(path.parent.glob("*.toml"))
+            waiting += named(path)
+    return tuple(sorted(seen))
+
+
+@cache
+def fingerprint(module: str) -> str:
+    """A digest (16 hexadecimal digits) of what the results of a module of this package depend on, except its input."""
+    parts = [f"{name} {version(name)}".encode() for name in LIBRARIES]
+    for path in files(module):
+        parts += [path.name.encode(), path.read_bytes()]
+    return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16]

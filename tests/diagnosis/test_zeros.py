@@ -1,0 +1,51 @@
+"""Zeros of the load cell that differ from record to record, and what passes for them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.prepare import prepare
+from twintube.diagnosis.zeros import differ, step, zero_drift
+from twintube.lab.blind_trials.trials import dataset, trial
+
+BLOCKS = (0.131, 0.262, 0.524, 0.786, 1.048)
+
+
+def test_the_scatter_of_the_records_zeros_is_told_from_a_wrong_model() -> None:
+    hidden = trial("valve_wear", 2001, blocks=BLOCKS)
+    data = dataset(hidden)
+    cases = prepare(data)
+    worn, _ = zero_drift(Problem(data.damper, cases))
+    rng, peak = np.random.default_rng(1), max(case.peak for case in cases)
+    zeros = 0.02 * peak * rng.standard_normal(len(cases))
+    moved = [replace(c, impulse=c.impulse + z * (c.dense_time - c.dense_time[0])) for c, z in zip(cases, zeros, strict=True)]
+    drifting, told = zero_drift(Problem(data.damper, moved))
+    assert worn.drift < 0.01 * peak
+    assert 0.01 * peak < drifting.drift < 0.04 * peak
+    assert "differs from record to record" in told[0]
+
+
+def test_errors_are_whitened_by_the_covariance_of_a_zero_of_every_record() -> None:
+    data = dataset(trial("none", 2001, blocks=BLOCKS[:3]))
+    problem = Problem(data.damper, prepare(data), drift=7.0)
+    a, b = problem.starts[1:3]
+    weight = problem.weight[a:b]
+    covariance = np.eye(b - a) + 7.0**2 * np.outer(weight, weight)
+    weighted = (problem.forces({}) - problem.measured)[a:b] * weight
+    expected = weighted @ np.linalg.solve(covariance, weighted)
+    assert np.sum(problem.residual({})[a:b] ** 2) == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_constant_force_of_one_state_is_told_from_zeros_that_scatter() -> None:
+    cases = prepare(dataset(trial("none", 2001, blocks=BLOCKS)))
+    rng, drift = np.random.default_rng(4), 0.005 * max(case.peak for case in cases)
+    scattered = [drift * rng.standard_normal(len(cases)) for _ in range(1000)]
+    assert np.mean([differ(cases, zeros, 0.05) for zeros in scattered]) < 0.06
+    degraded = np.array([not case.preload for case in cases])
+    assert np.mean([differ(cases, zeros + 3 * drift * degraded, 0.05) for zeros in scattered]) > 0.95
+    one_wrong = scattered[0] + np.where(np.arange(len(cases)) == 3, 100 * drift, 0.0)
+    assert not differ(cases, one_wrong, 0.05)
+    assert not differ(cases, 1e-3 * (scattered[0] + 3 * drift * degraded), 0.05)  # numerics
+    assert step(cases, drift * degraded) == drift

@@ -1,0 +1,100 @@
+"""A force channel smoothed over the same share of every oscillation is recognised, and nothing else is taken for it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.ndimage import uniform_filter1d
+
+from tests.diagnosis.test_signature import AMPLITUDE, bench, changed
+from twintube.data import Record
+from twintube.diagnosis.signature import oscillating
+from twintube.identification import Harmonic
+from twintube.identification.averaging import averaged, averaged_means, averaging, period, through
+from twintube.lab.blind_trials.trials import dataset, trial
+
+SMALL = 0.02  # [m] amplitude
+
+
+def blocks(records: list[Record]) -> list[Harmonic]:
+    return [block for _, block in oscillating(records)]
+
+
+def smoothed(records: list[Record], share: float = 0.0, samples: int = 0) -> list[Record]:
+    """The records after a moving mean by whole samples, as a script would make it."""
+    lengths = {
+        b.name: max(1, round(share * float(np.median(np.diff(b.marks))))) if share else samples for b in blocks(records)
+    }
+    return changed(records, lambda r: uniform_filter1d(r.force, lengths[r.name], mode="nearest"))
+
+
+@pytest.mark.parametrize("noise", [0.002, 0.01])
+@pytest.mark.parametrize("share", [0.07, 0.1, 0.15])
+def test_the_share_is_found(noise: float, share: float) -> None:
+    found = averaging(blocks(smoothed(bench(noise, 1, slow=SMALL), share)))
+    assert found is not None
+    assert found.share == pytest.approx(share, rel=0.04)
+    assert "smoothed after the measurement" in found.text
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.005, 0.03])
+def test_a_good_measurement_was_not_smoothed(noise: float) -> None:
+    for seed in range(3):
+        assert averaging(blocks(bench(noise, seed))) is None
+
+
+def test_a_filter_of_the_amplifier_is_something_else() -> None:
+    """It is as long at every velocity, so its zeros lie at other harmonics in each record."""
+    records = smoothed(bench(0.002, 1, rate=1000.0, slow=SMALL), samples=15)
+    assert averaging(blocks(records)) is None
+
+
+def test_records_of_one_velocity_do_not_tell() -> None:
+    """A knee of the F-v curve is at the same phase in all of them."""
+    records = [replace(r, name=f"{r.name}_{i}") for i, r in enumerate([bench(0.002, 1)[2]] * 4)]
+    assert averaging(blocks(smoothed(records, 0.1))) is None
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_spring_that_touches_at_one_phase_is_not_taken_for_it(side: float) -> None:
+    """At one amplitude a stop makes zeros at the same harmonics at every velocity; at two it does not touch at one phase."""
+    for slow, onset in ((AMPLITUDE, 0.8 * AMPLITUDE), (SMALL, 0.8 * SMALL)):
+        some = changed(
+            bench(0.005, 1, slow=slow), lambda r, o=onset: r.force + side * 1.5e5 * np.maximum(side * r.stroke - o, 0.0)
+        )
+        assert averaging(blocks(some)) is None
+
+
+@pytest.mark.parametrize("kind", ["none", "end_stop", "side_load_friction", "fluid_lag"])
+def test_physics_is_not_taken_for_it(kind: str) -> None:
+    assert averaging(blocks(list(dataset(trial(kind, 102)).records))) is None
+
+
+def test_the_mean_of_a_ramp_and_of_a_wave() -> None:
+    time = np.linspace(0.0, 2.0, 4001)
+    inner = slice(200, -200)
+    assert averaged(time, 3.0 * time, 0.1)[inner] == pytest.approx(3.0 * time[inner])
+    wave = averaged(time, np.column_stack([np.sin(20 * time), np.cos(20 * time)]), 0.1)
+    assert wave[inner, 0] == pytest.approx(np.sin(20 * time[inner]) * np.sinc(1 / np.pi), abs=1e-4)
+    assert np.array_equal(averaged(time, time, 0.0), time)
+
+
+def test_means_of_intervals_are_those_of_the_mean() -> None:
+    """Against the moving mean of densely sampled steps."""
+    rng = np.random.default_rng(2)
+    time = np.cumsum(rng.uniform(0.01, 0.04, 40))
+    force, window = rng.normal(0.0, 100.0, 40), 0.07
+
+    fine = np.linspace(time[0], time[-1], 200_001)
+    mean = averaged(fine, force[np.clip(np.searchsorted(time, fine), 1, 39)], window)
+    for i in range(6, 34):
+        inside = (fine >= time[i - 1]) & (fine <= time[i])
+        assert averaged_means(time, force, window)[i] == pytest.approx(mean[inside].mean(), abs=0.2)
+
+
+def test_every_record_gets_its_own_length() -> None:
+    some = blocks(smoothed(bench(0.002, 1, slow=SMALL), 0.1))
+    found = averaging(some)
+    assert found is not None
+    for block in through(some, found):
+        assert block.averaged == pytest.approx(found.share * period(block))
