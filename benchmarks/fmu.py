@@ -14,7 +14,7 @@ from twintube.core import effects, model
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper, load
 from twintube.demo.damper_fmu import DamperFmu
-from twintube.demo.ride import Case, ride
+from twintube.demo.ride import RideCase, ride
 from twintube.fmu import binaries, build_fmu
 from twintube.fmu.platforms import PLATFORMS, Kind
 from twintube.vehicle.cars import load_car
@@ -122,7 +122,7 @@ def bench_quarter_car() -> dict[str, float]:
     """One case of the demo on one core: 60 s at 50 km/h, 60 % oil, steps of 1 ms, FMU in the loop."""
     damper = load("SA8")
     car = load_car().corner(damper)
-    case = Case(50.0, 0.6, 0)
+    case = RideCase(50.0, 0.6, 0)
     on = track(50.0, 60.0)
 
     def seconds(kind: Kind, folder: str) -> float:

@@ -7,7 +7,7 @@ static const struct variable *find(struct unit *u, const char *function, fmi2Val
 {
     if (vr < VARIABLES && VARIABLE[vr].kind == kind)
         return &VARIABLE[vr];
-    refuse(u, "%s: no %s variable has the value reference %u", function, kind == REAL ? "Real" : "Integer", (unsigned)vr);
+    refuse(u, SAY_NO_VARIABLE, function, kind == REAL ? "Real" : "Integer", vr <= INT_MAX ? (int)vr : -1);
     return NULL;
 }
 
@@ -15,11 +15,11 @@ static const struct variable *find(struct unit *u, const char *function, fmi2Val
 static int settable(struct unit *u, const struct variable *v, double value)
 {
     if (v->causality == OUTPUT) {
-        refuse(u, "%s: an output cannot be set", v->name);
+        refuse(u, SAY_NOT_SETTABLE, v->name);
         return 0;
     }
     if (v->causality == FIXED && u->m.mode == STEPPING) {
-        refuse(u, "%s: fixed, cannot change after the initialization", v->name);
+        refuse(u, SAY_FIXED, v->name);
         return 0;
     }
     return in_bounds(u, v, value);
@@ -136,7 +136,7 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
                                        const fmi2Real value[])
 {
     struct unit *u = c;
-    if (!allowed(u, "fmi2SetRealInputDerivatives", 1 << INITIALIZING | 1 << STEPPING)
+    if (!allowed(u, "fmi2SetRealInputDerivatives", EVERYWHERE & ~(1 << TERMINATED))
         || !given(u, "fmi2SetRealInputDerivatives", vr, value, n) || !given(u, "fmi2SetRealInputDerivatives", order, order, n))
         return fmi2Error;
     for (size_t i = 0; i < n; i++) {
@@ -145,7 +145,7 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
             return fmi2Error;
         if (v->causality != INPUT || order[i] != 1)
             return refuse(u, "%s: derivatives are those of inputs and of order 1, not %d", v->name, (int)order[i]);
-        if (!inside(u, "derivative of an input", value[i], -1e6, 1e6, "per second"))
+        if (!inside(u, "derivative of an input", value[i], -STEEPEST, STEEPEST, " per second"))
             return fmi2Error;
     }
     for (size_t i = 0; i < n; i++) {

@@ -4,39 +4,29 @@
 
 #include "checks.h"
 
-#define STROKE_JUMP 0.02 /* [m] from here on a stroke that the velocity did not lead to is worth a warning */
-#define SPEED_LIMIT 20.0 /* [m/s] */
-
-static void publish(struct memory *m)
+/* Whether all is a number: what the outputs do not show spoils later steps. */
+static int numbers(const void *record, size_t size)
 {
-    const struct kernel_State *s = &m->s;
-    struct outputs *o = &m->out;
-    const double gas = m->d.V_reserve - s->V3_oil - s->V3_foam;
-    o->force = s->F_fluid + s->F_friction + s->F_gas;
-    o->k_degr = s->k_degr;
-    o->V1_oil = s->V1_oil;
-    o->V1_gas = s->V1_gas;
-    o->V1_foam = s->V1_foam;
-    o->V2_oil = s->V2_oil;
-    o->V2_gas = s->V2_gas;
-    o->V2_foam = s->V2_foam;
-    o->V3_oil = s->V3_oil;
-    o->V3_gas = gas > 0.0 ? gas : 0.0;
-    o->V3_foam = s->V3_foam;
-    o->force_fluid = s->F_fluid;
-    o->force_friction = s->F_friction;
-    o->force_gas = s->F_gas;
-    o->work = s->work;
+    const char *bytes = record;
+    for (size_t i = 0; i < size; i += sizeof(double)) {
+        double value;
+        memcpy(&value, bytes + i, sizeof value);
+        if (value - value != 0.0)
+            return 0;
+    }
+    return 1;
 }
 
-/* Whether all is a number: what the outputs do not show spoils later steps. */
-static int computed(const struct kernel_State *s)
+static int computed(const struct memory *m)
 {
-    const double *value = (const double *)s, force = s->F_fluid + s->F_friction + s->F_gas;
-    int wrong = force - force != 0.0;
-    for (size_t i = 0; i < sizeof *s / sizeof *value; i++)
-        wrong |= value[i] - value[i] != 0.0;
-    return !wrong;
+    return numbers(&m->s, sizeof m->s) && numbers(&m->out, sizeof m->out);
+}
+
+/* What follows from the parameters in force. */
+static void derive(struct memory *m)
+{
+    kernel_set_up(&m->damper.p, &m->d);
+    m->limit = kernel_stroke_limit(&m->d);
 }
 
 /* Take over the parameters that were set; nothing changes where they are not admissible. */
@@ -51,8 +41,7 @@ static int take_over(struct unit *u)
         return 0;
     }
     copy_damper(&m->damper, &m->wanted);
-    kernel_set_up(&m->damper.p, &m->d);
-    m->limit = m->d.half_length - CLEARANCE;
+    derive(m);
     m->changed = 0;
     return 1;
 }
@@ -63,51 +52,58 @@ static int begin(struct unit *u)
     struct memory *m = &u->m;
     if (!m->stale)
         return 1;
-    if (!take_over(u) || !inside(u, "stroke", m->stroke, -m->limit, m->limit, "m"))
+    if (!take_over(u) || !inside(u, "stroke", m->stroke, -m->limit, m->limit, " m"))
         return 0;
     memset(&m->s, 0, sizeof m->s);
     memset(&m->f, 0, sizeof m->f);
     m->f.k_degr = m->f.k_mean = 1.0;
     kernel_start(&m->damper.p, &m->d, &m->s, m->stroke);
     kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, m->stroke, m->velocity, m->velocity, 0.0);
-    if (!computed(&m->s)) {
-        refuse(u, "the start could not be computed; please report this parameter set");
+    kernel_publish(&m->d, &m->s, &m->out);
+    if (!computed(m)) {
+        refuse(u, SAY_NO_START);
         return 0;
     }
-    publish(m);
     m->stale = 0;
     return 1;
 }
 
-/* One step of `h` >= 0 [s]; a message, and the state as before, where it is refused. */
-static fmi2Status move(struct unit *u, double h)
+/* One step of `h` >= 0 [s] while the velocity changes by `rate` [m/s2]; a message, and the state as before, where it is
+   refused. */
+static fmi2Status move(struct unit *u, double h, double rate)
 {
     struct memory *m = &u->m;
-    const double z = m->stroke, v = m->velocity, after = v + m->velocity_rate * h;
-    const double end = z + (v + 0.5 * m->velocity_rate * h) * h;
-    const double jump = z - (m->d.extended > 0 ? m->s.z_rod : m->s.z);
+    const double z = m->stroke, v = m->velocity, after = v + rate * h;
+    const double end = z + (v + 0.5 * rate * h) * h;
+    double jump;
     struct kernel_State before;
     struct kernel_Flow flow;
+    struct kernel_Outputs shown;
     fmi2Status status = fmi2OK;
 
     if (m->changed && !take_over(u))
         return fmi2Error;
-    if (!inside(u, "stroke", z, -m->limit, m->limit, "m")
-        || !inside(u, "stroke at the end of the step", end, -m->limit, m->limit, "m")
-        || !inside(u, "velocity at the end of the step", after, -SPEED_LIMIT, SPEED_LIMIT, "m/s"))
+    if (!inside(u, "stroke", z, -m->limit, m->limit, " m")
+        || !inside(u, "stroke at the end of the step", end, -m->limit, m->limit, " m")
+        || !inside(u, "velocity at the end of the step", after, LOWEST_VELOCITY, HIGHEST_VELOCITY, " m/s"))
         return fmi2Error;
     before = m->s;
     flow = m->f;
-    if (!kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, end, v, after, h) || !computed(&m->s)) {
+    shown = m->out;
+    jump = kernel_stroke_jump(&m->d, &m->s, z);
+    if (kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, end, v, after, h))
+        kernel_publish(&m->d, &m->s, &m->out);
+    else
+        m->out.force = NAN;
+    if (!computed(m)) {
         m->s = before;
         m->f = flow;
-        return refuse(u, "time %g s: the step could not be computed; please report this parameter set", m->time);
+        m->out = shown;
+        return refuse(u, SAY_NO_STEP, m->time);
     }
-    publish(m);
-    m->velocity_rate = 0.0;
-    if (!m->warned && (jump > STROKE_JUMP || jump < -STROKE_JUMP)) {
+    if (!m->warned && jump != 0.0) {
         m->warned = 1;
-        status = warn(u, "time %g s: stroke = %g m, but the velocity led to %g m; check its sign and unit", m->time, z, z - jump);
+        status = warn(u, SAY_STROKE_JUMP, m->time, z, z - jump);
     }
     return status;
 }

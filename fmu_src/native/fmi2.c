@@ -4,8 +4,6 @@
 
 #define EVERYWHERE (1 << INSTANTIATED | 1 << INITIALIZING | 1 << STEPPING | 1 << TERMINATED)
 
-static const char *const MODE[] = {"before the initialization", "in the initialization mode", "between the steps", "after the end"};
-
 /* Whether a function may be called now; else a message is logged. */
 static int allowed(struct unit *u, const char *function, int modes)
 {
@@ -13,7 +11,7 @@ static int allowed(struct unit *u, const char *function, int modes)
         return 0;
     if (modes >> u->m.mode & 1)
         return 1;
-    refuse(u, "%s: not allowed %s", function, MODE[u->m.mode]);
+    refuse(u, SAY_NOT_NOW, function, MODE[u->m.mode]);
     return 0;
 }
 
@@ -115,8 +113,8 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
 {
     struct unit *u = c;
     (void)toleranceDefined, (void)tolerance;
-    if (!allowed(u, "fmi2SetupExperiment", 1 << INSTANTIATED) || !inside(u, "start time", start, -1e12, 1e12, "s")
-        || (stopDefined && !(stop >= start) && !inside(u, "stop time", stop, start, 1e12, "s")))
+    if (!allowed(u, "fmi2SetupExperiment", 1 << INSTANTIATED) || !inside(u, "start time", start, -LONGEST, LONGEST, " s")
+        || (stopDefined && !(stop >= start) && !inside(u, "stop time", stop, start, LONGEST, " s")))
         return fmi2Error;
     u->m.time = start;
     u->m.timed = 1;
@@ -164,20 +162,25 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real h, fmi2Boolean no
 {
     struct unit *u = c;
     fmi2Status status;
-    double slack, last;
+    double slack, last, rate;
     (void)noSetPrior;
-    if (!allowed(u, "fmi2DoStep", 1 << STEPPING) || !inside(u, "communication point", time, -1e12, 1e12, "s")
-        || !inside(u, "communication step", h, 0.0, 1e12, "s"))
+    if (!allowed(u, "fmi2DoStep", 1 << STEPPING))
         return fmi2Error;
-    /* Importers add up their steps with rounding, and end with a step that differs by it. */
-    slack = 1e-9 * (1.0 + fabs(time)) + 1e-3 * h;
+    /* Inputs and their derivatives belong to the beginning of a communication step (FMI 2.0, 4.2.1). The attempt uses the
+       derivative up: after a refused step importers set inputs anew, and what was meant for others must not act on these. */
+    rate = u->m.velocity_rate;
+    u->m.velocity_rate = 0.0;
+    if (!inside(u, "communication point", time, -LONGEST, LONGEST, " s")
+        || !inside(u, "communication step", h, 0.0, LONGEST, " s"))
+        return fmi2Error;
+    slack = kernel_time_slack(time, h);
     if (u->m.timed && fabs(time - u->m.time) > slack)
-        return refuse(u, "communication point = %.10g s: the last step ended at %.10g s", time, u->m.time);
+        return refuse(u, SAY_MISTIMED, time, u->m.time);
     if (time + h > u->m.stop + slack)
-        return refuse(u, "communication step = %g s at %.10g s: beyond the stop time %.10g s", h, time, u->m.stop);
+        return refuse(u, SAY_BEYOND_STOP, h, time, u->m.stop);
     last = u->m.time;
     u->m.time = time;
-    status = move(u, h);
+    status = move(u, h, rate);
     u->m.time = status <= fmi2Warning ? time + h : last;
     u->m.timed |= status <= fmi2Warning;
     return status;

@@ -1,4 +1,4 @@
-/* Made by twintube/fmu/translate.py from the equations 2eba7eed3beec398, body fe5b121296ee68ad; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations f64607fdb11a7b58, body 41411b271cb12a09; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -174,6 +174,30 @@ struct kernel_Flow {
     double cavitated;
     double k_degr;
     double k_mean;
+};
+
+struct kernel_Outputs {
+    double force;
+    double k_degr;
+    double V1_oil;
+    double V1_gas;
+    double V1_foam;
+    double V2_oil;
+    double V2_gas;
+    double V2_foam;
+    double V3_oil;
+    double V3_gas;
+    double V3_foam;
+    double force_fluid;
+    double force_friction;
+    double force_gas;
+    double work;
+};
+
+struct kernel_Violation {
+    int64_t point;
+    double value;
+    double limit;
 };
 
 /* Cavitation shares of a damper that holds `oil_level` [1] of its oil. */
@@ -618,7 +642,7 @@ static double kernel_dahl(struct kernel_Parameters* p, struct kernel_Derived* d,
     double size;
     double q;
     double left;
-    if (d->F_FrS <= 0.0)
+    if (d->F_FrS <= 1e-09)
     {
         return 0.0;
     }
@@ -721,7 +745,6 @@ static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct
 /* The speed [m/s] at the valves for which rubber and damper agree: bracketed about the last one, then regula falsi. */
 static double kernel_mount_compliance_speed(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt)
 {
-    double low;
     double r_low;
     double way;
     double high;
@@ -729,6 +752,7 @@ static double kernel_mount_compliance_speed(struct kernel_Parameters* p, struct 
     int64_t n;
     double u;
     double r;
+    double low;
     low = s->u_valve;
     r_low = kernel_mount_compliance_excess(p, d, s, z, v, dt, low);
     if (r_low == 0.0)
@@ -767,7 +791,14 @@ static double kernel_mount_compliance_speed(struct kernel_Parameters* p, struct 
         r_high = r;
         n += 1;
     }
-    return high;
+    /* An undamped mount on late valves, whose force cannot follow, would have to move in no time. */
+    return double_max(2, -50.0, double_min(2, 50.0, high));
+}
+
+/* Largest stroke [m] to each side that keeps the piston inside the tube. */
+static double kernel_stroke_limit(struct kernel_Derived* d)
+{
+    return d->half_length - 1e-06;
 }
 
 /* Stroke and velocity of the piston; in a step without time the deflection stays. */
@@ -792,7 +823,7 @@ static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct k
         s->F_rod = p->m_rod * (s->goal_v1 - s->v_piston) / dt;
     }
     /* An elastic mount cannot push the piston out of the tube. */
-    s->goal_z = double_max(2, 1e-06 - d->half_length, double_min(2, d->half_length - 1e-06, z - s->x_mount));
+    s->goal_z = double_max(2, -kernel_stroke_limit(d), double_min(2, kernel_stroke_limit(d), z - s->x_mount));
 }
 
 static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
@@ -1470,19 +1501,20 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
         {
             s->k_full_co = k;
         }
-        /* The kernel has settled k_degr for the new direction. */
     }
     way = fabs(dz) / length;
-    s->k_carried += p->carry_over * (known - target);
+    /* What is left of the past is at most the intact damper's: else every return of the gas would add another step to it. */
+    s->k_carried = double_min(2, s->k_carried + p->carry_over * (known - target), 1.0 - target);
     s->k_target = target;
-    f->k_mean = double_max(2, 0.0, f->k_mean + s->k_carried * kernel_smooth_transition_fade(way));
+    f->k_mean = double_max(2, 0.0, double_min(2, 1.0, f->k_mean + s->k_carried * kernel_smooth_transition_fade(way)));
     s->k_carried *= exp(-way);
-    f->k_degr = double_max(2, 0.0, f->k_degr + s->k_carried);
+    f->k_degr = double_max(2, 0.0, double_min(2, 1.0, f->k_degr + s->k_carried));
     s->k_last = f->k_degr;
     s->k_degr = (dz != 0.0 ? f->k_mean : f->k_degr);
     turned = (v > 0.0 ? 1.0 : ((v < 0.0 ? -1.0 : s->k_side)));
     if (turned != s->k_side)
     {
+        /* The kernel has settled k_degr for the new direction. */
         kernel_smooth_transition_turn(p, s, turned, settled);
         s->k_degr = settled + s->k_carried;
     }
@@ -1701,6 +1733,10 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     double scale;
     double F_1;
     bool done;
+    if (dt <= 1e-09)
+    {
+        dt = 0.0;
+    }
     work = s->work;
     friction = s->F_friction;
     gas = s->F_gas;
@@ -1779,6 +1815,174 @@ static bool kernel_advance(struct kernel_Parameters* p, struct kernel_Derived* d
         return kernel_step(p, d, s, f, z, v0, v1);
     }
     return kernel_extended_step(p, d, s, f, z, v0, v1, dt);
+}
+
+/* Force of the damper [N] (Eq. 1). */
+static double kernel_total_force(struct kernel_State* s)
+{
+    return s->F_fluid + s->F_friction + s->F_gas;
+}
+
+/* Gas in the reserve chamber [m3], the rest of its volume; where rounding would leave less than nothing, nothing. */
+static double kernel_reserve_gas(struct kernel_Derived* d, struct kernel_State* s)
+{
+    return double_max(2, 0.0, d->V_reserve - s->V3_oil - s->V3_foam);
+}
+
+/* Fill `o` after a step. */
+static void kernel_publish(struct kernel_Derived* d, struct kernel_State* s, struct kernel_Outputs* o)
+{
+    o->force = kernel_total_force(s);
+    o->k_degr = s->k_degr;
+    o->V1_oil = s->V1_oil;
+    o->V1_gas = s->V1_gas;
+    o->V1_foam = s->V1_foam;
+    o->V2_oil = s->V2_oil;
+    o->V2_gas = s->V2_gas;
+    o->V2_foam = s->V2_foam;
+    o->V3_oil = s->V3_oil;
+    o->V3_gas = kernel_reserve_gas(d, s);
+    o->V3_foam = s->V3_foam;
+    o->force_fluid = s->F_fluid;
+    o->force_friction = s->F_friction;
+    o->force_gas = s->F_gas;
+    o->work = s->work;
+}
+
+/* Keep what a message needs. */
+static void kernel_note(struct kernel_Violation* violation, int64_t point, double value, double limit)
+{
+    violation->point = point;
+    violation->value = value;
+    violation->limit = limit;
+}
+
+/* Number 1 to 3 of the first rule beyond `after` that a branch of the F-v curve breaks, else 0. */
+static int64_t kernel_branch_rule(array_double_1d velocities, array_double_1d forces, int64_t after, struct kernel_Violation* violation)
+{
+    int64_t i;
+    if ((after < 1) && ((*cspan_at(&velocities, 0)) <= 0.0))
+    {
+        kernel_note(violation, 1, (*cspan_at(&velocities, 0)), 0.0);
+        return 1;
+    }
+    if (after < 2)
+    {
+        for (i = 1; i < 20; i += 1)
+        {
+            if ((*cspan_at(&velocities, i)) <= (*cspan_at(&velocities, i - 1)))
+            {
+                kernel_note(violation, i + 1, (*cspan_at(&velocities, i)), (*cspan_at(&velocities, i - 1)));
+                return 2;
+            }
+            if ((*cspan_at(&forces, i)) < (*cspan_at(&forces, i - 1)))
+            {
+                kernel_note(violation, i + 1, (*cspan_at(&forces, i)), (*cspan_at(&forces, i - 1)));
+                return 3;
+            }
+        }
+    }
+    return 0;
+}
+
+/* Number of the first rule beyond `after`, 1 to 6, that the F-v curve breaks, else 0. */
+static int64_t kernel_curve_rule(struct kernel_Parameters* p, int64_t after, struct kernel_Violation* violation)
+{
+    int64_t rule;
+    if (after < 3)
+    {
+        rule = kernel_branch_rule(p->v_re, p->F_re, after, violation);
+        if (rule > 0)
+        {
+            return rule;
+        }
+    }
+    rule = kernel_branch_rule(p->v_co, p->F_co, after - 3, violation);
+    return (rule > 0 ? rule + 3 : 0);
+}
+
+/* Number of the first rule beyond `after`, 7 to 13, that the dimensions or the oil break, else 0.
+   All parameters must be within their bounds. `d` is overwritten. Where the dimensions do not fit into each other, the
+   volumes mean nothing and their rules are not asked. */
+static int64_t kernel_fit_rule(struct kernel_Parameters* p, struct kernel_Derived* d, int64_t after, struct kernel_Violation* violation)
+{
+    double stretched;
+    double pushed;
+    if ((after < 7) && (p->D_li <= p->D_PR))
+    {
+        kernel_note(violation, 0, p->D_PR, p->D_li);
+        return 7;
+    }
+    if ((after < 8) && (p->D_li >= p->D_la))
+    {
+        kernel_note(violation, 0, p->D_li, p->D_la);
+        return 8;
+    }
+    if ((after < 9) && (p->D_la >= p->D_a))
+    {
+        kernel_note(violation, 0, p->D_la, p->D_a);
+        return 9;
+    }
+    if ((after < 10) && (p->dead_length >= p->h_l))
+    {
+        kernel_note(violation, 0, p->dead_length, p->h_l);
+        return 10;
+    }
+    if ((after >= 7) && (after <= 11))
+    {
+        return 0;
+    }
+    kernel_prepare(p, d);
+    if (p->stroke_max >= d->half_length)
+    {
+        kernel_note(violation, 0, p->stroke_max, d->half_length);
+        return 11;
+    }
+    stretched = d->A_1 * (d->half_length - p->stroke_max) + d->A_2 * (d->half_length + p->stroke_max);
+    if ((after < 12) && (p->V_oil < stretched))
+    {
+        kernel_note(violation, 0, p->V_oil, stretched);
+        return 12;
+    }
+    pushed = d->A_1 * (d->half_length + p->stroke_max) + d->A_2 * (d->half_length - p->stroke_max) + d->V_reserve;
+    if ((after < 13) && (p->V_oil > pushed))
+    {
+        kernel_note(violation, 0, p->V_oil, pushed);
+        return 13;
+    }
+    return 0;
+}
+
+/* Difference [s] of two communication points that is rounding: importers add up their steps, and end on a rest. */
+static double kernel_time_slack(double time, double step)
+{
+    return 1e-09 * (1.0 + fabs(time)) + 0.001 * step;
+}
+
+/* Way [m] from the stroke that the last step led to, with a mount that of its outer end; 0 where it is not notable. */
+static double kernel_stroke_jump(struct kernel_Derived* d, struct kernel_State* s, double stroke)
+{
+    double jump;
+    jump = stroke - ((d->extended > 0 ? s->z_rod : s->z));
+    return (fabs(jump) > 0.02 ? jump : 0.0);
+}
+
+/* 1 where a restored state can be that of a damper: the piston in the tube, no phase below zero; else 0. */
+static int64_t kernel_possible(struct kernel_Derived* d, struct kernel_State* s)
+{
+    if ((fabs(s->z) > kernel_stroke_limit(d)) || (s->k_degr < 0.0))
+    {
+        return 0;
+    }
+    if ((s->V1_oil < -1e-12) || (s->V1_gas < -1e-12) || (s->V1_foam < -1e-12) || (s->V1_foam_oil < -1e-12))
+    {
+        return 0;
+    }
+    if ((s->V2_oil < -1e-12) || (s->V2_gas < -1e-12) || (s->V2_foam < -1e-12) || (s->V2_foam_oil < -1e-12))
+    {
+        return 0;
+    }
+    return ((s->V3_oil < -1e-12) || (s->V3_foam < -1e-12) || (s->V3_foam_oil < -1e-12) ? 0 : 1);
 }
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef UNIT_H
 #define UNIT_H
 
+#include <limits.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -12,8 +13,9 @@
 
 #include "fmi2Functions.h"
 #include "kernel.h"
+#include "messages.h"
 
-#define FV_POINTS 20
+#define STEEPEST 1e6 /* derivatives of inputs, per second */
 
 enum kind { REAL, INTEGER };
 enum causality { INPUT, OUTPUT, FIXED, TUNABLE };
@@ -25,11 +27,6 @@ struct damper {
     double fv[4][FV_POINTS];
 };
 
-struct outputs {
-    double force, k_degr, V1_oil, V1_gas, V1_foam, V2_oil, V2_gas, V2_foam, V3_oil, V3_gas, V3_foam;
-    double force_fluid, force_friction, force_gas, work;
-};
-
 /* Everything that changes: an FMU state is a copy of it. */
 struct memory {
     struct damper damper;  /* in force */
@@ -37,9 +34,9 @@ struct memory {
     struct kernel_Derived d;
     struct kernel_State s;
     struct kernel_Flow f;
-    struct outputs out;
+    struct kernel_Outputs out;
     double stroke, velocity;
-    double velocity_rate; /* [m/s2] input derivative, for the coming step only */
+    double velocity_rate; /* [m/s2] input derivative, for the coming attempt at a step */
     double limit;         /* [m] largest stroke to each side */
     double time, stop;    /* [s] */
     int32_t mode;
@@ -51,7 +48,7 @@ struct memory {
 };
 
 struct variable {
-    const char *name, *unit;
+    const char *name, *unit; /* the unit as it follows a number: with a space before it, empty where there is none */
     enum kind kind;
     enum causality causality;
     size_t offset; /* in struct memory; parameters are those of `wanted` */

@@ -1,11 +1,11 @@
 """Semi-physical model of a twin-tube shock absorber that has lost oil and gas.
 
-    load            a damper: one of the paper's eight by its name, or a parameter file
-    simulate        forces and volumes of a damper over a record
-    harmonic_block  the excitation of the paper's test rig
-    build_fmu       the damper as FMI 2.0 co-simulation FMU
-    identify        the parameters from measured data
-    diagnose        what the simulation gets wrong on measured data, and why
+load            a damper: one of the paper's eight by its name, or a parameter file
+simulate        forces and volumes of a damper over a record
+harmonic_block  the excitation of the paper's test rig
+build_fmu       the damper as FMI 2.0 co-simulation FMU
+identify        the parameters from measured data
+diagnose        what the simulation gets wrong on measured data, and why
 """
 
 from importlib import import_module
@@ -37,7 +37,7 @@ HOMES = {
     "twintube.identification": ("identify",),
     "twintube.rig": ("Signal", "harmonic_block"),
 }
-__all__ = [  # noqa: PLE0604, RUF022  # the names of HOMES, in their order
+__all__ = [  # noqa: PLE0604  # the names of HOMES, in their order
     "__version__",
     *(name for names in HOMES.values() for name in names),
 ]

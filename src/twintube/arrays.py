@@ -1,8 +1,24 @@
-"""The type of every array of numbers."""
+"""The type of every array of numbers, and arrays that nobody can change."""
 
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.floating[Any]]
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """A view of an array that cannot be written to."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def freeze_arrays(record: Any) -> None:
+    """Make all array fields of a frozen dataclass read-only; to be called in its `__post_init__`."""
+    for item in fields(record):
+        value = getattr(record, item.name)
+        if isinstance(value, np.ndarray):
+            object.__setattr__(record, item.name, read_only(value))

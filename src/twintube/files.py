@@ -1,29 +1,22 @@
-"""Files written whole or not at all."""
+"""Files written whole or not at all. Reading a user's files is in reading.py."""
 
-import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from uuid import uuid4
 
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """A path to write to, in the folder of `path`, which it replaces at the end; nothing is left behind on an error.
 
-    The name is unique: two runs with one output both write a whole file, the later one stays.
+    The name is unique: of two runs with the same output both write a whole file, the later file stays.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=f".part{path.suffix}", dir=path.parent)
-    os.close(handle)
-    part = Path(name)
+    part = path.parent / f".{uuid4().hex}.part{path.suffix}"
     try:
         yield part
-        # mkstemp makes files that only their owner may read; a result is as public as any other new file.
-        mask = os.umask(0)
-        os.umask(mask)
-        part.chmod(0o666 & ~mask)
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)

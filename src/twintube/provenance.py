@@ -8,7 +8,6 @@ import hashlib
 from collections.abc import Iterator
 from functools import cache
 from importlib.metadata import version
-from importlib.util import find_spec
 from pathlib import Path
 
 PACKAGE = "twintube"
@@ -18,12 +17,12 @@ LIBRARIES = ("numpy", "scipy", "numba")
 
 
 def location(module: str) -> Path | None:
-    """The file of a module; None where the name is no module."""
-    try:
-        spec = find_spec(module)
-    except ModuleNotFoundError:
+    """The file of a module of this package; None where the name is none, and for the package itself, which imports all."""
+    *folders, last = module.split(".")
+    if not folders or folders[0] != PACKAGE:
         return None
-    return Path(spec.origin) if spec is not None and spec.origin is not None else None
+    place = ROOT.joinpath(*folders[1:], last)
+    return next((path for path in (place.with_suffix(".py"), place / "__init__.py") if path.is_file()), None)
 
 
 def named(path: Path) -> Iterator[Path]:
@@ -35,21 +34,18 @@ def named(path: Path) -> Iterator[Path]:
                 modules = [item.name for item in node.names]
             case ast.ImportFrom(module=str(module)):
                 parts = [f"{module}.{item.name}" for item in node.names]
-                modules = [part if part.startswith(f"{PACKAGE}.") and location(part) else module for part in parts]
-            case ast.Constant(value=str(text)) if text.endswith(".py") and (ROOT / text).is_file():
+                modules = [part if location(part) else module for part in parts]
+            case ast.Constant(value=str(text)) if "/" in text and text.endswith(".py") and (ROOT / text).is_file():
                 yield ROOT / text
             case ast.Name(id="importlib") if path.name == "__init__.py":
                 yield from path.parent.glob("*.py")
-        for module in modules:
-            found = location(module) if module.split(".")[0] == PACKAGE else None
-            if found is not None:
-                yield found
+        yield from filter(None, map(location, modules))
 
 
 @cache
 def files(module: str) -> tuple[Path, ...]:
     """The files of a module and of all that it imports from this package, with the parameter files beside them."""
-    waiting = [found for found in [location(module)] if found is not None]
+    waiting = list(filter(None, [location(module)]))
     seen: set[Path] = set()
     while waiting:
         path = waiting.pop()

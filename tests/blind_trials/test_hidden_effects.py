@@ -1,4 +1,4 @@
-"""Every hidden effect changes the force as its physics says."""
+"""Every hidden effect changes the force according to its physics."""
 
 import numpy as np
 import pytest
@@ -16,21 +16,21 @@ P = load("SA8").parameters
 class Run:
     """A record of SA8 with effects hidden in it."""
 
-    def __init__(self, level, velocity, preload=False, pause=0.0, name="SA8", drive=None, changes=None, **hidden):
-        self.drive = drive or harmonic(velocity, pause)
+    def __init__(self, level, velocity, preload=False, pause=0.0, name="SA8", excitation=None, changes=None, **hidden):
+        self.excitation = excitation or harmonic(velocity, pause)
         rate = max(200.0, 400 * velocity / (2 * np.pi * 0.045))
-        self.time = np.arange(int(self.drive.duration * rate)) / rate
-        self.z, self.v = self.drive.sampled(self.time)
-        self.out = march(tube(name, level, preload, changes), Hidden(**hidden), self.drive, self.time)
+        self.time = np.arange(int(self.excitation.duration * rate)) / rate
+        self.z, self.v = self.excitation.sampled(self.time)
+        self.out = march(tube(name, level, preload, changes), Hidden(**hidden), self.excitation, self.time)
         self.force = self.out[:, FORCE]
 
     def works(self, block=0):
-        begin, end = self.drive.blocks[block]
+        begin, end = self.excitation.blocks[block]
         edges = np.searchsorted(self.time, np.linspace(begin, end, 20))
         return np.array([np.trapezoid(self.force[i:j], self.z[i:j]) for i, j in zip(edges[:-1], edges[1:], strict=True)])
 
     def block(self, block=0):
-        begin, end = self.drive.blocks[block]
+        begin, end = self.excitation.blocks[block]
         return (self.time >= begin) & (self.time < end)
 
 
@@ -48,7 +48,7 @@ def test_strength_zero_hides_nothing():
         s = secret(kind, 3, P, 0.0)[0]
         hidden = s.always | s.moving | s.degraded
         error = np.sqrt(np.mean((Run(0.56, 1.048, **hidden).force - plain) ** 2)) / np.abs(plain).max()
-        # With a mount, even a rigid one, the rod has a mass and what switches within a sample is not averaged.
+        # With a mount, even a rigid one, the rod has a mass, and changes within a sample are not averaged.
         assert error < (0.03 if kind == "mount_compliance" else 1e-9), (kind, error)
 
 
@@ -83,7 +83,7 @@ def test_lag_makes_a_loop_about_the_curve():
 
 
 def test_transition_is_gradual():
-    # A long dead length, with which gas and oil take turns in every stroke.
+    # With a long dead length gas and oil alternate in every stroke.
     smooth, plain = (Run(0.56, 1.048, changes={"dead_length": 0.11}, blend=blend) for blend in (4e-3, 0.0))
 
     def between(run):
@@ -95,7 +95,9 @@ def test_transition_is_gradual():
 
 def test_foam_drains_at_rest():
     drained, plain = (Run(0.30, 1.048, pause=60.0, **h) for h in (drawn("foam_decay"), {}))
-    at_rest = np.flatnonzero((plain.time > plain.drive.pieces[3, 0] + 0.1) & (plain.time < plain.drive.pieces[3, 1]))
+    at_rest = np.flatnonzero(
+        (plain.time > plain.excitation.pieces[3, 0] + 0.1) & (plain.time < plain.excitation.pieces[3, 1])
+    )
     assert np.ptp(plain.out[at_rest, FOAMED]) == 0.0
     assert drained.out[at_rest[-1], FOAMED] < 0.5 * drained.out[at_rest[0], FOAMED]
 
@@ -107,34 +109,35 @@ def test_dissolved_gas_brings_the_work_back():
     assert back.out[-1, FREED] < plain.out[-1, FREED]
 
 
-def long_block(level=0.9, rest=10.0, slow=False, **hidden):
-    """20 s at 1.08 m/s, a rest [s], slow strokes or none, and 19 oscillations."""
-    return Run(level, 1.08, drive=recovery(1.08, 20.0, rest, slow), **hidden)
+def long_block(level=0.9, pause=10.0, slow=False, **hidden):
+    """20 s at 1.08 m/s, a pause [s], slow strokes or none, and 19 oscillations."""
+    return Run(level, 1.08, excitation=recovery(1.08, 20.0, pause, slow), **hidden)
 
 
 def test_displaced_oil_is_in_the_damper_still():
     start = tube("SA8", 0.9, False).oil
-    letter, half, whole = (long_block(give_way=share) for share in (0.0, 0.5, 1.0))
-    for one in (letter, half, whole):
-        assert one.out[:, OIL] + one.out[:, FREED] == pytest.approx(start, rel=1e-9)
+    letter, half, all_displaced = (long_block(give_way=share) for share in (0.0, 0.5, 1.0))
+    for run in (letter, half, all_displaced):
+        assert run.out[:, OIL] + run.out[:, FREED] == pytest.approx(start, rel=1e-9)
     assert letter.out[-1, OIL] < 0.6 * start and half.out[-1, OIL] > letter.out[-1, OIL]
-    assert whole.out[:, OIL] == pytest.approx(start, rel=1e-9) and whole.out[-1, FREED] == 0.0
-    assert whole.works(1)[18] > 2 * letter.works(1)[18]
+    assert all_displaced.out[:, OIL] == pytest.approx(start, rel=1e-9) and all_displaced.out[-1, FREED] == 0.0
+    assert all_displaced.works(1)[18] > 2 * letter.works(1)[18]
 
 
 def test_slow_strokes_bring_displaced_oil_back_and_rest_does_not():
     first, rested, slow = (
-        long_block(rest=rest, slow=slow, give_way=1.0).works(1)[0] for rest, slow in ((10, False), (180, False), (10, True))
+        long_block(pause=pause, slow=slow, give_way=1.0).works(1)[0]
+        for pause, slow in ((10, False), (180, False), (10, True))
     )
     assert rested == pytest.approx(first, rel=1e-3) and slow > 1.3 * first
 
 
 def test_oil_frees_no_more_gas_than_it_holds():
     start = tube("SA8", 0.9, False).oil
-    for most in (0.2, 0.345):
-        gone = long_block(scarce=1 / most).out[:, FREED] / start
-        assert (np.diff(gone) >= 0.0).all()
-        assert 0.98 * most < gone[-1] <= most
+    for limit in (0.2, 0.345):
+        freed = long_block(scarce=1 / limit).out[:, FREED] / start
+        assert (np.diff(freed) >= 0.0).all()
+        assert 0.98 * limit < freed[-1] <= limit
     assert long_block().out[-1, FREED] > 0.45 * start
 
 

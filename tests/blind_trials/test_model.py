@@ -1,4 +1,4 @@
-"""The marching model: agreement with the package where nothing is hidden, balances, convergence."""
+"""The model of the trials: agreement with the package without hidden physics, balances, convergence."""
 
 import ast
 from pathlib import Path
@@ -17,16 +17,16 @@ from twintube.lab.blind_trials.quantities import Hidden
 FORBIDDEN = ("twintube.core.kernel", "twintube.core.effects", "twintube.core.model", "twintube.engine", "twintube.diagnosis")
 
 
-def sampled(drive, per=300, velocity=1.0):
+def sampled(excitation, per=300, velocity=1.0):
     rate = max(100.0, per * velocity / (2 * np.pi * 0.045))
-    return np.arange(int(drive.duration * rate)) / rate
+    return np.arange(int(excitation.duration * rate)) / rate
 
 
 def run(level, velocity, name="SA8", preload=False, hidden=None, pause=0.0, **options):
-    drive = harmonic(velocity, pause)
-    time = sampled(drive, velocity=velocity)
-    out = march(tube(name, level, preload), hidden or Hidden(), drive, time, **options)
-    return drive, time, *drive.sampled(time), out
+    excitation = harmonic(velocity, pause)
+    time = sampled(excitation, velocity=velocity)
+    out = march(tube(name, level, preload), hidden or Hidden(), excitation, time, **options)
+    return excitation, time, *excitation.sampled(time), out
 
 
 def test_the_package_does_not_import_the_equations_it_is_to_judge():
@@ -65,10 +65,10 @@ def test_halving_the_step_changes_little_and_ever_less():
         assert errors[3] < errors[0], errors
 
 
-def test_drives_start_and_end_at_rest_in_the_middle():
-    for drive in (harmonic(1.572, 60.0), quasi_static()):
-        time = np.linspace(0, drive.duration, 40001)
-        z, v = drive.sampled(time)
+def test_excitations_start_and_end_at_rest_in_the_middle():
+    for excitation in (harmonic(1.572, 60.0), quasi_static()):
+        time = np.linspace(0, excitation.duration, 40001)
+        z, v = excitation.sampled(time)
         assert abs(z[0]) < 1e-12 and abs(z[-1]) < 1e-9 and np.abs(z).max() <= 0.045 * (1 + 1e-9)
         np.testing.assert_allclose(np.gradient(z, time), v, atol=0.05)
     begin, end = harmonic(0.524).blocks[0]

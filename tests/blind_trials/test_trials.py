@@ -1,4 +1,4 @@
-"""Trials: seeds, what is written, what the data door says."""
+"""Trials: seeds, written files, findings of the data checks."""
 
 import inspect
 
@@ -13,11 +13,11 @@ from twintube.lab.blind_trials.trials import dataset, plans, trial, write
 SHORT = (0.524,)
 
 
-def made(kind, seed=1, **options):
+def short_trial(kind, seed=1, **options):
     return trial(kind, seed, **({"blocks": SHORT} | options))
 
 
-def same(a, b):
+def equal_records(a, b):
     return all(np.array_equal(x.force, y.force) and np.array_equal(x.stroke, y.stroke) for x, y in zip(a, b, strict=True))
 
 
@@ -32,46 +32,48 @@ def test_a_whole_dataset_has_all_records():
     assert sum(name.endswith("_rest") for name in names) == 2
 
 
-def test_recovery_records_come_beside_the_others(tmp_path):
-    usual, more = made("none"), made("none", recover=(1.08,), seconds=2.0)
-    added = more.records[len(usual.records) :]
-    assert [(one.oil_level, one.gas_preload) for one in added] == [(0.9, False)] * 4 + [(0.5604, False)] * 4
-    lengths = {one.file.split("rest_")[1]: one.time[-1] for one in added[:4]}
+def test_recovery_records_are_added_to_the_others(tmp_path):
+    usual, extended = short_trial("none"), short_trial("none", recover=(1.08,), seconds=2.0)
+    added = extended.records[len(usual.records) :]
+    assert [(record.oil_level, record.gas_preload) for record in added] == [(0.9, False)] * 4 + [(0.5604, False)] * 4
+    lengths = {record.file.split("rest_")[1]: record.time[-1] for record in added[:4]}
     assert lengths["180s.parquet"] - lengths["10s.parquet"] == pytest.approx(170.0, abs=0.05)
     assert lengths["10s_slow.parquet"] - lengths["10s.parquet"] == pytest.approx(
         6.1 * 2 * np.pi * 0.045 / 0.05 + 2.0, abs=0.05
     )
-    assert not check_dataset(write(more, tmp_path)).errors
+    assert not check_dataset(write(extended, tmp_path)).errors
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in ("sign_flip", "unit_error")])
-def test_the_door_reads_every_kind(kind, tmp_path):
-    found = check_dataset(write(made(kind), tmp_path))
-    assert not found.errors
-    said = {finding.message.split(":")[0] for finding in found.findings}
-    assert said <= {"jitter", "no full cycle of stroke", "velocity explains the stroke but for 5.0%"}
+def test_every_kind_is_read(kind, tmp_path):
+    result = check_dataset(write(short_trial(kind), tmp_path))
+    assert not result.errors
+    warnings = {finding.message.split(":")[0] for finding in result.findings}
+    assert warnings <= {"jitter", "no full cycle of stroke", "velocity explains the stroke but for 5.0%"}
 
 
-def test_the_door_refuses_a_flipped_sign(tmp_path):
-    errors = check_dataset(write(made("sign_flip"), tmp_path)).errors
+def test_a_flipped_sign_is_refused(tmp_path):
+    errors = check_dataset(write(short_trial("sign_flip"), tmp_path)).errors
     assert errors and all("force_sign" in error.message for error in errors)
     with pytest.raises(DataError):
-        dataset(made("sign_flip"))
+        dataset(short_trial("sign_flip"))
 
 
 def test_a_wrong_unit_is_refused_or_read(tmp_path):
     for seed in range(4):
-        one = made("unit_error", seed)
-        found = check_dataset(write(one, tmp_path / str(seed)))
-        assert all("mixed up" in error.message for error in found.errors)
-        assert bool(found.errors) == (one.truth["force_factor"] == 1e-3)
+        wrong = short_trial("unit_error", seed)
+        result = check_dataset(write(wrong, tmp_path / str(seed)))
+        assert all("mixed up" in error.message for error in result.errors)
+        assert bool(result.errors) == (wrong.truth["force_factor"] == 1e-3)
 
 
 def test_the_seed_decides(tmp_path):
-    one, again, other = made("valve_wear"), made("valve_wear"), made("valve_wear", 2)
-    assert same(one.records, again.records) and one.truth == again.truth
-    assert one.truth != other.truth and not np.array_equal(one.records[1].force[:50], other.records[1].force[:50])
-    a, b = write(one, tmp_path / "a"), write(again, tmp_path / "b")
+    first, again, other_seed = short_trial("valve_wear"), short_trial("valve_wear"), short_trial("valve_wear", 2)
+    assert equal_records(first.records, again.records) and first.truth == again.truth
+    assert first.truth != other_seed.truth and not np.array_equal(
+        first.records[1].force[:50], other_seed.records[1].force[:50]
+    )
+    a, b = write(first, tmp_path / "a"), write(again, tmp_path / "b")
     assert sorted(path.name for path in a.iterdir()) == sorted(path.name for path in b.iterdir())
     assert all(path.read_bytes() == (b / path.name).read_bytes() for path in a.iterdir())
 
@@ -79,43 +81,43 @@ def test_the_seed_decides(tmp_path):
 def test_strength_is_drawn_about_one_or_given():
     drawn = [secret("end_stop", seed, load("SA8").parameters, None)[1] for seed in range(40)]
     assert 0.5 <= min(drawn) < 0.7 and 1.3 < max(drawn) <= 1.5
-    assert made("valve_wear", strength=0.3).strength == 0.3
+    assert short_trial("valve_wear", strength=0.3).strength == 0.3
     half, full = (secret("valve_wear", 1, load("SA8").parameters, x)[0].always["wear_re"] for x in (0.5, 1.0))
     assert full == pytest.approx(2 * half)
 
 
-def test_a_pair_holds_both_as_each_alone():
+def test_a_pair_contains_both_kinds_unchanged():
     p = load("SA8").parameters
     pair = secret("end_stop+force_offset", 5, p, None)[0]
     assert pair.always == secret("end_stop", 5, p, None)[0].always
     assert pair.measurement == secret("force_offset", 5, p, None)[0].measurement
     with pytest.raises(ValueError, match="unknown kind 'nothing'"):
-        made("end_stop+nothing")
+        short_trial("end_stop+nothing")
 
 
 def test_nothing_of_the_truth_is_written(tmp_path):
-    text = (write(made("seal_leak"), tmp_path) / "dataset.toml").read_text()
+    text = (write(short_trial("seal_leak"), tmp_path) / "dataset.toml").read_text()
     assert "leak" not in text and "seal" not in text and text.count("[[record]]") == 4
 
 
 def test_faults_of_the_measurement_act_on_the_channels():
-    plain, gain = made("force_gain", strength=0.0), made("force_gain", strength=1.0)
+    plain, gain = short_trial("force_gain", strength=0.0), short_trial("force_gain", strength=1.0)
     ratio = gain.records[1].force / plain.records[1].force
     assert np.ptp(ratio) < 1e-9 and 0.08 < abs(ratio[0] - 1) < 0.14
-    plain, moved = made("force_offset", strength=0.0), made("force_offset", strength=1.0)
+    plain, moved = short_trial("force_offset", strength=0.0), short_trial("force_offset", strength=1.0)
     extra = moved.records[2].force - plain.records[2].force
     assert np.ptp(extra) < 1e-9 and 0.03 < abs(extra[0]) / max(abs(r.force).max() for r in plain.records) < 0.045
-    late = made("channel_delay", strength=1.0)
+    late = short_trial("channel_delay", strength=1.0)
     assert 4e-3 <= max(late.truth.get("force_late", 0), late.truth.get("stroke_late", 0)) <= 5.3e-3
-    flat = made("clipping", strength=1.0).records[1].force
+    flat = short_trial("clipping", strength=1.0).records[1].force
     assert np.mean(np.isclose(np.abs(flat), np.abs(flat).max())) > 0.01
 
 
-def test_as_loaded_is_as_made():
-    one = made("none")
-    loaded = dataset(one)
-    assert [record.file for record in loaded.records] == [record.file for record in one.records]
-    for a, b in zip(loaded.records, one.records, strict=True):
+def test_a_written_trial_is_read_unchanged():
+    original = short_trial("none")
+    loaded = dataset(original)
+    assert [record.file for record in loaded.records] == [record.file for record in original.records]
+    for a, b in zip(loaded.records, original.records, strict=True):
         np.testing.assert_allclose(a.stroke, b.stroke, atol=1e-8)
         np.testing.assert_allclose(a.force, b.force, rtol=1e-6)
         assert a.start_temperature == b.start_temperature_degC

@@ -1,4 +1,4 @@
-"""The dead lengths in the files are those that the calibration finds, and physically possible."""
+"""The dead lengths in the files are those of the calibration, and physically possible."""
 
 import pytest
 
@@ -15,11 +15,11 @@ def test_dead_length_in_the_file_is_the_calibrated_one(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", names())
 def test_every_dead_length_is_the_calibrated_one(name: str) -> None:
-    found = calibrate(load(name))
-    assert found.chosen.dead_length == pytest.approx(load(name).parameters.dead_length)
-    least = min(fit.misfit for fit in found.fits)
-    assert found.chosen.misfit <= least + FLAT
-    assert found.range[0] <= found.chosen.dead_length <= found.range[1]
+    calibration = calibrate(load(name))
+    assert calibration.chosen.dead_length == pytest.approx(load(name).parameters.dead_length)
+    smallest = min(fit.misfit for fit in calibration.fits)
+    assert calibration.chosen.misfit <= smallest + FLAT
+    assert calibration.range[0] <= calibration.chosen.dead_length <= calibration.range[1]
 
 
 @pytest.mark.parametrize("name", names())
@@ -28,14 +28,14 @@ def test_dead_lengths_are_possible(name: str) -> None:
     assert SHORTEST <= damper.parameters.dead_length <= LONGEST
     assert damper.parameters.dead_length / STEP == pytest.approx(round(damper.parameters.dead_length / STEP))
     assert 6.0 < pressure(damper) <= HIGHEST
-    assert all(pressure(one) <= HIGHEST for one in candidates(damper))
+    assert all(pressure(candidate) <= HIGHEST for candidate in candidates(damper))
     assert "twintube calibrate" in damper.assumed["geometry.dead_length"]
 
 
 def test_gas_of_a_long_dead_length_is_refused() -> None:
     """SA5 at 90 mm would be squeezed to 57 bar."""
     assert pressure(load("SA5").with_(dead_length=0.09)) == pytest.approx(57, abs=1)
-    assert max(one.parameters.dead_length for one in candidates(load("SA5"))) < 0.09
+    assert max(candidate.parameters.dead_length for candidate in candidates(load("SA5"))) < 0.09
 
 
 def test_deviations_name_the_claims_of_the_damper() -> None:

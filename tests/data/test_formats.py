@@ -117,9 +117,9 @@ def test_matlab_defects(folder: Make) -> None:
     savemat(path / "b.mat", {"Tout": c["time [s]"][:-1], "x_F": matrix(c)})
     savemat(path / "d.mat", {"tout": c["time [s]"], "x_F": matrix(c)})
     found = "\n".join(map(str, check_dataset(path).errors))
-    assert "a.mat: sample 77, column 'force [N]': nan is no finite number" in found
+    assert "a.mat: sample 77, column 'force [N]': nan is not a finite number" in found
     assert "b.mat: column 'time [s]': 1500 samples where another column of the file has 1501" in found
-    assert "c.mat: no readable .mat file" in found
+    assert "c.mat: not a readable .mat file" in found
     assert "d.mat: column 'time [s]': the file has no 'Tout' but tout, x_F[0], x_F[1], x_F[2], did you mean tout?" in found
 
 
@@ -152,7 +152,7 @@ def test_mdf_defects(folder: Make) -> None:
     mdf(path / "a.mf4", good(), late=0.1)
     late, broken = check_dataset(path).errors
     assert "channel 'force' is not sampled at the times of channel 'stroke'" in late.message
-    assert "no readable .mf4 file" in broken.message
+    assert "not a readable .mf4 file" in broken.message
 
 
 def test_a_missing_package_is_named(folder: Make, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -49,7 +49,7 @@ def test_all_keys(folder: Make, tmp_path: Path) -> None:
         ("oil_level = 0.56", "oil_level = 56", 6, "oil_level = 56: must be a number from 0 to 1"),
         ("oil_level = 0.56", "oil_level = nan", 6, "oil_level = nan: must be a number from 0 to 1"),
         ("oil_level = 0.56", "oil_volume_mL = 900", 3, "oil_volume_mL = 900: must be from 0 to"),
-        ("oil_level = 0.56", "oil_volume_mL = -1", 6, "oil_volume_mL = -1: must be a number of at least 0"),
+        ("oil_level = 0.56", "oil_volume_mL = -1", 6, "oil_volume_mL = -1: must be a number from 0 to"),
         ("oil_level = 0.56", "", 3, "oil_level or oil_volume_mL is missing"),
         ("oil_level = 0.56", "oil_level = 0.5\noil_volume_mL = 100", 3, "both are given"),
         ("gas_preload = false", "gas_preload = 0", 7, "gas_preload = 0: must be true (present) or false (lost)"),

@@ -16,7 +16,7 @@ V_RECOVERY, SECONDS = 1.08, 10.0  # [m/s], [s] of the long blocks: the recovery 
 
 def measured(kind: str, seed: int, recovery: bool) -> Trial:
     """Records of SA8 with a closure hidden, down to 56 % oil: blocks, and the recovery records that tell most or none."""
-    found = trial(kind, seed, blocks=BLOCKS, recover=(V_RECOVERY,) if recovery else (), seconds=SECONDS)
+    hidden = trial(kind, seed, blocks=BLOCKS, recover=(V_RECOVERY,) if recovery else (), seconds=SECONDS)
 
     def kept(file: str, level: float) -> bool:
         usual = recovery or not file.endswith("_rest.parquet")
@@ -27,22 +27,22 @@ def measured(kind: str, seed: int, recovery: bool) -> Trial:
             and (level > 0.8 or "rest_10s." not in file)
         )
 
-    return replace(found, records=[one for one in found.records if kept(one.file, one.oil_level)])
+    return replace(hidden, records=[r for r in hidden.records if kept(r.file, r.oil_level)])
 
 
-def rival(found: Diagnosis, kind: str) -> float:
+def rival(answer: Diagnosis, kind: str) -> float:
     """Held-out gain of the best other closure in the first round, relative to that of the hidden one."""
-    gains = {one.effect: one.heldout_gain for one in found.tried if one.round == 1 and one.effect in GAS}
+    gains = {t.effect: t.heldout_gain for t in answer.tried if t.round == 1 and t.effect in GAS}
     return max((gain for name, gain in gains.items() if name != kind), default=0.0) / gains[kind]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", GAS)
 def test_recovery_records_name_the_hidden_closure(kind: str, tmp_path: Path) -> None:
-    found = diagnose(write(measured(kind, 701, True), tmp_path))
-    assert (found.verdict, [cause.effect for cause in found.causes]) == ("cause", [kind])
-    assert effects.active(found.extended.parameters) == (kind,)
-    assert rival(found, kind) < 0.25
+    answer = diagnose(write(measured(kind, 701, True), tmp_path))
+    assert (answer.verdict, [cause.effect for cause in answer.causes]) == ("cause", [kind])
+    assert effects.active(answer.extended.parameters) == (kind,)
+    assert rival(answer, kind) < 0.25
 
 
 @pytest.mark.slow

@@ -68,7 +68,7 @@ def changed(records: list[Record], change: Callable[[Record], np.ndarray]) -> li
 
 
 def names(records: list[Record]) -> list[str]:
-    return [one.name for one in signatures(records)]
+    return [signature.name for signature in signatures(records)]
 
 
 @pytest.mark.parametrize(("noise", "seed"), [(0.0, 0), (0.005, 1), (0.03, 2), (0.03, 3)])
@@ -90,14 +90,14 @@ def test_a_cut_force(sign: int, step: float) -> None:
         force = np.clip(r.force, -1800.0, 1800.0)
         return step * np.round(force / step) if step else force
 
-    (found,) = signatures(changed(whole, cut))
+    (signature,) = signatures(changed(whole, cut))
     missing = [cut(r) - r.force for r in whole if np.abs(r.force).max() > 1800]
-    assert found.name == "saturation"
-    assert f"{1800 * sign} N in 4 of 12" in found.text
-    assert found.size == pytest.approx(np.sqrt(np.mean(np.concatenate(missing) ** 2)), rel=1.0)
+    assert signature.name == "saturation"
+    assert f"{1800 * sign} N in 4 of 12" in signature.text
+    assert signature.size == pytest.approx(np.sqrt(np.mean(np.concatenate(missing) ** 2)), rel=1.0)
 
 
-def test_a_limit_of_one_record_is_none() -> None:
+def test_a_limit_of_a_single_record_does_not_count() -> None:
     records = bench(0.01)
     records[5] = replace(records[5], force=np.minimum(records[5].force, 2500.0))
     assert names(records) == []
@@ -108,16 +108,16 @@ def test_hum() -> None:
         angle = 2 * np.pi * 49.98 * r.time
         return r.force + 30 * np.sin(angle) + 9 * np.sin(2 * angle)
 
-    (found,) = signatures(changed(bench(0.02), hum))
-    assert found.name == "line"
-    assert "49.98 Hz (" in found.text and "99.9" in found.text and "50 Hz mains" in found.text
-    assert found.size == pytest.approx(np.hypot(30, 9) / np.sqrt(2), rel=0.1)
+    (signature,) = signatures(changed(bench(0.02), hum))
+    assert signature.name == "line"
+    assert "49.98 Hz (" in signature.text and "99.9" in signature.text and "50 Hz mains" in signature.text
+    assert signature.size == pytest.approx(np.hypot(30, 9) / np.sqrt(2), rel=0.1)
 
 
 def test_hum_beyond_half_the_sampling_rate() -> None:
-    (found,) = signatures(changed(bench(0.02, rate=100.0), lambda r: r.force + 40 * np.sin(2 * np.pi * 60.0 * r.time)))
-    assert found.name == "line"
-    assert "60 Hz mains, as seen by sampling at 100 Hz" in found.text
+    (signature,) = signatures(changed(bench(0.02, rate=100.0), lambda r: r.force + 40 * np.sin(2 * np.pi * 60.0 * r.time)))
+    assert signature.name == "line"
+    assert "60 Hz mains, as seen by sampling at 100 Hz" in signature.text
 
 
 def test_a_vibration_at_a_harmonic_of_the_excitation_is_the_dampers() -> None:
@@ -144,11 +144,11 @@ def swinging(r: Record, frequency: float, loss: float, share: float) -> np.ndarr
 def test_a_resonance() -> None:
     rng = np.random.default_rng(1)
     quiet = changed(bench(0.0), lambda r: swinging(r, 41.0, 0.04, 0.7))
-    (found,) = signatures(
+    (signature,) = signatures(
         changed(quiet, lambda r: r.force + 0.01 * np.abs(r.force).max() * rng.standard_normal(len(r.time)))
     )
-    assert found.name == "ringing"
-    assert float(found.text.split("about ")[1].split()[0]) == pytest.approx(41.0, rel=0.08)
+    assert signature.name == "ringing"
+    assert float(signature.text.split("about ")[1].split()[0]) == pytest.approx(41.0, rel=0.08)
 
 
 def test_a_filter_is_no_resonance() -> None:
@@ -164,9 +164,9 @@ def after_reversal(r: Record) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_play() -> None:
-    (found,) = signatures(changed(bench(0.01), lambda r: np.where(after_reversal(r)[0] < 0.6e-3, 0.0, r.force)))
-    assert found.name == "backlash"
-    assert float(found.text.split("over ")[1].split()[0]) == pytest.approx(0.6, rel=0.15)
+    (signature,) = signatures(changed(bench(0.01), lambda r: np.where(after_reversal(r)[0] < 0.6e-3, 0.0, r.force)))
+    assert signature.name == "backlash"
+    assert float(signature.text.split("over ")[1].split()[0]) == pytest.approx(0.6, rel=0.15)
 
 
 def test_dead_strokes_of_lost_oil_are_no_play() -> None:

@@ -17,25 +17,25 @@ QUICK = ("none", "valve_wear")
 
 @pytest.mark.parametrize("kind", [k if k in QUICK else pytest.param(k, marks=pytest.mark.slow) for k in textbook.FORMULAS])
 def test_a_textbook_formula_is_named(kind: str, tmp_path: Path) -> None:
-    found = diagnose(textbook.write(kind, tmp_path))
+    answer = diagnose(textbook.write(kind, tmp_path))
     if kind == "none":
-        assert found.verdict == "none"
+        assert answer.verdict == "none"
         return
-    assert found.verdict == ("measurement_fault" if kind in FAULTS else "cause")
-    assert [cause.effect for cause in found.causes] == [kind]
-    assert found.causes[0].gain.heldout > 0.9
+    assert answer.verdict == ("measurement_fault" if kind in FAULTS else "cause")
+    assert [cause.effect for cause in answer.causes] == [kind]
+    assert answer.causes[0].gain.heldout > 0.9
 
 
 def test_what_samples_miss_at_a_jump_is_known(tmp_path: Path) -> None:
     """The model is exactly right, and its force jumps between samples at the same place in every oscillation."""
     data = load_dataset(textbook.write("none", tmp_path, noise=0.0))
-    cases = prepare(data)
-    problem = Problem(data.damper, cases)
+    records = prepare(data)
+    problem = Problem(data.damper, records)
     errors = problem.errors({})
     jumped = 0
-    for case, a, b in zip(cases, problem.starts[:-1], problem.starts[1:], strict=True):
-        missed = np.abs(errors[a + 1 : b]) > 0.01 * case.peak
+    for record, a, b in zip(records, problem.starts[:-1], problem.starts[1:], strict=True):
+        missed = np.abs(errors[a + 1 : b]) > 0.01 * record.peak
         jumped += int(missed.sum())
         if missed.any():
-            assert (np.abs(errors[a + 1 : b][missed]) < 1.5 * case.noise[1:][missed]).mean() > 0.9
+            assert (np.abs(errors[a + 1 : b][missed]) < 1.5 * record.noise[1:][missed]).mean() > 0.9
     assert jumped > 100

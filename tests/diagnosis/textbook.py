@@ -39,9 +39,9 @@ class Motion:
             omega = self.velocity[0] / AMPLITUDE
             z, v = AMPLITUDE * np.sin(omega * fine), self.velocity[0] * np.cos(omega * fine)
             damper = self.damper.with_(oil_level=level, gas_preload=int(level == 1.0))
-            found = simulate(damper, z, v, fine)
-            columns = {name: column[::FINE] for name, column in found.columns.items()}
-            self.results[level] = Simulation(z[::FINE], v[::FINE], columns)
+            result = simulate(damper, z, v, fine)
+            columns = {name: column[::FINE] for name, column in result.columns.items()}
+            self.results[level] = Simulation(z[::FINE], v[::FINE], **columns)
         return self.results[level]
 
     def late(self, values: Array, tau: float) -> Array:

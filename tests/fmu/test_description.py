@@ -1,5 +1,6 @@
 """What the FMU says about itself."""
 
+import re
 import zipfile
 from dataclasses import fields
 from pathlib import Path
@@ -7,13 +8,12 @@ from xml.etree import ElementTree as ET
 
 import fmpy
 import pytest
-from fmpy.validation import validate_fmu
 
 from twintube.core.effects import Parameters
+from twintube.core.units import UNITS
 from twintube.core.variables import Inputs, Outputs, fmi_name
-from twintube.dampers import load, names
+from twintube.dampers import load
 from twintube.fmu import BuildError, assemble, build_fmu
-from twintube.fmu.description import UNITS
 
 CONTRACT = (
     "stroke velocity force k_degr V1.oil V1.gas V1.foam V2.oil V2.gas V2.foam V3.oil V3.gas V3.foam force_fluid "
@@ -21,32 +21,26 @@ CONTRACT = (
 ).split()
 
 
-@pytest.mark.parametrize("name", names())
-def test_every_damper_builds_and_validates_without_a_message(name: str, tmp_path: Path) -> None:
-    fmu = build_fmu(load(name), tmp_path / "a.fmu", platforms=(fmpy.platform,))
-    assert validate_fmu(str(fmu)) == []
-    assert [p.name for p in tmp_path.iterdir()] == ["a.fmu"]
-
-
 def test_variables_have_units_bounds_and_descriptions(sa8_fmu: Path) -> None:
     description = fmpy.read_model_description(str(sa8_fmu))
-    found = {v.name: v for v in description.modelVariables}
-    assert set(CONTRACT) <= set(found)
-    assert {u.name for u in description.unitDefinitions} == set(UNITS)
+    described = {v.name: v for v in description.modelVariables}
+    assert set(CONTRACT) <= set(described)
+    defined = {u.name for u in description.unitDefinitions}
+    assert defined == {v.unit for v in description.modelVariables if v.unit} <= set(UNITS)
     for record in (Inputs, Outputs, Parameters):
         for item in fields(record):
             name = fmi_name(item) + ("[1]" if item.metadata["size"] > 1 else "")
-            variable, meta = found[name], item.metadata
+            variable, meta = described[name], item.metadata
             assert variable.description == meta["description"]
             assert variable.unit == (None if meta["unit"] == "1" else meta["unit"])
             assert len(name) <= 55  # Simulink
-            if meta["lower"] is not None:
+            if meta["lower"] is not None and name != "stroke":  # its bounds are those of the tube
                 assert float(variable.min) == meta["lower"]
             if record is Parameters:
                 assert variable.causality == "parameter"
                 assert variable.variability == ("tunable" if meta["tunable"] else "fixed")
-    assert float(found["oil_level"].start) == 1.0
-    assert float(found["geometry.D_li"].start) == pytest.approx(0.0298)
+    assert float(described["oil_level"].start) == 1.0
+    assert float(described["geometry.D_li"].start) == pytest.approx(0.0298)
 
 
 def test_outputs_do_not_feed_through(sa8_fmu: Path) -> None:
@@ -69,7 +63,7 @@ def test_page_icon_and_licence_travel_along(sa8_fmu: Path) -> None:
         assert archive.read("model.png").startswith(b"\x89PNG")
     assert "documentation/licenses/license.txt" in listed
     assert "assumed:" in page
-    assert "fv.v_re" in page
+    assert "fv.v_re" in page.replace("<wbr>", "")
     # Standard library only on the target: nothing of numpy or numba, no path of the machine that built it.
     with zipfile.ZipFile(sa8_fmu) as archive:
         for name in listed:
@@ -80,14 +74,21 @@ def test_page_icon_and_licence_travel_along(sa8_fmu: Path) -> None:
 
 
 def test_a_failed_build_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "file").write_text("")
-    with pytest.raises(OSError, match="file"):
-        build_fmu(load("SA8"), tmp_path / "file" / "a.fmu")
-
     def refuse(_: Path) -> None:
         raise BuildError("not valid")
 
     monkeypatch.setattr(assemble, "validated", refuse)
-    with pytest.raises(BuildError):
-        build_fmu(load("SA8"), tmp_path / "a.fmu")
-    assert [p.name for p in tmp_path.iterdir()] == ["file"]
+    with pytest.raises(BuildError, match="not valid"):
+        build_fmu(load("SA8"), tmp_path / "a.fmu", platforms=(fmpy.platform,))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_modelica_text_uses_names_of_the_fmu(sa8_fmu: Path) -> None:
+    text = (Path(__file__).parents[2] / "docs" / "TwinTube.mo").read_text(encoding="utf-8")
+    (model, modifiers), used = re.findall(r"(\w+)_fmu fmu\((.*?)\)", text, re.DOTALL)[0], re.findall(r"\bfmu\.(\w+)", text)
+    used += re.findall(r"(\w+) =", modifiers)
+    used.remove("fmi_CommunicationStepSize")  # of the importing tool
+    description = fmpy.read_model_description(str(sa8_fmu))
+    assert description.coSimulation.modelIdentifier == model
+    assert set(used) == {"stroke", "velocity", "force", "oil_level", "gas_preload"}
+    assert set(used) <= {v.name for v in description.modelVariables}

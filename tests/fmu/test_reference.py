@@ -10,13 +10,14 @@ from fmpy.util import read_csv
 from numpy.typing import NDArray
 
 from twintube.demo.damper_fmu import DamperFmu
+from twintube.fmu.related import FOLDER
 
 
 @pytest.fixture
 def run(sa8_fmu: Path, tmp_path: Path) -> tuple[NDArray[np.void], NDArray[np.void]]:
     """Input and reference, one row per communication point."""
     with zipfile.ZipFile(sa8_fmu) as archive:
-        files = [archive.extract(f"extra/twintube/{name}.csv", tmp_path) for name in ("input", "reference")]
+        files = [archive.extract(f"{FOLDER}/{name}.csv", tmp_path) for name in ("input", "reference")]
     given, expected = (read_csv(file) for file in files)
     assert (given["time"] == expected["time"]).all()
     return given, expected

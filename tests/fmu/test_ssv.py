@@ -1,6 +1,8 @@
 """Parameters as SSV: importers of SSP that are not ours run the FMU with them."""
 
+import re
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from xml.etree import ElementTree as ET
@@ -23,27 +25,9 @@ NS = {
     "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
     "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
 }
-SCHEMA = Path(fmpy.__file__).parent / "ssp" / "schema" / "SystemStructureParameterValues.xsd"
-STRUCTURE = """<?xml version="1.0" encoding="UTF-8"?>
-<ssd:SystemStructureDescription name="test" version="1.0"
-    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
-    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon">
-  <ssd:System name="rig">
-    <ssd:Elements>
-      <ssd:Component name="damper" type="application/x-fmu-sharedlibrary" source="resources/damper.fmu">
-        <ssd:Connectors>
-          <ssd:Connector name="stroke" kind="input"><ssc:Real unit="m"/></ssd:Connector>
-          <ssd:Connector name="velocity" kind="input"><ssc:Real unit="m/s"/></ssd:Connector>
-          <ssd:Connector name="force" kind="output"><ssc:Real unit="N"/></ssd:Connector>
-        </ssd:Connectors>
-        <ssd:ParameterBindings>
-          <ssd:ParameterBinding type="application/x-ssp-parameter-set" source="resources/worn.ssv"/>
-        </ssd:ParameterBindings>
-      </ssd:Component>
-    </ssd:Elements>
-  </ssd:System>
-</ssd:SystemStructureDescription>
-"""
+SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
+SCHEMA = SCHEMAS / "SystemStructureParameterValues.xsd"
+GUIDE = Path(__file__).parents[2] / "docs" / "import.md"
 # Another damper than the FMU's, in another condition: hardly a parameter is that of SA8.
 WORN = load("SA7").with_(oil_level=0.56, gas_preload=0)
 STROKE, VELOCITY, FORCE = 0, 1, 2  # value references, in the order of the variables
@@ -51,14 +35,20 @@ VELOCITIES = [0.4] * 100 + [-0.3] * 200 + [0.05] * 100
 STROKES = [sum(VELOCITIES[:i]) * 1e-3 for i in range(len(VELOCITIES))]
 
 
+def structure() -> str:
+    """The system that the guide prints."""
+    (text,) = re.findall(r"```xml\n(<\?xml.*?)```", GUIDE.read_text(encoding="utf-8"), re.DOTALL)
+    return str(text)
+
+
 @pytest.fixture
 def system(sa8_native: Path, tmp_path: Path) -> Path:
     """The folder of an SSP of the SA8 with the parameters of WORN."""
     folder = tmp_path / "ssp"
     (folder / "resources").mkdir(parents=True)
-    (folder / "SystemStructure.ssd").write_text(STRUCTURE)
+    (folder / "SystemStructure.ssd").write_text(structure())
     (folder / "resources" / "worn.ssv").write_text(to_ssv(WORN))
-    (folder / "resources" / "damper.fmu").write_bytes(sa8_native.read_bytes())
+    (folder / "resources" / "twintube_SA8.fmu").write_bytes(sa8_native.read_bytes())
     return folder
 
 
@@ -108,25 +98,44 @@ def test_libcosim_runs_the_fmu_with_the_parameters(system: Path, sa8_native: Pat
 def test_names_kinds_and_units_are_those_of_the_fmu(sa8_native: Path) -> None:
     description = fmpy.read_model_description(str(sa8_native))
     root = ET.fromstring(to_ssv(load("SA8")))
-    found = {}
+    written = {}
     for parameter in root.findall("ssv:Parameters/ssv:Parameter", NS):
         (number,) = parameter
-        found[parameter.get("name")] = (number.tag.partition("}")[2], number.get("unit"), float(number.get("value", "nan")))
-    assert found == {
+        written[parameter.get("name")] = (
+            number.tag.partition("}")[2],
+            number.get("unit"),
+            float(number.get("value", "nan")),
+        )
+    assert written == {
         v.name: (v.type, v.unit, float(v.start)) for v in description.modelVariables if v.causality == "parameter"
     }
     exponents = {unit.get("name"): dict(unit[0].attrib) for unit in root.findall("ssv:Units/ssc:Unit", NS)}
-    assert set(exponents) == {unit for _, unit, _ in found.values() if unit}
+    assert set(exponents) == {unit for _, unit, _ in written.values() if unit}
     for unit in description.unitDefinitions:
         if unit.name in exponents:
             powers = {base: int(power) for base, power in exponents[unit.name].items()}
             assert powers == {base: getattr(unit.baseUnit, base) for base in powers}
 
 
+def test_the_printed_system_is_valid_and_says_its_step_to_omsimulator() -> None:
+    root = etree.fromstring(structure().encode())
+    etree.XMLSchema(etree.parse(str(SCHEMAS / "SystemStructureDescription.xsd"))).assertValid(root)
+    spaces = {"ssc": NS["ssc"], "oms": root.nsmap["oms"]}
+    path = "//ssc:Annotation[@type='org.openmodelica']/oms:Annotations/oms:SimulationInformation/oms:FixedStepMaster"
+    (master,) = root.xpath(path, namespaces=spaces)
+    assert (master.get("description"), float(master.get("stepSize"))) == ("oms-ma", 0.001)
+
+
 @pytest.mark.parametrize("name", names())
 def test_ssv_is_valid(name: str) -> None:
     schema = etree.XMLSchema(etree.parse(str(SCHEMA)))
     schema.assertValid(etree.fromstring(to_ssv(load(name)).encode()))
+
+
+def test_control_characters_in_a_name_keep_the_text_well_formed() -> None:
+    odd = replace(load("SA8"), name='a\x00\x1b"<&>\ufffe', title="\ud800\n")
+    schema = etree.XMLSchema(etree.parse(str(SCHEMA)))
+    schema.assertValid(etree.fromstring(to_ssv(odd).encode()))
 
 
 def test_command_writes_the_parameters(tmp_path: Path) -> None:
@@ -153,5 +162,5 @@ def test_command_keeps_the_condition_of_a_file_and_refuses_bad_values(tmp_path: 
     assert oil.get("value") == "0.7"
     bad = CliRunner().invoke(app, ["ssv", "SA7", "--oil-level", "1.7", "--output", str(tmp_path / "bad.ssv")])
     assert bad.exit_code == 2
-    assert "oil_level = 1.7 1: must be a number from 0 to 1" in bad.output
+    assert "oil_level = 1.7: must be a number from 0 to 1" in bad.output
     assert not (tmp_path / "bad.ssv").exists()

@@ -9,8 +9,8 @@ from scipy.ndimage import uniform_filter1d
 from tests.diagnosis.test_signature import AMPLITUDE, bench, changed
 from twintube.data import Record
 from twintube.diagnosis.signature import oscillating
+from twintube.fitting.averaging import averaged, averaged_means, averaging, period, through
 from twintube.identification import Harmonic
-from twintube.identification.averaging import averaged, averaged_means, averaging, period, through
 from twintube.lab.blind_trials.trials import dataset, trial
 
 SMALL = 0.02  # [m] amplitude
@@ -30,11 +30,11 @@ def smoothed(records: list[Record], share: float = 0.0, samples: int = 0) -> lis
 
 @pytest.mark.parametrize("noise", [0.002, 0.01])
 @pytest.mark.parametrize("share", [0.07, 0.1, 0.15])
-def test_the_share_is_found(noise: float, share: float) -> None:
-    found = averaging(blocks(smoothed(bench(noise, 1, slow=SMALL), share)))
-    assert found is not None
-    assert found.share == pytest.approx(share, rel=0.04)
-    assert "smoothed after the measurement" in found.text
+def test_the_share_is_recognised(noise: float, share: float) -> None:
+    seen = averaging(blocks(smoothed(bench(noise, 1, slow=SMALL), share)))
+    assert seen is not None
+    assert seen.share == pytest.approx(share, rel=0.04)
+    assert "smoothed after the measurement" in seen.text
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.005, 0.03])
@@ -49,14 +49,14 @@ def test_a_filter_of_the_amplifier_is_something_else() -> None:
     assert averaging(blocks(records)) is None
 
 
-def test_records_of_one_velocity_do_not_tell() -> None:
+def test_records_of_a_single_velocity_do_not_show_it() -> None:
     """A knee of the F-v curve is at the same phase in all of them."""
     records = [replace(r, name=f"{r.name}_{i}") for i, r in enumerate([bench(0.002, 1)[2]] * 4)]
     assert averaging(blocks(smoothed(records, 0.1))) is None
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_spring_that_touches_at_one_phase_is_not_taken_for_it(side: float) -> None:
+def test_a_spring_that_touches_at_a_fixed_phase_is_not_taken_for_it(side: float) -> None:
     """At one amplitude a stop makes zeros at the same harmonics at every velocity; at two it does not touch at one phase."""
     for slow, onset in ((AMPLITUDE, 0.8 * AMPLITUDE), (SMALL, 0.8 * SMALL)):
         some = changed(
@@ -94,7 +94,7 @@ def test_means_of_intervals_are_those_of_the_mean() -> None:
 
 def test_every_record_gets_its_own_length() -> None:
     some = blocks(smoothed(bench(0.002, 1, slow=SMALL), 0.1))
-    found = averaging(some)
-    assert found is not None
-    for block in through(some, found):
-        assert block.averaged == pytest.approx(found.share * period(block))
+    seen = averaging(some)
+    assert seen is not None
+    for block in through(some, seen):
+        assert block.averaged == pytest.approx(seen.share * period(block))

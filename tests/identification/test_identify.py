@@ -10,8 +10,8 @@ from twintube.arrays import Array
 from twintube.dampers import Damper, load
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
 from twintube.engine.simulate import InputError
+from twintube.fitting.parameters import TABLE_6
 from twintube.identification import METHODS, Harmonic, Objective, minimise
-from twintube.identification.objective import TABLE_6
 from twintube.rig.signals import BLOCKS
 
 
@@ -37,24 +37,24 @@ def test_swarm_of_the_paper_recovers_table_6(basic: Damper, records: list[Harmon
     """Equation 42 with 48 particles and 100 iterations: what the data determine comes back."""
     objective = Objective(basic.with_(X_Re=0.5, X_Co1=0.5, X_Co2=0.5, G_PV=0.5), TABLE_6, records, with_work=False)
     best = minimise(objective, objective.bounds, population=48, generations=100, seed=1)
-    found = dict(zip(TABLE_6, best.x, strict=True))
+    values = dict(zip(TABLE_6, best.x, strict=True))
     p = basic.parameters
     assert best.evaluations == 4800
-    assert found["X_Re"] == pytest.approx(p.X_Re, abs=0.02)
-    assert found["X_Co1"] == pytest.approx(p.X_Co1, abs=0.02)
+    assert values["X_Re"] == pytest.approx(p.X_Re, abs=0.02)
+    assert values["X_Co1"] == pytest.approx(p.X_Co1, abs=0.02)
     # Equation 29 shows only X_Co2 + G_PV (1 - X_Co2) in the force; the flow tells the two apart less sharply.
     k = p.X_Co2 + p.G_PV * (1 - p.X_Co2)
-    assert found["X_Co2"] + found["G_PV"] * (1 - found["X_Co2"]) == pytest.approx(k, abs=0.02)
+    assert values["X_Co2"] + values["G_PV"] * (1 - values["X_Co2"]) == pytest.approx(k, abs=0.02)
     assert np.all(np.diff(best.trace) <= 0)
 
 
 def test_thinner_sampling_does_not_move_the_optimum(basic: Damper, records: list[Harmonic]) -> None:
-    found = []
+    optima = []
     for samples in (64, 256):
         objective = Objective(basic, TABLE_6, records, with_work=False, samples=samples)
-        found.append(minimise(objective, objective.bounds, method="cma", population=12, generations=60, seed=1).x)
-    k = [x[4] + x[2] * (1 - x[4]) for x in found]
-    assert found[0][0] == pytest.approx(found[1][0], abs=0.02)
+        optima.append(minimise(objective, objective.bounds, method="cma", population=12, generations=60, seed=1).x)
+    k = [x[4] + x[2] * (1 - x[4]) for x in optima]
+    assert optima[0][0] == pytest.approx(optima[1][0], abs=0.02)
     assert k[0] == pytest.approx(k[1], abs=0.02)
 
 

@@ -5,21 +5,21 @@ import pytest
 
 from twintube.dampers import Damper, load, names
 from twintube.engine.simulate import InputError, simulate
+from twintube.fitting.harmonic import Harmonic
 from twintube.identification.intact import identify_intact, quasi_static
-from twintube.identification.objective import Harmonic
 from twintube.rig.plan import quasi_static as ramp
 from twintube.rig.signals import BLOCKS, harmonic_block
 
 
 def intact_records(damper: Damper, noise: float) -> list[Harmonic]:
     rng = np.random.default_rng(1)
-    found = []
+    blocks = []
     for v in BLOCKS:
         block = harmonic_block(v, dt=4e-4)
         force = simulate(damper, block.stroke, block.velocity).force
         force = force + rng.normal(0, noise * np.abs(force).max(), len(force))
-        found.append(Harmonic(1.0, 1, block.time, block.stroke, block.velocity, force, block.marks))
-    return found
+        blocks.append(Harmonic(1.0, 1, block.time, block.stroke, block.velocity, force, block.marks))
+    return blocks
 
 
 @pytest.mark.parametrize("name", names())
@@ -30,15 +30,15 @@ def test_curve_friction_and_gas_spring_come_back(name: str) -> None:
     records = intact_records(truth, noise=0.01)
     other = {"F_FrS": 10.0, "F_0": 1.0, "c_gas": 1.0, "sigma_0": 1e4, "v_re": load("SA1").parameters.v_re,
              "F_re": [2 * F for F in load("SA1").parameters.F_re]}  # fmt: skip
-    found = identify_intact(truth.with_(**other), slow, records).parameters
+    identified = identify_intact(truth.with_(**other), slow, records).parameters
     p = truth.parameters
-    assert found.F_FrS == pytest.approx(p.F_FrS, rel=0.03)
-    assert pytest.approx(p.F_0, abs=2.0) == found.F_0
-    assert found.c_gas == pytest.approx(p.c_gas, rel=0.02)
-    assert found.sigma_0 == pytest.approx(p.sigma_0, rel=0.15)
+    assert identified.F_FrS == pytest.approx(p.F_FrS, rel=0.03)
+    assert pytest.approx(p.F_0, abs=2.0) == identified.F_0
+    assert identified.c_gas == pytest.approx(p.c_gas, rel=0.02)
+    assert identified.sigma_0 == pytest.approx(p.sigma_0, rel=0.15)
     for v in BLOCKS:
         for speeds, forces, true_speeds, true_forces in (
-            (found.v_re, found.F_re, p.v_re, p.F_re), (found.v_co, found.F_co, p.v_co, p.F_co)
+            (identified.v_re, identified.F_re, p.v_re, p.F_re), (identified.v_co, identified.F_co, p.v_co, p.F_co)
         ):  # fmt: skip
             expected = np.interp(v, [0, *true_speeds], [0, *true_forces])
             assert np.interp(v, [0, *speeds], [0, *forces]) == pytest.approx(expected, rel=0.02, abs=5.0)
@@ -48,8 +48,8 @@ def test_intact_identification_predicts_a_held_out_block() -> None:
     truth = load("SA7")
     records = intact_records(truth, noise=0.01)
     held_out = records.pop(4)
-    found = identify_intact(truth, None, records)
-    predicted = simulate(found, held_out.stroke, held_out.velocity).force
+    damper = identify_intact(truth, None, records)
+    predicted = simulate(damper, held_out.stroke, held_out.velocity).force
     rmse = np.sqrt(np.mean((predicted - held_out.force) ** 2))
     assert rmse < 0.06 * np.abs(held_out.force).max()
 

@@ -10,8 +10,8 @@ from tests.data.test_formats import MAPPING, REAL
 from twintube.dampers import Damper, load, to_toml
 from twintube.data import LoadedDataset, load_dataset
 from twintube.diagnosis.engine import diagnose
+from twintube.fitting.averaging import asked, averaging, through
 from twintube.identification import Harmonic, harmonic, identify_dataset
-from twintube.identification.averaging import asked, averaging, through
 from twintube.identification.sines import identify_sines
 from twintube.identification.validation import predicted
 
@@ -39,10 +39,10 @@ def measured(tmp_path: Path, source: str, damper: Damper) -> LoadedDataset:
     """
     pattern, head = {"mr_maurel": ("*.txt", COLUMNS), "mr_labcontrol": ("*.mat", MAPPING + TURNED)}[source]
     files = sorted((REAL / source).glob(pattern))
-    found = written(tmp_path, source, damper, head, dict.fromkeys(files, 0.0))
+    dataset = written(tmp_path, source, damper, head, dict.fromkeys(files, 0.0))
     if source == "mr_maurel":
-        return found
-    middles = {file: (r.stroke.min() + r.stroke.max()) / 2 for file, r in zip(files, found.records, strict=True)}
+        return dataset
+    middles = {file: (r.stroke.min() + r.stroke.max()) / 2 for file, r in zip(files, dataset.records, strict=True)}
     return written(tmp_path, source, damper, head, middles)
 
 
@@ -65,12 +65,12 @@ def wide() -> Damper:
 
 def held_out_errors(damper: Damper, records: list[Harmonic]) -> list[float]:
     """Force error [N] of each record, predicted from the others."""
-    found = []
+    errors = []
     for i, record in enumerate(records):
         fit = identify_sines(damper, [other for j, other in enumerate(records) if j != i])
         a, b = record.marks[0], record.marks[-1]
-        found.append(rms((predicted(fit.damper, record, fit.offset) - record.force)[a:b]))
-    return found
+        errors.append(rms((predicted(fit.damper, record, fit.offset) - record.force)[a:b]))
+    return errors
 
 
 needs_real = pytest.mark.skipif(not REAL.is_dir(), reason="no measured data beside the repository")
@@ -94,17 +94,17 @@ def test_held_out_records_are_predicted(tmp_path: Path, source: str, record_prop
 
 
 @needs_real
-def test_the_smoothing_of_a_source_is_found_and_helps_where_nothing_was_fitted(
+def test_the_smoothing_of_a_source_is_recognised_and_helps_where_nothing_was_fitted(
     tmp_path: Path, record_property: Callable[[str, object], None]
 ) -> None:
     """Its force is a moving mean over a tenth of each oscillation, from 0.1 to 3 Hz alike."""
     dataset = measured(tmp_path, "mr_maurel", wide())
     records = [harmonic(record) for record in dataset.records]
-    found = averaging(records)
-    assert found is not None and found.seen == found.of >= 4
+    mean = averaging(records)
+    assert mean is not None and mean.seen == mean.of >= 4
     shares = [one[0] for one in map(asked, records) if one is not None]
     assert np.ptp(shares) < 0.05 * np.mean(shares)
-    plain, seen = (held_out_errors(dataset.damper, some) for some in (records, through(records, found)))
+    plain, seen = (held_out_errors(dataset.damper, some) for some in (records, through(records, mean)))
     record_property("held_out_rms_N", (plain, seen))
     assert np.mean(np.square(seen)) < 0.85 * np.mean(np.square(plain))
 
@@ -114,6 +114,6 @@ def test_the_smoothing_of_a_source_is_found_and_helps_where_nothing_was_fitted(
 def test_diagnosis_of_real_dampers(tmp_path: Path, source: str, verdict: str) -> None:
     identified = identify_dataset(measured(tmp_path, source, wide())).identification.damper
     measured(tmp_path, source, identified)
-    found = diagnose(tmp_path)
-    assert found.verdict == verdict
-    assert ("force_averaging" in [cause.effect for cause in found.causes]) == (source == "mr_maurel")
+    answer = diagnose(tmp_path)
+    assert answer.verdict == verdict
+    assert ("force_averaging" in [cause.effect for cause in answer.causes]) == (source == "mr_maurel")

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +16,13 @@ from typer.testing import CliRunner
 from benchmarks.identify import records_of
 from twintube.cli import app
 from twintube.dampers import Damper, load, to_toml
-from twintube.data import Record
+from twintube.data import DataError, Record
 from twintube.engine.simulate import InputError, simulate
-from twintube.identification import PAPER, QUICK, Budget, harmonic, identify_damper
-from twintube.identification.oscillations import beginnings
+from twintube.fitting.oscillations import beginnings
+from twintube.fitting.parameters import TABLE_6
+from twintube.identification import PAPER, QUICK, Budget, Harmonic, Objective, harmonic, identify, identify_damper, workflow
 from twintube.identification.sines import identify_sines, saturation
+from twintube.provenance import files
 from twintube.rig.plan import quasi_static
 from twintube.rig.signals import BLOCKS, harmonic_block
 
@@ -34,7 +37,7 @@ def measured(time: np.ndarray, stroke: np.ndarray, force: np.ndarray | None = No
     )  # fmt: skip
 
 
-def test_block_is_found_behind_preconditioning_and_rest() -> None:
+def test_block_is_located_behind_preconditioning_and_rest() -> None:
     """Six slow oscillations, a rest, 19 fast ones, a rest, five slow ones; noise and an offset of the stroke."""
     rng = np.random.default_rng(0)
     dt, A = 2e-3, 0.045
@@ -42,19 +45,19 @@ def test_block_is_found_behind_preconditioning_and_rest() -> None:
     rest = np.zeros(5000)
     stroke = A * np.concatenate([np.sin(slow), rest, np.sin(fast), rest, np.sin(slow)])
     stroke = stroke + 0.002 + rng.normal(0, 5e-6, len(stroke))
-    found = harmonic(measured(np.arange(len(stroke)) * dt, stroke))
-    assert len(found.marks) == 20
-    assert found.top_speed == pytest.approx(0.524, rel=0.01)
+    block = harmonic(measured(np.arange(len(stroke)) * dt, stroke))
+    assert len(block.marks) == 20
+    assert block.top_speed == pytest.approx(0.524, rel=0.01)
     begins = (len(slow) + len(rest)) * dt
-    assert found.time[found.marks[0]] == pytest.approx(begins, abs=0.02)
-    assert found.time[-1] == pytest.approx(begins + len(fast) * dt, abs=0.02)
-    assert len(found.time) < len(slow) + len(fast) + 1500  # the rest before keeps little more than its ends
+    assert block.time[block.marks[0]] == pytest.approx(begins, abs=0.02)
+    assert block.time[-1] == pytest.approx(begins + len(fast) * dt, abs=0.02)
+    assert len(block.time) < len(slow) + len(fast) + 1500  # the rest before keeps little more than its ends
 
 
-def test_a_record_of_one_velocity_is_all_measured() -> None:
+def test_a_record_of_a_single_velocity_is_all_measured() -> None:
     t = np.arange(0, 10.001, 0.002)
-    found = harmonic(measured(t, 0.02 * np.sin(2 * np.pi * t)))
-    assert len(found.marks) == 11
+    block = harmonic(measured(t, 0.02 * np.sin(2 * np.pi * t)))
+    assert len(block.marks) == 11
 
 
 def test_no_oscillation_is_refused() -> None:
@@ -67,8 +70,8 @@ def test_no_oscillation_is_refused() -> None:
 def test_friction_of_sines_is_the_kernel_s() -> None:
     damper = load("SA7").with_(k_high=1.0, F_FrS=40.0, sigma_0=4e4, delta_D=1.0)
     block = harmonic_block(0.05)
-    found = simulate(damper, block.stroke, block.velocity)
-    assert 40.0 * saturation(block.stroke, 1e-3) == pytest.approx(found.F_friction, abs=1e-6)
+    result = simulate(damper, block.stroke, block.velocity)
+    assert 40.0 * saturation(block.stroke, 1e-3) == pytest.approx(result.F_friction, abs=1e-6)
 
 
 def test_sines_alone_give_an_intact_damper_that_predicts() -> None:
@@ -84,8 +87,8 @@ def test_sines_alone_give_an_intact_damper_that_predicts() -> None:
     held_out = records.pop(3)
     other = truth.with_(F_FrS=5.0, c_gas=1.0, F_0=0.0, F_re=[2 * F for F in truth.parameters.F_re])
     fit = identify_sines(other, records)
-    found = simulate(fit.damper, held_out.stroke, held_out.velocity).force
-    assert np.sqrt(np.mean((found - held_out.force) ** 2)) < 0.04 * np.abs(held_out.force).max()
+    force = simulate(fit.damper, held_out.stroke, held_out.velocity).force
+    assert np.sqrt(np.mean((force - held_out.force) ** 2)) < 0.04 * np.abs(held_out.force).max()
     assert fit.offset == 0.0
     assert pytest.approx(truth.parameters.F_0, abs=0.05 * truth.parameters.F_0 + 10) == fit.damper.parameters.F_0
 
@@ -143,6 +146,32 @@ def command(bench: Path, output: Path) -> list[str]:
     return [sys.executable, "-m", "twintube.cli", "identify", str(bench), "--output", str(output), "--quick"]
 
 
+class BrokenOffError(Exception):
+    """Ends a run in the middle."""
+
+
+def test_a_broken_off_run_goes_on_and_ends_the_same(bench: Path, tmp_path: Path) -> None:
+    tiny = Budget((8, 3), (12, 3), (8, 3), (32, 3))
+    whole = identify(bench, budget=tiny, journal=tmp_path / "whole").identification
+    calls: list[str] = []
+
+    def breaking(title: str, error: float) -> None:
+        calls.append(title)
+        if len(calls) == 8:
+            raise BrokenOffError
+
+    with pytest.raises(BrokenOffError):
+        identify(bench, budget=tiny, journal=tmp_path / "broken", progress=breaking)
+    kept = [path.read_text() for path in sorted((tmp_path / "broken").glob("*.jsonl"))]
+    assert any(kept)
+    again = identify(bench, budget=tiny, journal=tmp_path / "broken").identification
+    assert again.damper.parameters == whole.damper.parameters
+    assert again.estimates == whole.estimates
+    resumed = [path.read_text() for path in sorted((tmp_path / "broken").glob("*.jsonl"))]
+    assert all(new.startswith(old) for old, new in zip(kept, resumed, strict=False))
+
+
+@pytest.mark.slow
 def test_command_identifies_and_a_killed_run_ends_the_same(bench: Path, tmp_path: Path) -> None:
     whole, killed = tmp_path / "whole", tmp_path / "killed"
     done = subprocess.run(command(bench, whole), capture_output=True, text=True, check=True)
@@ -159,8 +188,8 @@ def test_command_identifies_and_a_killed_run_ends_the_same(bench: Path, tmp_path
     for name in ("identified.toml", "identification.json"):
         assert (killed / name).read_text() == (whole / name).read_text()
     assert not journal.exists()
-    found = json.loads((whole / "identification.json").read_text())
-    assert found["heldout"]["work_error_first"] < 0.05
+    summary = json.loads((whole / "identification.json").read_text())
+    assert summary["heldout"]["work_error_first"] < 0.05
     damper = load(whole / "identified.toml")
     assert damper.parameters.F_FrS == pytest.approx(25.0, rel=0.1)
     assert "identified from 'Bench'" in damper.sources["degradation"]
@@ -170,8 +199,42 @@ def test_command_identifies_and_a_killed_run_ends_the_same(bench: Path, tmp_path
     assert "held out" in page
 
 
-def test_bad_input_is_one_line(bench: Path, tmp_path: Path) -> None:
+def test_bad_input_gives_a_single_line(bench: Path, tmp_path: Path) -> None:
     result = CliRunner().invoke(app, ["identify", str(bench), "--output", str(tmp_path / "x"), "--method", "pos"])
     assert result.exit_code == 2
     assert "--method pos: must be one of pso, cma, de" in result.output
     assert not (tmp_path / "x").exists()
+
+
+def test_a_folder_is_identified_by_the_public_function(bench: Path, tmp_path: Path) -> None:
+    """Of the intact records alone, which need no search."""
+    head, *records = (bench / "dataset.toml").read_text().split("[[record]]\n")
+    for file in bench.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    (tmp_path / "dataset.toml").write_text("[[record]]\n".join([head, *(r for r in records if "preload = true" in r)]))
+    result = identify(tmp_path, budget=QUICK, seed=3)
+    assert result.identification.damper.parameters.F_FrS == pytest.approx(25.0, rel=0.1)
+    assert result.identification.steps == []
+    assert "only the intact damper is identified" in result.remarks[-1]
+    with pytest.raises(DataError, match=r"dataset\.toml"):
+        identify(tmp_path / "nowhere")
+
+
+def test_a_run_resumed_after_an_upgrade_uses_no_value_of_the_former_program(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    damper, block = load("SA7"), harmonic_block(0.524)
+    record = Harmonic(0.6, 0, block.time, block.stroke, block.velocity, 900 * block.velocity, block.marks)
+    records = [record, replace(record, oil_level=0.5)]
+    objective = Objective(damper, TABLE_6, records, with_work=False)
+    before = workflow.journal_file(tmp_path, 0, objective)
+    assert workflow.journal_file(tmp_path, 0, Objective(damper, TABLE_6, records, with_work=False)) == before
+    assert workflow.journal_file(tmp_path, 0, Objective(damper, TABLE_6, records[:1], with_work=False)) != before
+    monkeypatch.setattr(workflow, "fingerprint", lambda module: f"other equations of {module}")
+    assert workflow.journal_file(tmp_path, 0, objective) != before
+    assert workflow.journal_file(None, 0, objective) is None
+
+
+def test_the_fingerprint_of_the_workflow_covers_the_equations() -> None:
+    names = {path.name for path in files("twintube.identification.workflow")}
+    assert {"model.py", "forces.py", "loops.py", "simulation.py", "objective.py", "uncertainty.py"} <= names

@@ -72,7 +72,7 @@ static const struct {
     ROW(SetString, ALWAYS, fmi2Error), ROW(GetFMUstate, ALWAYS, fmi2Error), ROW(SetFMUstate, ALWAYS, fmi2Error),
     ROW(SerializedFMUstateSize, ALWAYS, fmi2Error), ROW(SerializeFMUstate, ALWAYS, fmi2Error),
     ROW(DeSerializeFMUstate, ALWAYS, fmi2Error), ROW(FreeFMUstate, ALWAYS, fmi2Error),
-    ROW(GetDirectionalDerivative, ALWAYS, fmi2Error), ROW(SetRealInputDerivatives, SECOND | THIRD, fmi2Error),
+    ROW(GetDirectionalDerivative, ALWAYS, fmi2Error), ROW(SetRealInputDerivatives, ALWAYS & ~LAST, fmi2Error),
     ROW(GetRealOutputDerivatives, ALWAYS, fmi2Error), ROW(GetRealStatus, ALWAYS, fmi2Error),
     ROW(GetBooleanStatus, ALWAYS, fmi2Error), ROW(GetStatus, 0, fmi2Discard), ROW(GetIntegerStatus, 0, fmi2Discard),
     ROW(GetStringStatus, 0, fmi2Discard), ROW(DoStep, THIRD, fmi2Error), ROW(CancelStep, 0, fmi2Error),
@@ -265,13 +265,11 @@ static void steps(enum set which)
         before = taken(&i), after = taken(&undisturbed);
         CHECK(same(&before, &after), "step %ld differs after refused ones", k);
         if (k % 10 == 7) {
-            /* Importers' rounding leaves steps of 1e-16 s; where a far shorter one is refused, nothing has changed. */
+            /* Importers' rounding leaves steps of 1e-16 s. */
             const double h_small[] = {0.0, 1e-16, 1e-300, 5e-324};
             const fmi2Status status = fmu.DoStep(i.c, t + STEP, h_small[k / 10 % 4], fmi2True);
             CHECK(status == fmu.DoStep(undisturbed.c, t + STEP, h_small[k / 10 % 4], fmi2True), "%s", i.text);
-            CHECK(status <= fmi2Warning || k / 10 % 4 > 1, "%s", i.text);
-            before = taken(&i);
-            CHECK(sound(&i) && (status <= fmi2Warning || same(&before, &after)), "step %ld", k);
+            CHECK(status <= fmi2Warning && sound(&i), "step %ld: %s", k, i.text);
         }
     }
     fmu.FreeInstance(i.c);

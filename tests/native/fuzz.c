@@ -116,9 +116,13 @@ static void renewed(struct slot *s)
 /* The same step by the instance and by its twin, which takes the state from before the refused step. */
 static void compared(struct slot *s, fmi2FMUstate before_step)
 {
+    const fmi2Integer first = 1;
+    const double none = 0.0;
     double moved[2] = {s->z, drawn(2) ? 0.3 : 0.0}, time, mine[32], other[32];
     fmi2Status status;
     CHECK(fmu.SetFMUstate(twin.c, before_step) == fmi2OK, "%s", twin.text);
+    /* An attempt uses up the input derivative. */
+    CHECK(fmu.SetRealInputDerivatives(twin.c, &MOTION[1], 1, &first, &none) == fmi2OK, "%s", twin.text);
     CHECK(fmu.SetReal(s->i.c, MOTION, 2, moved) == fmi2OK, "%s", s->i.text);
     CHECK(fmu.SetReal(twin.c, MOTION, 2, moved) == fmi2OK, "%s", twin.text);
     CHECK(fmu.GetRealStatus(s->i.c, fmi2LastSuccessfulTime, &time) == fmi2OK, "%s", s->i.text);
@@ -209,6 +213,41 @@ static void values(struct slot *s)
     }
 }
 
+/* A state with changed bytes and the right sum: refused, or its instance goes on with numbers. */
+static void forged(const fmi2Byte *bytes, size_t size)
+{
+    static fmi2Byte copy[16384];
+    fmi2FMUstate state = NULL;
+    const double moved[2] = {0.0, uniform(-1.0, 1.0)};
+    double number, values[32], time;
+    memcpy(copy, bytes, size);
+    for (uint64_t k = 0; k <= drawn(3); k++) {
+        const size_t at = HEADER + drawn((size - HEADER) / 8) * 8;
+        number = any_number();
+        if (drawn(3))
+            memcpy(copy + at, &number, sizeof number);
+        else
+            copy[at + drawn(8)] ^= (fmi2Byte)(1 << drawn(8));
+    }
+    sign(copy, size);
+    calls++;
+    if (fmu.DeSerializeFMUstate(twin.c, copy, size, &state) != fmi2OK) {
+        CHECK(state == NULL, "a state of refused bytes");
+        refused++;
+        return;
+    }
+    CHECK(fmu.SetFMUstate(twin.c, state) == fmi2OK && fmu.FreeFMUstate(twin.c, &state) == fmi2OK, "%s", twin.text);
+    fmu.SetReal(twin.c, MOTION, 2, moved);
+    for (int k = 0; k < 3; k++) {
+        CHECK(fmu.GetRealStatus(twin.c, fmi2LastSuccessfulTime, &time) == fmi2OK, "%s", twin.text);
+        fmu.DoStep(twin.c, time, 1e-3, fmi2True);
+        if (get_outputs(&twin, values) == fmi2OK) {
+            for (size_t i = 0; i < outputs; i++)
+                CHECK(values[i] - values[i] == 0.0, "%s = %g after a forged state", VARIABLE[output[i]].name, values[i]);
+        }
+    }
+}
+
 /* States go from instance to instance as bytes, some of them broken. */
 static void kept(struct slot *s)
 {
@@ -224,6 +263,9 @@ static void kept(struct slot *s)
     case 3: TRY(fmu.SerializedFMUstateSize(s->i.c, *state, drawn(30) ? &size : NULL)); break;
     default:
         TRY(fmu.SerializeFMUstate(s->i.c, *state, bytes, drawn(4) ? sizeof bytes : drawn(sizeof bytes)));
+        if (status == fmi2OK && fmu.SerializedFMUstateSize(s->i.c, *state, &size) == fmi2OK)
+            forged(bytes, size);
+        size = sizeof bytes;
         if (drawn(4) == 0)
             bytes[drawn(4000)] ^= (fmi2Byte)(1 << drawn(8));
         s = &slots[drawn(SLOTS)];
@@ -268,8 +310,6 @@ int main(int n, char **argument)
     const time_t end = time(NULL) + (n > 1 ? atol(argument[1]) : 1);
     randomness = n > 2 ? strtoull(argument[2], NULL, 10) * 2 + 1 : 1;
     which = n > 3 && !strcmp(argument[3], "extended") ? EXTENDED : DEGRADED;
-    /* Oil that is far colder than that of the F-v curve makes the force e^2 times as large. */
-    largest = which == EXTENDED ? exp(2.0) : 1.0;
     load(NULL);
     open_instance(&twin);
     for (int k = 0; k < SLOTS; k++)

@@ -1,4 +1,4 @@
-/* A host for the damper's FMU in plain C: host LIBRARY speed N | state SEED | threads N | abuse | leak
+/* A host for the damper's FMU in plain C: host LIBRARY speed N | state SEED | threads N | abuse | forged | leak
 
    Ends with 1 and a message where something is not as it must be. */
 #include <pthread.h>
@@ -7,6 +7,7 @@
 
 #include "fmu.h"
 
+#include "forged.h"
 #include "values.h"
 
 #define RUN 4000 /* steps of an instance in a thread */
@@ -222,7 +223,7 @@ int main(int n, char **argument)
 {
     const char *command = n > 2 ? argument[2] : "";
     const long number = n > 3 ? atol(argument[3]) : 0;
-    CHECK(n > 2, "host LIBRARY speed N | state SEED | threads N | abuse | leak");
+    CHECK(n > 2, "host LIBRARY speed N | state SEED | threads N | abuse | forged | leak");
     load(argument[1]);
     if (!strcmp(command, "speed") && number > 0)
         speed(number);
@@ -232,6 +233,8 @@ int main(int n, char **argument)
         threads((int)number);
     else if (!strcmp(command, "abuse"))
         abuse();
+    else if (!strcmp(command, "forged"))
+        forged_states();
     else if (!strcmp(command, "leak"))
         leak();
     else

@@ -45,7 +45,7 @@ def test_a_million_steps_take_no_memory(host: list[str]) -> None:
     assert int(done.stderr) < 512  # kB; one byte per step would be 1000, reading it makes some
 
 
-@pytest.mark.parametrize("command", ["state 1", "state 2", "threads 6", "abuse", "leak"])
+@pytest.mark.parametrize("command", ["state 1", "state 2", "threads 6", "abuse", "forged", "leak"])
 def test_host(host: list[str], command: str) -> None:
     """Restored, serialised and parallel instances agree to the bit; refused calls change nothing; nothing leaks."""
     run(host, *command.split())

@@ -77,7 +77,7 @@ def fuzz(compiler: str, folder: Path) -> Path:
     return program(compiler, folder, "fuzz")
 
 
-@pytest.mark.parametrize("command", ["abuse", "state 3", "threads 4", "leak"])
+@pytest.mark.parametrize("command", ["abuse", "forged", "state 3", "threads 4", "leak"])
 def test_host(host: Path, command: str) -> None:
     run([host, "sources", *command.split()])
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import fmpy
 import pytest
+import typer
 from typer.testing import CliRunner
 
 from twintube.cli import app
@@ -13,24 +14,7 @@ from twintube.cli import app
 RUNNER = CliRunner()
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        "dampers",
-        "simulate",
-        "claims",
-        "calibrate",
-        "variables",
-        "readings",
-        "rig",
-        "check",
-        "study",
-        "identify",
-        "reproduce",
-        "ride",
-        "ssv",
-    ],
-)
+@pytest.mark.parametrize("command", sorted(typer.main.get_command(app).commands))  # type: ignore[attr-defined]
 def test_help_has_an_example(command: str) -> None:
     run = RUNNER.invoke(app, [command, "--help"])
     assert run.exit_code == 0
@@ -69,11 +53,14 @@ def test_simulate_a_record(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("time [s],stroke [mm]\n0,1\n1,x\n", "in.csv: row 3, column stroke: 'x' is no finite number"),
-        ("time [s],stroke [mm]\n0,1\n1,nan\n", "in.csv: row 3, column stroke: 'nan' is no finite number"),
-        ("time [s],stroke [mm]\n0,1\n0,2\n", "in.csv: row 3, column time: 0 s is not after the row before"),
-        ("time [s],stroke [N]\n0,1\n1,2\n", "in.csv: row 1, column 'stroke [N]'"),
-        ("time [s],strok [mm]\n0,1\n1,2\n", "in.csv: row 1: no column 'stroke [m]'"),
+        ("time [s],stroke [mm]\n0,1\n1,x\n", "in.csv: row 3, column 'stroke [mm]': 'x' is not a finite number"),
+        ("time [s],stroke [mm]\n0,1\n1,nan\n", "in.csv: row 3, column 'stroke [mm]': 'nan' is not a finite number"),
+        ("time [s],stroke [mm]\n0,1\n0,2\n", "in.csv: row 3, column 'time [s]': 0 s is not after the row before"),
+        ("time [s],stroke [N]\n0,1\n1,2\n", "in.csv: column 'stroke [N]': unit 'N' is not a unit of stroke"),
+        (
+            "time [s],strok [mm]\n0,1\n1,2\n",
+            "in.csv: column 'stroke': no column 'stroke [mm]' among time [s], strok [mm], did you mean strok?",
+        ),
         ("time [s],stroke [mm]\n0,1\n1,200\n", "sample 1: stroke = 0.2 m: must be a number from -0.1"),
         ("", "in.csv: the file is empty"),
     ],
@@ -93,18 +80,18 @@ def test_bad_records(tmp_path: Path, text: str, message: str) -> None:
     ("arguments", "message"),
     [
         (["simulate", "SA9"], "error: unknown damper SA9"),
-        (["simulate", "SA8", "--oil-level", "1.7"], "error: SA8: oil_level = 1.7 1: must be a number from 0 to 1"),
+        (["simulate", "SA8", "--oil-level", "1.7"], "error: SA8: oil_level = 1.7: must be a number from 0 to 1"),
         (["simulate", "SA8", "--velocity", "nan"], "error: velocity = nan m/s"),
         (["simulate", "SA8", "--amplitude-mm", "200"], "stroke = "),
         (
             ["claims", "--reading", "leaks=1"],
             "error: --reading leaks=1: must be NAME=NUMBER with a name of leak_carries_oil",
         ),
-        (["reproduce", "--figure", "99"], "error: figure 99: a model can produce 3, 5"),
+        (["reproduce", "--figure", "99"], "error: figure 99: must be one of 3, 5"),
         (["reproduce", "--processes", "0"], "error: processes = 0: must be at least 1"),
         (["reproduce", "--figure", "18", "--output", "/dev/null/x"], "error: "),
         (["identify", "nowhere"], "error: "),
-        (["claims", "--reading", "foam_decays=7"], "reading.foam_decays = 7 1: must be a number from 0 to 1"),
+        (["claims", "--reading", "foam_decays=7"], "reading.foam_decays = 7: must be a number from 0 to 1"),
     ],
 )
 def test_bad_arguments(arguments: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -136,8 +123,8 @@ def test_claims_as_json(tmp_path: Path) -> None:
     ("arguments", "message"),
     [
         (["SA9"], "error: unknown damper SA9"),
-        (["SA8", "--oil-level", "1.7"], "oil_level = 1.7 1: must be a number from 0 to 1"),
-        (["SA8", "--platform", "vax"], "platform = vax: must be one of linux64, win64, darwin64"),
+        (["SA8", "--oil-level", "1.7"], "oil_level = 1.7: must be a number from 0 to 1"),
+        (["SA8", "--platform", "vax"], "platform = vax: must be one of linux64, aarch64-linux, win64, darwin64"),
     ],
 )
 def test_build_fmu_bad_arguments(arguments: list[str], message: str, tmp_path: Path) -> None:
@@ -176,7 +163,7 @@ def test_ride_says_when_the_damping_is_lost(tmp_path: Path) -> None:
         (["--road-class", "F"], "error: --road-class F: must be one of A, B, C, D, E"),
         (["--closure", "x"], "error: --closure x: must be one of letter, return"),
         (["--car", "x"], "error: unknown car x: neither a file nor one of passat_b8"),
-        (["--oil-level", "2"], "error: SA8: oil_level = 2 1: must be a number from 0 to 1"),
+        (["--oil-level", "2"], "error: SA8: oil_level = 2: must be a number from 0 to 1"),
     ],
 )
 def test_ride_answers_bad_input_with_one_line(arguments: list[str], message: str) -> None:

@@ -16,12 +16,24 @@ from twintube.core.checks import tube_limit
 from twintube.core.effects import EFFECTS
 from twintube.dampers import Damper, load
 from twintube.data import Record
-from twintube.diagnosis.prepare import Case, prepared
-from twintube.diagnosis.result import VERDICTS, Alternative, Cause, Diagnosis, Errors, Found, Gain, Map, RecordResult, Tried
+from twintube.diagnosis.prepare import PreparedRecord, prepared
+from twintube.diagnosis.result import (
+    VERDICTS,
+    Alternative,
+    Cause,
+    Diagnosis,
+    Errors,
+    Estimate,
+    Gain,
+    Map,
+    RecordResult,
+    Tried,
+)
 from twintube.engine.simulate import simulate
-from twintube.report.diagnosis import BADGES, write_report
-from twintube.report.diagnosis_records import closed, compared, noise, oscillations, parts, telling, work
-from twintube.report.engineering import digits, is_share, percent, with_interval
+from twintube.readable import digits, percent, with_interval
+from twintube.report.diagnosis import BADGES, cause_tables, doubt, write_report
+from twintube.report.diagnosis_records import closed, compared, noise, oscillations, parts, shown, work
+from twintube.report.engineering import is_share
 from twintube.rig.signals import harmonic_block
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
@@ -50,8 +62,8 @@ def measure(truth: Damper, level: float, v: float, rng: np.random.Generator) -> 
                   block.velocity, "measured", None, ())  # fmt: skip
 
 
-def force_of(damper: Damper, record: Record, case: Case) -> np.ndarray:
-    """Mean simulated force over the intervals of a case."""
+def force_of(damper: Damper, record: Record, case: PreparedRecord) -> np.ndarray:
+    """Mean simulated force over the intervals of a prepared record."""
     found = simulate(state(damper, record.oil_level), record.stroke, record.velocity, record.time).force
     total = np.concatenate([[0.0], np.cumsum((found[1:] + found[:-1]) / 2 * np.diff(record.time))])
     at = np.searchsorted(record.time, case.time)
@@ -74,19 +86,19 @@ def results(
 
 
 def rms(records: list[RecordResult], name: str) -> Errors:
-    """Errors over records; noise_floor is that of the cases."""
+    """Errors over records; noise_floor is that of the records."""
     if name == "noise_floor":
         return Errors(float(np.mean([noise(r) for r in records])), 0.4)
     force = np.mean([r.rms(getattr(r, name)) ** 2 for r in records]) ** 0.5
-    off = np.concatenate([work(r.case, getattr(r, name)) - work(r.case, r.measured) for r in records])
+    off = np.concatenate([work(r.record, getattr(r, name)) - work(r.record, r.measured) for r in records])
     return Errors(float(force), float(np.sqrt(np.mean(off**2))))
 
 
 def residual_maps(records: list[RecordResult]) -> list[Map]:
-    joined = {k: np.concatenate([getattr(r.case, k)[1:] for r in records]) for k in ("stroke", "velocity", "time")}
-    joined["cycle"] = np.concatenate([r.case.cycle[1:].astype(float) for r in records])
-    joined["oil level"] = np.concatenate([np.full(len(r.base) - 1, r.case.oil_level) for r in records])
-    joined["acceleration"] = np.concatenate([np.gradient(r.case.velocity, r.case.time)[1:] for r in records])
+    joined = {k: np.concatenate([getattr(r.record, k)[1:] for r in records]) for k in ("stroke", "velocity", "time")}
+    joined["cycle"] = np.concatenate([r.record.cycle[1:].astype(float) for r in records])
+    joined["oil level"] = np.concatenate([np.full(len(r.base) - 1, r.record.oil_level) for r in records])
+    joined["acceleration"] = np.concatenate([np.gradient(r.record.velocity, r.record.time)[1:] for r in records])
     base, extended = (np.concatenate([(r.measured - getattr(r, k))[1:] for r in records]) for k in ("base", "extended"))
     units = {"stroke": "m", "velocity": "m/s", "time": "s", "oil level": "1", "acceleration": "m/s2", "cycle": ""}
     found = []
@@ -119,7 +131,7 @@ def tried(chosen: str) -> list[Tried]:
     gains = np.r_[0.95, 0.88, np.linspace(0.3, -0.2, len(names) - 3), -7.0]
     first = [
         Tried(1, n, float(g), (float(g - 0.06 * (1 + abs(g))), float(g + 0.03)),
-              "chosen" if n == chosen else "alternative" if g > 0.5 else "rejected",
+              "chosen" if n == chosen else "rejected",
               "largest gain on held-out records" if n == chosen else "close to the best" if g > 0.5 else "gain within its uncertainty")
         for n, g in zip(names, gains, strict=True)
     ]  # fmt: skip
@@ -147,9 +159,9 @@ def example(verdict: str) -> Diagnosis:
     gains = Gain(0.96, 0.95, (0.91, 0.97), 0.82)
     causes = {
         "cause": [Cause("mount_compliance", EFFECTS["mount_compliance"].title, EFFECTS["mount_compliance"].cause, {
-            "C_mount": Found(5.02e-6, 4.9e-6, 5.15e-6, "m/N"), "tau_mount": Found(1.1e-3, 0.6e-3, 1.6e-3, "s", "not determined by these records")}, gains)],
+            "C_mount": Estimate(5.02e-6, 4.9e-6, 5.15e-6, "m/N"), "tau_mount": Estimate(1.1e-3, 0.6e-3, 1.6e-3, "s", (0.0, 1.9e-3), 0.0)}, gains)],
         "measurement_fault": [Cause("force_gain", "Force gain", "The load cell's sensitivity is wrong.",
-                                    {"force_gain": Found(0.95, 0.948, 0.952, "1")}, gains)],
+                                    {"force_gain": Estimate(0.95, 0.948, 0.952, "1")}, gains)],
     }.get(verdict, [])  # fmt: skip
     return Diagnosis(
         title="Bench, SA8 <42 & more>", verdict=verdict, sentence=SENTENCES[verdict], causes=causes,
@@ -160,7 +172,7 @@ def example(verdict: str) -> Diagnosis:
         maps=residual_maps(records)[: 6 if verdict == "cause" else 2], tried=tried("mount_compliance" if verdict == "cause" else ""), records=records, base=base,
         recalibrated=recalibrated, extended=extended,
         next_measurements=[] if verdict == "none" else ["A sine of 5 mm at 10 Hz", "A rest of 300 s, then the same block"],
-        structure={"base": [records[0].case.name], "recalibrated": [], "extended": []},
+        structure={"base": [records[0].record.name], "recalibrated": [], "extended": []},
         remarks=["2 records of less than 3 oscillations give no noise of their own"] if verdict == "cause" else [], seconds=42.3,
     )  # fmt: skip
 
@@ -190,8 +202,8 @@ def test_every_verdict(pages, verdict):
 
 def test_empty_parts_vanish(pages):
     texts = {verdict: page.read_text(encoding="utf-8") for verdict, page in pages.items()}
-    assert "What to measure next" not in texts["none"] and "What was found" not in texts["none"]
-    assert "within the noise" in texts["none"] and "extended model" not in texts["none"]
+    assert "What to measure next" not in texts["none"] and "Values" not in texts["none"]
+    assert "that of the noise" in texts["none"] and "extended model" not in texts["none"]
     assert "5.02 mm/kN" in texts["cause"] and "4.90 to 5.15 mm/kN" in texts["cause"]
     assert "Parameters that were recalibrated" in texts["recalibrate"] and "X_Re" in texts["recalibrate"]
     assert "What no candidate explains" in texts["unexplained"]
@@ -217,7 +229,7 @@ def test_oscillations_and_their_work():
 
 
 def test_held_out_records_come_first():
-    assert [r.split for r in telling(example("cause"))] == ["heldout"] * 2 + ["fit"] * 4
+    assert [r.split for r in shown(example("cause"))] == ["heldout"] * 2 + ["fit"] * 4
 
 
 def test_numbers_for_readers():
@@ -229,6 +241,22 @@ def test_numbers_for_readers():
     assert percent(-1e-5) == "0.0 %"
     assert (percent(0.953), percent(-70.0), percent(0.004), percent(float("nan"))) == ("95 %", "below −999 %", "0.4 %", "–")
     assert digits(12345.6, 30.0) == "12346"
+
+
+def test_a_range_is_shown_in_the_unit_of_its_value():
+    late = Estimate(0.02, 0.0199, 0.02, "s", (0.0, 0.02), 0.0)
+    assert (late.at_bound, doubt(late, share=False)) == (True, "at the end of its range, 0 to 20 ms")
+    stop = Estimate(-0.0422, -0.0425, -0.0419, "m", (-0.0422, 0.0422), 0.0)
+    assert doubt(stop, share=False) == "at the end of its range, -42.2 to 42.2 mm"
+    assert doubt(Estimate(0.01, 0.0, 0.015, "s", (0.0, 0.02), 0.0), share=False) == "not determined by these records"
+
+
+def test_causes_with_a_gain_in_common_share_a_row():
+    cause = example("cause").causes[0]
+    other = replace(cause, effect="fluid_lag", title="Lag of the fluid force")
+    fault = replace(cause, effect="sign_flip", title="Sign of the force channel", gain=Gain(0.5, 0.5, (0.4, 0.6), 0.3))
+    _, gains = cause_tables([fault, cause, other])
+    assert [row[0] for row in gains.rows] == ["Sign of the force channel", f"{cause.title} and Lag of the fluid force"]
 
 
 def test_records_without_oscillations_and_none_at_all(tmp_path):
@@ -269,7 +297,7 @@ def test_in_a_browser(pages):
     page = pages["cause"]
     dom = browse(page, "--dump-dom")
     head = re.search(r'<div class="headline found">(.*?)</p>', dom, re.DOTALL)
-    assert head and SENTENCES["cause"] in head[1] and "cause found" in head[1]
+    assert head and SENTENCES["cause"] in head[1] and "cause named" in head[1]
     shot = page.parent / "shot.png"
     browse(page, f"--screenshot={shot}", "--window-size=1200,6000")
     image = matplotlib.image.imread(shot)[..., :3]

@@ -1,4 +1,4 @@
-"""Every figure: statements computed, stand-ins and assumptions said in the picture itself."""
+"""Every figure: computed statements; stand-ins and assumptions are named in the picture itself."""
 
 import json
 
@@ -7,34 +7,35 @@ import pytest
 from twintube.engine.simulate import simulate
 from twintube.identification import Harmonic
 from twintube.report import style
-from twintube.report.context import Context, state
+from twintube.report.context import Context
 from twintube.report.figures import FIGURES
 from twintube.report.records import Job, excitation
 from twintube.report.reproduce import BASES, summary
 from twintube.report.statement import as_json
+from twintube.rig.plan import at_oil_level
 
 DRAWN = (3, 7, 8, 11, 12, 14, 16, 17, 18, 19, 27, 28, 29, 31, 33)
 WITH_STAND_IN = {3, 7, 8, 11, *range(19, 34)}
 
 
-class Own:
-    """Records whose measurements are the named damper's own: the rig's place without its cost."""
+class ModelRecords:
+    """Records simulated with the model itself instead of the virtual rig."""
 
     def __init__(self, dampers):
         self.dampers = dampers
 
     def get(self, job: Job) -> Harmonic:
         signal = excitation(job.damper, job.kind, job.value)
-        run = simulate(state(self.dampers[job.damper], job.level), signal.stroke, signal.velocity)
+        run = simulate(at_oil_level(self.dampers[job.damper], job.level), signal.stroke, signal.velocity)
         return Harmonic(job.level, int(job.level >= 1), signal.time, run.stroke, run.velocity, run.force, signal.marks)
 
 
 @pytest.fixture(scope="module")
 def context(tmp_path_factory) -> Context:
-    found = Context(tmp_path_factory.mktemp("report"), progress=False)
-    found.records = Own(found.dampers)
-    found._fits = dict(found.dampers)  # as if the identification had found the truth
-    return found
+    shared = Context(tmp_path_factory.mktemp("report"), progress=False)
+    shared.records = ModelRecords(shared.dampers)
+    shared._fits = dict(shared.dampers)  # as if the identification had returned the true damper
+    return shared
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +43,7 @@ def plots(context):
     return {number: FIGURES[number].draw(context) for number in DRAWN}
 
 
-def words(plot) -> str:
+def picture_text(plot) -> str:
     """All text of a picture, in one line."""
     figure = plot.figure
     titles = [ax.get_title(loc="left") for ax in figure.axes]
@@ -55,9 +56,9 @@ def test_figure(plots, number):
     assert plot.number == number and plot.statements
     assert bool(plot.stand_ins) == (number in WITH_STAND_IN)
     if plot.stand_ins:
-        assert style.STAND_IN.lower() in words(plot).lower()
+        assert style.STAND_IN.lower() in picture_text(plot).lower()
     for value in plot.assumed:
-        assert value in words(plot)
+        assert value in picture_text(plot)
     for statement in plot.statements:
         assert statement.basis in BASES
         assert (statement.holds is None) == (statement.basis == "not checkable")
@@ -68,13 +69,13 @@ def test_figure(plots, number):
 
 
 def test_a_model_reproduces_its_own_records(plots):
-    """What compares the model with measurements must hold where the measurements are the model's."""
+    """Statements that compare model and measurement must hold if the measurements are the model's."""
     assert plots[19].statements[-1].holds and plots[27].statements[0].holds
     assert plots[29].statements[0].holds and plots[31].statements[0].holds
 
 
 def test_a_statement_can_fail(context, monkeypatch):
-    """With the force of the stand-in doubled, no picture may say that the model reproduces it."""
+    """With the doubled force of the stand-in, no picture may state that the model reproduces it."""
     get = context.records.get
     monkeypatch.setattr(context.records, "get", lambda job: doubled(get(job)), raising=False)
     assert FIGURES[29].draw(context).statements[0].holds is False

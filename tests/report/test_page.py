@@ -1,4 +1,4 @@
-"""The page is one file that needs nothing else, and says what it is given."""
+"""The page is a single file that loads nothing, and contains all its input."""
 
 import re
 from html.parser import HTMLParser
@@ -63,9 +63,9 @@ def test_contents_lead_to_the_sections(text):
     assert page.links == ["#one", "#two"] and {"one", "two"} <= page.anchors
 
 
-def test_it_says_what_it_is_given(text):
-    for said in ("A title", "A lead", "A paragraph", "0 of 1", "A table", "the foot", 'alt="a picture"', "SA1: 1.0, 2.0"):
-        assert said in text
+def test_the_page_contains_its_input(text):
+    for content in ("A title", "A lead", "A paragraph", "0 of 1", "A table", "the foot", 'alt="a picture"', "SA1: 1.0, 2.0"):
+        assert content in text
     assert "work &lt; force &amp; more" in text
 
 

@@ -6,11 +6,10 @@ import pytest
 
 from twintube.dampers import ParameterError, load
 from twintube.engine.simulate import InputError
-from twintube.report import reproduce
 from twintube.report.figures import FIGURES
 from twintube.report.figures.validation import filling
 from twintube.report.records import Job, Records
-from twintube.report.reproduce import chosen
+from twintube.report.reproduce import figure_numbers, reproduce
 
 
 @pytest.fixture(scope="module")
@@ -45,8 +44,8 @@ def test_records_are_kept(report):
     before = file.stat().st_mtime_ns
     records.prepare([job])
     assert file.stat().st_mtime_ns == before
-    one = records.get(job)
-    assert len(one.time) == len(one.force) and one.marks[-1] < len(one.time)
+    record = records.get(job)
+    assert len(record.time) == len(record.force) and record.marks[-1] < len(record.time)
 
 
 def test_no_process_is_refused(tmp_path):
@@ -56,13 +55,13 @@ def test_no_process_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize(("level", "verb"), [(1.0, "fills"), (0.2, "does not fill")])
-def test_reason_says_whether_the_oil_left_fills_the_chambers(level, verb):
+def test_reason_states_whether_the_oil_fills_the_chambers(level, verb):
     assert f" mL and {verb} the two working chambers" in filling(load("SA4"), level)
 
 
 def test_figures_are_chosen():
-    assert chosen(None) == sorted(FIGURES)
-    assert chosen(["19-21", 3]) == [3, 19, 20, 21]
+    assert figure_numbers(None) == sorted(FIGURES)
+    assert figure_numbers(["19-21", 3]) == [3, 19, 20, 21]
     for bad in (["x"], ["13"], ["3-y"]):
         with pytest.raises(ParameterError):
-            chosen(bad)
+            figure_numbers(bad)

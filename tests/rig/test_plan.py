@@ -15,7 +15,7 @@ from twintube.core.variables import Derived, blank
 from twintube.dampers import load, names
 from twintube.rig.plan import Measurement
 from twintube.rig.signals import OSCILLATIONS
-from twintube.vehicle.maneuvers import BRAKING, DT, MANEUVERS, SHIFT, ridden
+from twintube.vehicle.maneuvers import BRAKING, DT, MANEUVERS, SHIFT, wheel_input
 from twintube.vehicle.plan import plan
 
 
@@ -49,7 +49,7 @@ def test_harmonic_blocks_are_the_papers() -> None:
         begin = int(np.argmin(slow)) if not slow.all() else int(m.signal.marks[0])
         crossings = np.count_nonzero(np.diff(np.sign(m.signal.stroke[:begin])) > 0)
         assert crossings == pytest.approx(6, abs=2)
-        # No rig jumps: the largest acceleration is that of the sine, or less than twice it in the run-up.
+        # A rig cannot jump in velocity: the largest acceleration is that of the sine, or less than twice it in the run-up.
         top = np.abs(m.signal.velocity).max()
         rates = np.abs(np.diff(m.signal.velocity)) / np.diff(m.signal.time)
         assert rates[begin - 1 :].max() < 2 * top**2 / 0.045
@@ -64,8 +64,8 @@ def test_quasi_static_ramp_is_1_mm_per_second() -> None:
 
 def test_braking_loads_the_front_and_ends_at_rest() -> None:
     braked = next(m for m in MANEUVERS if m.number == 9)
-    height, front = ridden(braked, "front")
-    _, rear = ridden(braked, "rear")
+    height, front = wheel_input(braked, "front")
+    _, rear = wheel_input(braked, "rear")
     assert front.max() == pytest.approx(SHIFT)
     assert np.array_equal(front, -rear)
     stop = 3.0 + 50 / 3.6 / BRAKING
@@ -77,8 +77,8 @@ def test_braking_loads_the_front_and_ends_at_rest() -> None:
 def test_rig_command_writes_the_plan(tmp_path: Path) -> None:
     run = CliRunner().invoke(app, ["rig", "SA6", "--output", str(tmp_path / "x")])
     assert run.exit_code == 0, run.output
-    about = json.loads((tmp_path / "x" / "plan.json").read_text())
-    assert len(about["signals"]) == 19
-    for entry in about["signals"]:
+    plan_file = json.loads((tmp_path / "x" / "plan.json").read_text())
+    assert len(plan_file["signals"]) == 19
+    for entry in plan_file["signals"]:
         with (tmp_path / "x" / entry["file"]).open() as file:
             assert next(csv.reader(file)) == ["time [s]", "stroke [mm]", "velocity [mm/s]"]

@@ -63,15 +63,15 @@ def test_a_killed_worker_loses_nothing(
     study = studies.load(tmp_path / "study.toml")
     local, remote = tmp_path / "local.parquet", tmp_path / "remote.parquet"
 
-    parts = 0
+    chunks = 0
     state: dict[str, int] = {}
     table = execute.table
 
     def killing(*arguments: Any) -> pa.Table:
-        nonlocal parts, state
-        parts += 1
-        if parts == len(study) // 2:
-            time.sleep(0.5)  # results pile up that nobody has fetched
+        nonlocal chunks, state
+        chunks += 1
+        if chunks == len(study) // 2:
+            time.sleep(0.5)  # finished results wait to be fetched
             with distributed.Client(address, set_as_default=False) as client:
                 state = client.run_on_scheduler(
                     lambda dask_scheduler: {

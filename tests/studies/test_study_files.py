@@ -8,7 +8,7 @@ import pytest
 from twintube import studies
 from twintube.dampers import load, to_toml
 from twintube.rig.signals import BLOCKS
-from twintube.studies.definition import Case
+from twintube.studies.definition import StudyCase
 
 
 def written(folder: Path, text: str) -> Path:
@@ -37,12 +37,12 @@ def test_the_grid_is_the_product_and_its_last_axis_runs_fastest(tmp_path: Path) 
     assert len(study) == 240
     assert study.oil_levels == (0.0, 0.1, 0.2, 0.3, 0.4)
     assert [(s.velocity, s.amplitude) for s in study.signals[:4]] == [(0.5, 0.045), (0.5, 0.02), (0.5, 0.01), (1.0, 0.045)]
-    assert study.case(0) == Case(0, 0, (0.0, 0.5), 0.0, 0, 2)
-    assert study.case(1) == Case(0, 0, (0.0, 0.5), 0.0, 0, 4)
-    assert study.case(2) == Case(0, 0, (0.0, 0.5), 0.1, 0, 2)
-    assert study.case(10) == Case(0, 0, (0.1, 0.5), 0.0, 0, 2)
-    assert study.case(20) == Case(0, 1, (0.0, 0.5), 0.0, 0, 2)
-    assert study.case(239) == Case(1, 5, (0.1, 0.5), 0.4, 0, 4)
+    assert study.case(0) == StudyCase(0, 0, (0.0, 0.5), 0.0, 0, 2)
+    assert study.case(1) == StudyCase(0, 0, (0.0, 0.5), 0.0, 0, 4)
+    assert study.case(2) == StudyCase(0, 0, (0.0, 0.5), 0.1, 0, 2)
+    assert study.case(10) == StudyCase(0, 0, (0.1, 0.5), 0.0, 0, 2)
+    assert study.case(20) == StudyCase(0, 1, (0.0, 0.5), 0.0, 0, 2)
+    assert study.case(239) == StudyCase(1, 5, (0.1, 0.5), 0.4, 0, 4)
     assert len({study.case(i) for i in range(240)}) == 240
 
 
@@ -82,28 +82,28 @@ def test_records_and_own_dampers_are_found_beside_the_study(tmp_path: Path) -> N
         ("dampers = []", "line 1: dampers: must be a list of at least one string"),
         ('dampers = ["SA8", "SA8"]', "line 1: dampers: SA8 stands in the list twice"),
         ('dampers = "SA8"\noil_levels = [1.0]', "line 2: unknown oil_levels, did you mean oil_level?"),
-        ('dampers = "SA8"\noil_level = [0.5, 1.7]', "line 2: oil_level = 1.7 1: must be a number from 0 to 1"),
-        ('dampers = "SA8"\noil_level = [nan]', "line 2: oil_level = nan 1: must be a number"),
+        ('dampers = "SA8"\noil_level = [0.5, 1.7]', "line 2: oil_level = 1.7: must be a number from 0 to 1"),
+        ('dampers = "SA8"\noil_level = [nan]', "line 2: oil_level = nan: must be a number"),
         ('dampers = "SA8"\noil_level = []', "line 2: oil_level: the list is empty"),
         ('dampers = "SA8"\noil_level = [0.5, 0.5]', "line 2: oil_level: a value stands in the list twice: 0.5"),
         ('dampers = "SA8"\noil_level = {from = 0, to = 1}', "line 2: oil_level: a range has the keys from, to and count"),
         ('dampers = "SA8"\noil_level = {from = 0, to = 1, count = 0}', "count = 0: must be an integer from 1"),
-        ('dampers = "SA8"\noil_level = [true]', "line 2: oil_level: True is no number"),
-        ('dampers = "SA8"\nvariant = [5]', "line 2: variant = 5 1: must be a number from 1 to 4"),
+        ('dampers = "SA8"\noil_level = [true]', "line 2: oil_level: True is not a number"),
+        ('dampers = "SA8"\nvariant = [5]', "line 2: variant = 5: must be a number from 1 to 4"),
         ('dampers = "SA8"\nvariant = [1.5]', "line 2: variant = 1.5: must be an integer"),
-        ('dampers = "SA8"\nvelocity = ["1 kg"]', "line 2: velocity: '1 kg' is no quantity in m/s"),
+        ('dampers = "SA8"\nvelocity = ["1 kg"]', "line 2: velocity: '1 kg' is not a quantity in m/s"),
         ('dampers = "SA8"\namplitude = ["200 mm"]', "SA8: amplitude = 0.2 m: must be a number from 0 to 0.1"),
         ('dampers = "SA8"\nvelocity = 0.001', "samples, at most 4000000 are possible; raise time_step"),
-        ('dampers = "SA8"\noscillations = [20]', "line 2: oscillations = 20 1: must be a number from 1 to 19"),
-        ('dampers = "SA8"\ntime_step = [1e-4, 2e-4]', "line 2: time_step: must be one value"),
+        ('dampers = "SA8"\noscillations = [20]', "line 2: oscillations = 20: must be a number from 1 to 19"),
+        ('dampers = "SA8"\ntime_step = [1e-4, 2e-4]', "line 2: time_step: must be a single value"),
         ('dampers = "SA8"\nrecords = ["no.csv"]', "line 2: records: "),
         ('dampers = "SA8"\nparameters = 1', "line 2: parameters: must be a table"),
         (
             'dampers = "SA8"\n[parameters]\n"cavitation.Y_Re" = [0.1]',
             "line 3: unknown parameters.cavitation.Y_Re, did you mean cavitation.Y_Re_cav?",
         ),
-        ('dampers = "SA8"\n[parameters]\n"foam.B" = [-1]', "line 3: parameters.foam.B = -1 1: must be a number from 0 to 1"),
-        ('dampers = "SA8"\n[parameters]\n"fv.F_re" = [1.0]', "line 3: parameters.fv.F_re, a curve and not one number"),
+        ('dampers = "SA8"\n[parameters]\n"foam.B" = [-1]', "line 3: parameters.foam.B = -1: must be a number from 0 to 1"),
+        ('dampers = "SA8"\n[parameters]\n"fv.F_re" = [1.0]', "line 3: parameters.fv.F_re, a curve and not a number"),
         ('dampers = "SA8"\n[parameters]\noil_level = [1.0]', "parameters.oil_level: belongs to the top of the file"),
         (
             'dampers = "SA8"\n[parameters]\n"geometry.D_PR" = ["40 mm"]',

@@ -1,4 +1,4 @@
-"""What stands in the rows, and that it does not depend on who computed them."""
+"""Content of the rows; it does not depend on processes and chunks."""
 
 import json
 import multiprocessing
@@ -34,18 +34,18 @@ def rows(text: str, folder: Path) -> list[dict[str, Any]]:
     (folder / "study.toml").write_text(text)
     output = folder / "new" / "out.parquet"
     count = studies.run(studies.load(folder / "study.toml"), output, processes=1, progress=False)
-    found: list[dict[str, Any]] = pq.read_table(output).to_pylist()
-    assert len(found) == count
+    table: list[dict[str, Any]] = pq.read_table(output).to_pylist()
+    assert len(table) == count
     assert [p.name for p in output.parent.iterdir()] == ["out.parquet"]
-    return found
+    return table
 
 
 def test_rows_are_in_the_order_of_the_grid(tmp_path: Path) -> None:
-    found = rows(GRID, tmp_path)
-    assert len(found) == 2 * 2 * 2 * 2 * 3 * 3 * 3
-    assert [row["case"] for row in found] == [i for i in range(144) for _ in range(3)]
-    assert [row["oscillation"] for row in found[:4]] == [1, 2, 19, 1]
-    last = found[-1]
+    table = rows(GRID, tmp_path)
+    assert len(table) == 2 * 2 * 2 * 2 * 3 * 3 * 3
+    assert [row["case"] for row in table] == [i for i in range(144) for _ in range(3)]
+    assert [row["oscillation"] for row in table[:4]] == [1, 2, 19, 1]
+    last = table[-1]
     assert (last["damper"], last["velocity"], last["cavitation.Y_Re_cav"], last["reading.foam_decays"]) == (
         "SA1",
         1.5,
@@ -53,10 +53,10 @@ def test_rows_are_in_the_order_of_the_grid(tmp_path: Path) -> None:
         1,
     )
     assert (last["oil_level"], last["gas_preload"], last["variant"]) == (1.0, 1, 4)
-    assert all(row["work_relative"] == pytest.approx(1.0) for row in found if row["oil_level"] == 1.0)
+    assert all(row["work_relative"] == pytest.approx(1.0) for row in table if row["oil_level"] == 1.0)
 
 
-def test_a_row_is_what_the_simulation_says(tmp_path: Path) -> None:
+def test_a_row_equals_the_simulation(tmp_path: Path) -> None:
     row = rows('dampers = "SA8"\noil_level = 0.5\nvelocity = 1.572', tmp_path)[1]
     block = harmonic_block(1.572)
     run = simulate(load("SA8").with_(oil_level=0.5, gas_preload=0), block.stroke, block.velocity)
@@ -69,12 +69,12 @@ def test_a_row_is_what_the_simulation_says(tmp_path: Path) -> None:
 
 
 def test_variant_1_is_the_level_times_the_fluid_part(tmp_path: Path) -> None:
-    found = rows('dampers = "SA8"\noil_level = [0.3, 0.6]\nvelocity = 1.0\nvariant = 1', tmp_path)
+    table = rows('dampers = "SA8"\noil_level = [0.3, 0.6]\nvelocity = 1.0\nvariant = 1', tmp_path)
     block = harmonic_block(1.0)
     arguments = (block.stroke, block.velocity, block.marks)
     intact = load("SA8")
     fluid = work_between(intact.with_(F_FrS=0.0), *arguments)
-    for row in found:
+    for row in table:
         degraded = intact.with_(oil_level=row["oil_level"], gas_preload=0, F_re=[0.0] * 20, F_co=[0.0] * 20)
         friction = work_between(degraded, *arguments)
         i = row["oscillation"] - 1
@@ -82,23 +82,23 @@ def test_variant_1_is_the_level_times_the_fluid_part(tmp_path: Path) -> None:
 
 
 def test_variants_switch_foam_and_cavitation_off(tmp_path: Path) -> None:
-    found = rows('dampers = "SA8"\noil_level = 0.56\nvelocity = 1.572\nvariant = [2, 3, 4]\noscillations = 19', tmp_path)
-    basic, foaming, complete = (row["work_relative"] for row in found)
+    table = rows('dampers = "SA8"\noil_level = 0.56\nvelocity = 1.572\nvariant = [2, 3, 4]\noscillations = 19', tmp_path)
+    basic, foaming, complete = (row["work_relative"] for row in table)
     assert min(basic, foaming) > 2 * complete
     block = harmonic_block(1.572)
     off = load("SA8").with_(oil_level=0.56, gas_preload=0, S_BV=0.0, S_PV=0.0, Y_Co_cav=0.0, Y_Re_cav=0.0)
-    assert found[0]["work_J"] == work_between(off, block.stroke, block.velocity, block.marks)[18]
+    assert table[0]["work_J"] == work_between(off, block.stroke, block.velocity, block.marks)[18]
 
 
 def test_a_record_is_one_row_after_the_preconditioning(tmp_path: Path) -> None:
     t = np.arange(0, 2, 0.002)
     lines = [f"{a:.4f},{30 * np.sin(9 * a):.6f}" for a in t]
     (tmp_path / "drive.csv").write_text("time [s],stroke [mm]\n" + "\n".join(lines))
-    found = rows('dampers = "SA8"\noil_level = [0.4, 1.0]\nrecords = "drive.csv"\nvelocity = 0.5', tmp_path)
-    assert [(row["signal"], row["oscillation"]) for row in found[4:]] == [("drive.csv", 1)] * 2
-    assert found[5]["velocity"] is None
-    assert found[5]["work_relative"] == 1.0
-    assert 0.0 < found[4]["work_relative"] < 1.0
+    table = rows('dampers = "SA8"\noil_level = [0.4, 1.0]\nrecords = "drive.csv"\nvelocity = 0.5', tmp_path)
+    assert [(row["signal"], row["oscillation"]) for row in table[4:]] == [("drive.csv", 1)] * 2
+    assert table[5]["velocity"] is None
+    assert table[5]["work_relative"] == 1.0
+    assert 0.0 < table[4]["work_relative"] < 1.0
 
 
 def test_equal_bytes_whatever_the_processes_and_chunks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -111,11 +111,11 @@ def test_equal_bytes_whatever_the_processes_and_chunks(tmp_path: Path, monkeypat
     monkeypatch.setattr(execute, "CHUNKS", 10)
     studies.run(study, files[3], processes=1, progress=False)
     assert len({file.read_bytes() for file in files}) == 1
-    about = pq.read_schema(files[0]).metadata
-    definition = json.loads(about[b"twintube.study"])
+    metadata = pq.read_schema(files[0]).metadata
+    definition = json.loads(metadata[b"twintube.study"])
     assert definition["oil_level"] == [0.4, 0.6, 1.0]
     assert definition["dampers"]["SA8"]["V_oil"] == load("SA8").parameters.V_oil
-    assert about[b"twintube.fingerprint"].decode() == version_mark()
+    assert metadata[b"twintube.fingerprint"].decode() == version_mark()
 
 
 def test_row_groups_are_full_whatever_the_chunks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -136,7 +136,7 @@ def test_a_failing_case_is_named_and_leaves_no_file(tmp_path: Path, monkeypatch:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_killed_process_is_told_and_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_killed_process_is_reported_and_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     table = execute.table
 
     def killing(*arguments: Any) -> pa.Table:

@@ -1,4 +1,4 @@
-"""The main job end to end, short."""
+"""The main job end to end, with short rides."""
 
 import json
 import subprocess
@@ -6,12 +6,12 @@ import sys
 from pathlib import Path
 
 import fmpy
-from twintube.cli import app
-from twintube.demo.job import cases, strengths
 from typer.testing import CliRunner
 
+from twintube.cli import app
 from twintube.dampers import load
-from twintube.demo.ride import Case, ride
+from twintube.demo.job import cases, strengths
+from twintube.demo.ride import RideCase, ride
 from twintube.fmu import build_fmu
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track
@@ -20,11 +20,11 @@ ROOT = Path(__file__).parents[2]
 
 
 def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
-    done = subprocess.run(
+    run = subprocess.run(
         [sys.executable, "-m", "vehicle_demo", "--output", str(tmp_path / "out"), "--seconds", "20", "--seed", "3"],
         cwd=ROOT, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    assert "intact" in done.stdout
+    assert "intact" in run.stdout
     result = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert result["road"]["class"] == "D"
     assert 512e-6 < result["road"]["gd_n0_m3"] < 2048e-6
@@ -46,7 +46,7 @@ def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
     table = result["time_to_failure"]
     assert all(len(row) == len(table["oil_levels"]) for rows in table["closures"].values() for row in rows)
     for sentence in result["sentences"]:
-        assert sentence in done.stdout
+        assert sentence in run.stdout
     pictures = {p.name for p in (tmp_path / "out").glob("*.png")}
     assert pictures == {"dlc_over_oil_level.png", "wheel_load.png", "spectrum.png", "development.png", "loops.png",
                         "volumes.png", "bands.png", "time_to_failure.png"}  # fmt: skip
@@ -68,13 +68,13 @@ def test_a_damper_with_effects_is_driven_without_them_too(tmp_path: Path) -> Non
     assert strengths(plain) == ()
     assert sum(case.off == off for case in cases(off)) == 18
     assert len(cases(())) == 18
-    case = Case(50.0, 1.0, 1)
-    on = track(50.0, 10.0)
+    case = RideCase(50.0, 1.0, 1)
+    route = track(50.0, 10.0)
     (tmp_path / "b").mkdir()
-    here = (fmpy.platform,)
-    fmu, extended = build_fmu(plain, tmp_path, platforms=here), build_fmu(worn, tmp_path / "b", platforms=here)
+    platforms = (fmpy.platform,)
+    fmu, extended = build_fmu(plain, tmp_path, platforms=platforms), build_fmu(worn, tmp_path / "b", platforms=platforms)
     car = load_car().corner(plain)
-    base = ride(fmu, car, case, on)
-    without = ride(extended, car, Case(50.0, 1.0, 1, off=off), on)
+    base = ride(fmu, car, case, route)
+    without = ride(extended, car, RideCase(50.0, 1.0, 1, off=off), route)
     assert (without.wheel_load == base.wheel_load).all()
-    assert ride(extended, car, case, on).wheel_load.std() > 1.02 * base.wheel_load.std()
+    assert ride(extended, car, case, route).wheel_load.std() > 1.02 * base.wheel_load.std()

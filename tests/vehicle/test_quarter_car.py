@@ -1,4 +1,4 @@
-"""The quarter car against frequency-domain theory, physics and its own step."""
+"""The quarter car against frequency-domain theory, energy balance and a halved step."""
 
 from pathlib import Path
 
@@ -9,14 +9,14 @@ import pytest
 from twintube.dampers import Damper, ParameterError, load
 from twintube.dampers.closures import closed
 from twintube.dampers.toml import continued
-from twintube.demo.ride import Case, Ride, ride
+from twintube.demo.ride import Ride, RideCase, ride
 from twintube.fmu import build_fmu
 from twintube.vehicle import quarter_car
 from twintube.vehicle.cars import FOLDER, RUBBER, load_car
 from twintube.vehicle.drive import drive
 from twintube.vehicle.quarter_car import Car, static_load
 from twintube.vehicle.ride import Track, measures, track
-from twintube.vehicle.ride import ride as ride_here
+from twintube.vehicle.ride import ride as ride_compiled
 
 DT = 1e-3
 SPEED = 50 / 3.6
@@ -24,7 +24,7 @@ C_DAMPER = 1500.0  # [N.s/m]
 
 
 @pytest.fixture(scope="module")
-def riding(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def fmu_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The FMU of SA8 as `build_fmu.py` makes it."""
     return build_fmu(closed(load("SA8")), tmp_path_factory.mktemp("fmu") / "SA8.fmu", platforms=(fmpy.platform,))
 
@@ -84,17 +84,17 @@ def test_linear_damper_as_fmu_gives_the_analytic_dlc(tmp_path: Path) -> None:
     time = np.arange(0, 82.0, DT)
     heights = waves(time)
     fmu = build_fmu(linear_damper(), tmp_path / "linear.fmu", platforms=(fmpy.platform,))
-    found = ride(fmu, linear_car(), Case(50, 1.0, 1), Track(50.0, DT, heights, np.gradient(heights, DT)))
-    assert steady(found.wheel_load, time, linear_car()) == pytest.approx(analytic_dlc(linear_car()), rel=0.01)
+    result = ride(fmu, linear_car(), RideCase(50, 1.0, 1), Track(50.0, DT, heights, np.gradient(heights, DT)))
+    assert steady(result.wheel_load, time, linear_car()) == pytest.approx(analytic_dlc(linear_car()), rel=0.01)
 
 
 @pytest.mark.parametrize("oil_level", [1.0, 0.9, 0.6, 0.4])
 @pytest.mark.parametrize("speed", [30.0, 50.0])
 def test_halving_the_step_changes_the_dlc_by_less_than_one_percent(oil_level: float, speed: float) -> None:
-    """A wheel that leaves the road without damping moves chaotically: one percent, or what twelve roads cannot tell from it."""
+    """A wheel that leaves the road without damping moves chaotically: one percent, or twice the standard error over twelve roads."""
     car, state = rear(), closed(load("SA8").with_(oil_level=oil_level, gas_preload=0))
     coarse, fine = np.array([
-        [measures(ride_here(state, car, track(speed, 60.0, seed=seed, dt=dt)), car)["dlc"] for seed in range(1, 13)]
+        [measures(ride_compiled(state, car, track(speed, 60.0, seed=seed, dt=dt)), car)["dlc"] for seed in range(1, 13)]
         for dt in (1e-3, 5e-4)
     ])  # fmt: skip
     change = coarse / fine - 1
@@ -102,33 +102,33 @@ def test_halving_the_step_changes_the_dlc_by_less_than_one_percent(oil_level: fl
 
 
 @pytest.mark.parametrize(("level", "preload"), [(1.0, 1), (0.8, 0), (0.4, 0)])
-def test_the_fmu_rides_as_the_damper_of_this_process_to_the_bit(riding: Path, level: float, preload: int) -> None:
-    on = track(50.0, 20.0)
-    by_fmu = ride(riding, rear(), Case(50.0, level, preload), on)
-    here = ride_here(closed(load("SA8").with_(oil_level=level, gas_preload=preload)), rear(), on)
-    assert np.array_equal(by_fmu.wheel_load, here.wheel_load)
-    assert np.array_equal(by_fmu.force, here.force)
+def test_the_fmu_and_the_compiled_damper_give_the_same_bits(fmu_file: Path, level: float, preload: int) -> None:
+    route = track(50.0, 20.0)
+    by_fmu = ride(fmu_file, rear(), RideCase(50.0, level, preload), route)
+    compiled = ride_compiled(closed(load("SA8").with_(oil_level=level, gas_preload=preload)), rear(), route)
+    assert np.array_equal(by_fmu.wheel_load, compiled.wheel_load)
+    assert np.array_equal(by_fmu.force, compiled.force)
 
 
-def test_wheel_leaves_the_road_and_never_pulls(riding: Path) -> None:
+def test_wheel_leaves_the_road_and_never_pulls(fmu_file: Path) -> None:
     car = rear()
-    case = Case(50.0, 0.3, 0)
-    result = ride(riding, car, case, track(50.0, 20.0))
+    case = RideCase(50.0, 0.3, 0)
+    result = ride(fmu_file, car, case, track(50.0, 20.0))
     assert result.wheel_load.min() == 0.0
-    found = measures(result, car)
-    assert found["contact_losses"] > 0
-    assert 0 < found["contact_loss_share"] < 0.5
+    figures = measures(result, car)
+    assert figures["contact_losses"] > 0
+    assert 0 < figures["contact_loss_share"] < 0.5
 
 
-def test_car_at_rest_stays_at_rest(riding: Path) -> None:
+def test_car_at_rest_stays_at_rest(fmu_file: Path) -> None:
     car = rear()
-    result = ride(riding, car, Case(30.0, 1.0, 1), Track(30.0, DT, np.zeros(2000), np.zeros(2000)))
-    assert np.abs(result.stroke).max() < 2e-4  # what friction of the preconditioning leaves
+    result = ride(fmu_file, car, RideCase(30.0, 1.0, 1), Track(30.0, DT, np.zeros(2000), np.zeros(2000)))
+    assert np.abs(result.stroke).max() < 2e-4  # offset that the friction of the preconditioning leaves
     assert result.wheel_load[-1] == pytest.approx(static_load(car), rel=0.01)
 
 
 def test_energy_of_the_road_is_dissipated_or_stored() -> None:
-    """Over a whole ride the tyre's work on the car is what damper and links took, within the discretisation."""
+    """Over a whole ride the tyre's work on the car equals the work of damper and links, within the discretisation."""
     damper = load("SA8")
     car = rear(d_tyre=0.0)
     car.travel = 10.0
@@ -142,18 +142,18 @@ def test_energy_of_the_road_is_dissipated_or_stored() -> None:
     into_car = np.sum(0.5 * (spring[1:] + spring[:-1]) * np.diff(wheel))
     force = 0.5 * (run.force[1:] + run.force[:-1]) + damper.parameters.F_0
     links = car.d_links * np.sum((run.velocity / car.ratio) ** 2) * DT
-    taken = np.sum(force * np.diff(run.stroke)) + links
+    dissipated = np.sum(force * np.diff(run.stroke)) + links
     stored = 0.5 * car.c_body * (run.stroke[-1] / car.ratio) ** 2 + 0.5 * car.m_body * 1.0**2
-    assert into_car == pytest.approx(taken, abs=0.02 * taken + stored)
+    assert into_car == pytest.approx(dissipated, abs=0.02 * dissipated + stored)
 
 
-def test_oil_loss_raises_the_wheel_load_fluctuation_and_it_grows_during_the_ride(riding: Path) -> None:
+def test_oil_loss_raises_the_wheel_load_fluctuation_and_it_grows_during_the_ride(fmu_file: Path) -> None:
     car = rear()
 
-    def of(level: float, preload: int) -> Ride:
-        return ride(riding, car, Case(50.0, level, preload), track(50.0, 60.0))
+    def ridden(level: float, preload: int) -> Ride:
+        return ride(fmu_file, car, RideCase(50.0, level, preload), track(50.0, 60.0))
 
-    intact, result = of(1.0, 1), of(0.6, 0)
+    intact, result = ridden(1.0, 1), ridden(0.6, 0)
     degraded = measures(result, car, intact)
     assert degraded["dlc"] > 1.1 * measures(intact, car)["dlc"]
     power = degraded["damping_work_window_J"]
@@ -168,21 +168,21 @@ def test_oil_loss_raises_the_wheel_load_fluctuation_and_it_grows_during_the_ride
 @pytest.mark.parametrize("level", [1.0, 0.4])
 def test_the_stops_hold_the_damper_within_its_stroke(name: str, level: float) -> None:
     damper = load(name)
-    run = ride_here(closed(damper.with_(oil_level=level, gas_preload=0)), load_car().corner(damper), track(70.0, 120.0))
+    run = ride_compiled(closed(damper.with_(oil_level=level, gas_preload=0)), load_car().corner(damper), track(70.0, 120.0))
     assert np.abs(run.stroke).max() < damper.parameters.stroke_max
 
 
-def test_a_damper_with_a_short_stroke_gets_its_stops_earlier() -> None:
+def test_stops_begin_earlier_for_a_damper_with_a_short_stroke() -> None:
     car = load_car().corner(load("SA1"))
     assert car.ratio * (car.travel + RUBBER) == pytest.approx(load("SA1").parameters.stroke_max, abs=0.003)
 
 
-def test_a_longer_ride_begins_as_a_shorter_one_to_the_bit() -> None:
+def test_a_longer_ride_starts_with_the_bits_of_a_shorter_one() -> None:
     car, state = rear(), closed(load("SA8").with_(oil_level=0.6, gas_preload=0))
-    short, long = (ride_here(state, car, track(50.0, seconds)) for seconds in (60.0, 600.0))
+    short, long = (ride_compiled(state, car, track(50.0, seconds)) for seconds in (60.0, 600.0))
     n = len(short.time)
-    for one, other in ((short.wheel_load, long.wheel_load), (short.force, long.force), (short.oil, long.oil)):
-        assert np.array_equal(one, other[:n])
+    for start, whole in ((short.wheel_load, long.wheel_load), (short.force, long.force), (short.oil, long.oil)):
+        assert np.array_equal(start, whole[:n])
 
 
 def test_every_defect_of_a_car_is_named_with_its_line(tmp_path: Path) -> None:
@@ -193,7 +193,7 @@ def test_every_defect_of_a_car_is_named_with_its_line(tmp_path: Path) -> None:
         load_car(path)
     message = str(caught.value)
     assert "line 6: front.m_body" in message
-    assert "rear.ratio = 9 1: must be a number from 0.2 to 1.5 1" in message
+    assert "rear.ratio = 9: must be a number from 0.2 to 1.5" in message
     assert "unknown rear.roof" in message
     with pytest.raises(ParameterError, match="unknown car saab: neither a file nor one of passat_b8"):
         load_car("saab")

@@ -1,4 +1,4 @@
-"""The road is what it says: class D, and never the same twice."""
+"""The road has the spectrum of its class and does not repeat."""
 
 import numpy as np
 import pytest
@@ -30,13 +30,13 @@ def test_seeds_reproduce_and_differ() -> None:
     assert not np.array_equal(a, c)
 
 
-def test_a_longer_road_goes_on_where_a_shorter_one_ends() -> None:
+def test_a_longer_road_continues_a_shorter_one() -> None:
     short, long = road.generate(200, seed=3), road.generate(5000, seed=3)
     assert np.array_equal(short.height, long.height[: len(short.height)])
     assert np.array_equal(short.enveloped, long.enveloped[: len(short.enveloped)])
 
 
-def test_who_drives_faster_sees_the_same_metres() -> None:
+def test_the_profile_does_not_depend_on_the_speed() -> None:
     slow, fast = track(18.0, 100.0, seed=2), track(36.0, 50.0, seed=2)  # 5 and 10 m/s
     assert np.allclose(slow.heights[20000::2], fast.heights[10000:], rtol=0, atol=1e-12)
 
@@ -49,7 +49,7 @@ def test_nothing_repeats() -> None:
     assert np.abs(correlation[round(100 / road.SPACING / 10) :]).max() < 0.6
 
 
-def test_no_place_beyond_the_road() -> None:
+def test_positions_outside_the_road_are_refused() -> None:
     with pytest.raises(ValueError, match=r"position 0 to 11 m: must be from 0 to 10 m"):
         road.generate(10.0).at(np.array([0.0, 11.0]))
 
@@ -58,8 +58,8 @@ def test_envelope_is_the_mean_over_the_contact_length() -> None:
     profile = road.generate(200, seed=4)
     half = round(road.CONTACT_LENGTH / road.SPACING) // 2
     fine = np.arange(0.0, road.CONTACT_LENGTH, 1e-4) - road.CONTACT_LENGTH / 2
-    for place in (3.0, 50.02, 120.5):
-        position = place + fine
+    for centre in (3.0, 50.02, 120.5):
+        position = centre + fine
         mean = np.interp(position, np.arange(len(profile.height)) * road.SPACING, profile.height).mean()
-        assert profile.at(np.array([place]))[0] == pytest.approx(mean, abs=0.02 * profile.height.std())
+        assert profile.at(np.array([centre]))[0] == pytest.approx(mean, abs=0.02 * profile.height.std())
     assert half == 3

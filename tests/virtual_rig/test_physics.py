@@ -145,8 +145,8 @@ def test_without_oil_thrown_onto_the_walls_there_is_less_fade():
 
 def test_oil_on_the_walls_runs_down():
     t, z = sine(1.572, 8)
-    rest = np.arange(t[-1] + 0.01, t[-1] + 30, 0.01)
-    r = run(DAMPER, np.concatenate([t, rest]), np.concatenate([z, np.zeros(len(rest))]), 0.6, False)
+    at_rest = np.arange(t[-1] + 0.01, t[-1] + 30, 0.01)
+    r = run(DAMPER, np.concatenate([t, at_rest]), np.concatenate([z, np.zeros(len(at_rest))]), 0.6, False)
     assert r.film[len(t)] > 1e-5 and r.film[-1] < 0.5 * r.film[len(t)]
 
 

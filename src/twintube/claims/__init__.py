@@ -1,17 +1,16 @@
 """The paper's statements about results, C1 to C16, evaluated with its published parameters.
 
-`evaluate` returns one `Claim` per statement. A claim that took part in the calibration of the dead lengths names the
-dampers that it was used for, one that follows from an assumed value alone is marked `assumed`; only the others are
-evidence.
+`evaluate` returns one `Claim` per statement. A claim that was used to calibrate the dead lengths names the dampers
+concerned. A claim that follows from an assumed value alone is marked `assumed`. Only the other claims are evidence.
 """
 
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 
-from twintube.claims import drives, fast, intact, levels, slow, variants
+from twintube.claims import fast, intact, levels, slow, table3_drives, variants
 from twintube.claims.claim import BENCH, Bench, Claim, Dampers, fluid_works, works
 from twintube.dampers import load, names
-from twintube.rig.plan import velocities
+from twintube.rig.plan import oil_levels, velocities
 
 EVALUATORS: tuple[Callable[[Dampers, Bench], Claim], ...] = (
     slow.c1,
@@ -26,7 +25,7 @@ EVALUATORS: tuple[Callable[[Dampers, Bench], Claim], ...] = (
     fast.c10,
     intact.c11,
     intact.c12,
-    drives.c13,
+    table3_drives.c13,
     variants.c14,
     slow.c15,
     levels.c16,
@@ -42,10 +41,10 @@ def evaluate(readings: Mapping[str, float] | None = None, bench: Bench = BENCH) 
 
 
 def warm(dampers: Dampers, bench: Bench) -> None:
-    """Make the runs that several claims share, on all cores: the compiled kernel lets go of Python's lock."""
+    """Simulate the runs that several claims share, on all cores: the compiled kernel releases Python's lock."""
     with ThreadPoolExecutor() as pool:
         for damper in dampers.values():
-            for level in (1.0, *damper.measured_levels):
+            for level in oil_levels(damper):
                 for velocity in velocities(damper):
                     pool.submit(works, damper, level, velocity, bench)
                     pool.submit(fluid_works, damper, level, velocity, bench)

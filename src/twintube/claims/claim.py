@@ -1,4 +1,4 @@
-"""What a claim's evaluation says, the bench it was made on, and the runs it is made from."""
+"""The result of evaluating a claim, the bench settings, and the simulated runs that claims share."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -9,14 +9,14 @@ from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.closures import DEFAULT, LETTER, closed
 from twintube.engine.simulate import Simulation, simulate, work_between
-from twintube.rig.plan import amplitude
+from twintube.rig.plan import amplitude, at_oil_level
 from twintube.rig.signals import START, Signal, harmonic_block
 
 Dampers = dict[str, Damper]
 FRONT = ("SA1", "SA3", "SA5", "SA7")
 REAR = ("SA2", "SA4", "SA6", "SA8")
-MODEL_ERROR = 0.10  # largest error of the model on the first oscillation, Section 3.4: what its figures cannot tell apart
-VISIBLE = 0.01  # share of an axis that the line of a diagram covers: smaller differences coincide in it
+MODEL_ERROR = 0.10  # largest error of the model on the first oscillation (Section 3.4): smaller differences do not count
+VISIBLE = 0.01  # line width of a diagram over the length of its axis: smaller differences are not visible
 NUMERIC = 1e-3  # relative error of a block's work from its sampling
 PAPER, READING, STAND_IN = "paper", "reading", "stand-in"
 FV_STANDIN = "F-v curves (assumed stand-ins)"
@@ -25,12 +25,12 @@ DEAD = "dead lengths (assumed, calibrated)"
 
 @dataclass(frozen=True)
 class Bench:
-    """What the text leaves open about the test rig and about the gas that cavitation frees."""
+    """Settings that the paper does not state: of the test rig, and the closure for the gas that cavitation frees."""
 
     start: str = START  # one of rig.STARTS
     position: float = 0.0  # middle of all strokes [m]
-    reach: float = 0.0  # amplitude of the blocks [m]; 0: as `plan.amplitude` says
-    closure: str = ""  # of every run; none: the letter for blocks, the closure of rides for drives
+    reach: float = 0.0  # amplitude of the blocks [m]; 0: the value of `plan.amplitude`
+    closure: str = ""  # of every run; empty: `letter` for blocks, the default closure for drives
 
 
 BENCH = Bench()
@@ -38,32 +38,32 @@ BENCH = Bench()
 
 @dataclass(frozen=True)
 class Claim:
-    """One statement of the paper and what the model says to it."""
+    """One statement of the paper and its evaluation with the model."""
 
     id: str
     quote: str  # the paper's own words
     statement: str
     source: str
-    tested: str  # what is compared, with its limits and where they come from
+    tested: str  # what is compared, with the limits and their sources
     holds: bool
     figures: dict[str, object]
-    needs: str  # unpublished data that the statement or its check rests on, with the stand-in used
-    because: str = ""  # what makes it fail: paper, reading or stand-in
-    reason: str = ""  # why it does not hold, with the experiment that shows it
+    needs: str  # unpublished data that the check depends on, with the stand-in used
+    because: str = ""  # cause of the failure: paper, reading or stand-in
+    reason: str = ""  # why it does not hold, with the numerical experiment that shows it
     calibrated: tuple[str, ...] = ()  # the dampers whose dead length was chosen on this claim
     assumed: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "holds", bool(self.holds))  # numpy's own bool is no JSON
+        object.__setattr__(self, "holds", bool(self.holds))  # numpy's bool cannot be written as JSON
 
     @property
     def evidence(self) -> bool:
-        """True where the claim was neither used for the calibration nor put in by assumption."""
+        """True where the claim was not used for the calibration and does not follow from an assumed value alone."""
         return not (self.calibrated or self.assumed)
 
 
 class Keyed:
-    """A damper that hashes by its parameters, so that runs shared by claims are made once."""
+    """A damper with a hash of its parameters, so that runs that claims share are simulated once."""
 
     def __init__(self, damper: Damper) -> None:
         self.damper = damper
@@ -77,16 +77,15 @@ class Keyed:
 
 
 def block(damper: Damper, velocity: float, bench: Bench = BENCH, samples: int = 400) -> Signal:
-    """The harmonic block of a damper with the maximum `velocity` [m/s], sampled about `samples` times per oscillation."""
+    """The harmonic block of a damper with the maximum `velocity` [m/s] and about `samples` samples per oscillation."""
     reach = bench.reach or amplitude(damper)
     dt = max(0.2 / samples, 2 * np.pi * reach / velocity / samples)
     return harmonic_block(velocity, reach, dt, start=bench.start, position=bench.position)
 
 
 def condition(damper: Damper, oil_level: float, bench: Bench = BENCH, *, drive: bool = False) -> Damper:
-    """The damper at an oil level, the gas preload lost unless full of oil, with the closure of the bench."""
-    state = damper.with_(oil_level=oil_level, gas_preload=1 if oil_level == 1.0 else 0)
-    return closed(state, bench.closure or (DEFAULT if drive else LETTER))
+    """The damper at an oil level with the closure of the bench; below 100 % the gas preload is lost."""
+    return closed(at_oil_level(damper, oil_level), bench.closure or (DEFAULT if drive else LETTER))
 
 
 @lru_cache(maxsize=20000)
@@ -97,27 +96,27 @@ def cached_works(damper: Keyed, velocity: float, bench: Bench) -> Array:
 
 
 def works(damper: Damper, oil_level: float, velocity: float, bench: Bench = BENCH) -> Array:
-    """Works [J] of the 19 oscillations at the maximum `velocity` [m/s], the gas preload lost unless full of oil."""
+    """Works [J] of the 19 oscillations at the maximum `velocity` [m/s]; below 100 % oil the gas preload is lost."""
     return cached_works(Keyed(condition(damper, oil_level, bench)), velocity, bench)
 
 
 def fluid_works(damper: Damper, oil_level: float, velocity: float, bench: Bench = BENCH) -> Array:
-    """As `works` without the friction, which rises with the oil loss by an assumed gain."""
+    """As `works`, without the friction, whose rise with the oil loss is assumed."""
     return works(damper.with_(F_FrS=0.0), oil_level, velocity, bench)
 
 
 def relative(damper: Damper, oil_level: float, velocity: float, bench: Bench = BENCH) -> Array:
     """Works of the 19 oscillations relative to the first one of the intact damper [1]."""
-    share: Array = works(damper, oil_level, velocity, bench) / works(damper, 1.0, velocity, bench)[0]
-    return share
+    ratio: Array = works(damper, oil_level, velocity, bench) / works(damper, 1.0, velocity, bench)[0]
+    return ratio
 
 
 def fluid_relative(damper: Damper, oil_level: float, velocity: float, bench: Bench = BENCH) -> Array:
-    """The same without friction."""
+    """As `relative`, without friction."""
     return relative(damper.with_(F_FrS=0.0), oil_level, velocity, bench)
 
 
-def floor(damper: Damper, velocity: float, bench: Bench = BENCH) -> float:
+def friction_floor(damper: Damper, velocity: float, bench: Bench = BENCH) -> float:
     """Work of the damper without any oil, friction alone, relative to intact [1]."""
     return float(relative(damper, 0.0, velocity, bench)[-1])
 
@@ -130,7 +129,7 @@ def run(
     preload: int | None = None,
     samples: int = 400,
 ) -> tuple[Signal, Simulation]:
-    """The block and everything that the model says to it; `preload` other than the paper's states is for C12."""
+    """The block and its simulation; `preload` overrides the preload of the paper's states (for C12)."""
     state = condition(damper, oil_level, bench)
     if preload is not None:
         state = state.with_(gas_preload=preload)
@@ -139,5 +138,5 @@ def run(
 
 
 def rounded(value: float, digits: int = 3) -> float:
-    """A figure for a report."""
+    """A number rounded for a report."""
     return float(np.round(value, digits))

@@ -5,11 +5,11 @@ import numpy as np
 from twintube.claims.claim import BENCH, READING, STAND_IN, Bench, Claim, Dampers, condition, rounded, run
 from twintube.dampers import Damper
 from twintube.engine.simulate import simulate
-from twintube.rig.plan import amplitude
+from twintube.rig.plan import V_QUASI_STATIC, amplitude, oil_levels
 from twintube.rig.signals import BLOCKS
 
 CLOSE_TO_ZERO = 0.1  # of the intact slope: an order of magnitude
-ZWOSTA = 0.10  # most that the loss of the preload costs, of force and of work
+ZWOSTA = 0.10  # largest loss of force and of work by the loss of the preload
 
 
 def slope(damper: Damper) -> float:
@@ -17,19 +17,16 @@ def slope(damper: Damper) -> float:
     reach = amplitude(damper)
     ramp = np.linspace(-reach, reach, 2000)
     z = np.concatenate([ramp, ramp[::-1], ramp, ramp[::-1]])
-    v = np.where(np.arange(len(z)) // 2000 % 2 == 0, 1e-3, -1e-3)
-    force = simulate(damper, z, v, np.arange(len(z)) * (ramp[1] - ramp[0]) / 1e-3).force
+    v = np.where(np.arange(len(z)) // 2000 % 2 == 0, V_QUASI_STATIC, -V_QUASI_STATIC)
+    force = simulate(damper, z, v, np.arange(len(z)) * (ramp[1] - ramp[0]) / V_QUASI_STATIC).force
     middle = slice(200, 1800)
     up, down = force[4000:6000], force[6000:][::-1]
     return float(np.mean([np.polyfit(ramp[middle], branch[middle], 1)[0] for branch in (up, down)]))
 
 
 def c11(dampers: Dampers, bench: Bench = BENCH) -> Claim:
-    """The quasi-static slope tells the preload."""
-    table = {
-        name: [rounded(slope(condition(d, level, bench)), 0) for level in (1.0, *d.measured_levels)]
-        for name, d in dampers.items()
-    }
+    """The quasi-static slope shows the preload."""
+    table = {name: [rounded(slope(condition(d, level, bench)), 0) for level in oil_levels(d)] for name, d in dampers.items()}
     intact, *lost = table["SA7"]
     holds = intact > 0 and max(map(abs, lost)) <= CLOSE_TO_ZERO * intact
     return Claim(
@@ -50,15 +47,15 @@ def c11(dampers: Dampers, bench: Bench = BENCH) -> Claim:
 
 
 def losses(damper: Damper, velocity: float, bench: Bench) -> tuple[float, float]:
-    """What the loss of the preload alone costs of force and work [1], the most of all oscillations and directions."""
-    lost = damper.with_(F_0=0.0, c_gas=0.0, c_gas_lost=0.0)
-    found = []
+    """Largest loss of force and of work [1] by the loss of the preload alone, over all oscillations and directions."""
+    without_gas_force = damper.with_(F_0=0.0, c_gas=0.0, c_gas_lost=0.0)
+    peaks = []
     for preload in (1, 0):
-        signal, result = run(lost, 1.0, velocity, bench, preload)
+        signal, result = run(without_gas_force, 1.0, velocity, bench, preload)
         first, count = int(signal.marks[0]), len(signal.marks) - 1
         loops = result.force[first : int(signal.marks[-1])].reshape(count, -1)
-        found.append((loops.max(axis=1), -loops.min(axis=1), np.diff(result.work[signal.marks])))
-    rebound, compression, work = (1 - after / before for before, after in zip(*found, strict=True))
+        peaks.append((loops.max(axis=1), -loops.min(axis=1), np.diff(result.work[signal.marks])))
+    rebound, compression, work = (1 - after / before for before, after in zip(*peaks, strict=True))
     return float(max(rebound.max(), compression.max())), float(work.max())
 
 
@@ -70,7 +67,7 @@ def c12(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     reason = ""
     if not holds:
         worst = max(work, key=work.__getitem__)
-        reason = f"the full damper cavitates in this reading: {worst} loses {work[worst]:.0%} of its work"
+        reason = f"the damper full of oil cavitates in this reading: {worst} loses {work[worst]:.0%} of its work"
     return Claim(
         id="C12",
         quote="Although the loss of the entire gas preload reduces the maximum damping force and damping work to a "
@@ -81,7 +78,7 @@ def c12(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         f"oscillations, every velocity and damper, full of oil with and without preload: at most {ZWOSTA:.0%} less",
         holds=holds,
         figures={"largest_loss_of_force": force, "largest_loss_of_work": work},
-        needs="nothing; the reading `cavitation_loss` decides it (docs/open_choices.md)",
+        needs="nothing; the reading `cavitation_loss` determines it (docs/open_choices.md)",
         because="" if holds else READING,
         reason=reason,
         assumed=True,

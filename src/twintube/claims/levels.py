@@ -14,27 +14,26 @@ from twintube.claims.claim import (
     Bench,
     Claim,
     Dampers,
-    floor,
     fluid_relative,
+    friction_floor,
     relative,
     rounded,
 )
-from twintube.claims.lengths import beginning, holding, starting
+from twintube.claims.lengths import dead_lengths_that_hold, starts_in_words, starts_that_hold
 from twintube.dampers import Damper
-from twintube.rig.plan import amplitude, velocities
-from twintube.rig.signals import BLOCKS
+from twintube.rig.plan import amplitude, oil_levels, velocities
+from twintube.rig.signals import BLOCKS, FASTEST
 
-TOP = BLOCKS[-1]
 FIRST = 0.65  # work of the first oscillation at 50 % oil and 1.6 m/s
-ALMOST_ZERO = MODEL_ERROR  # above the friction floor: what the model's error hides
-HALF = 0.5  # work that 10 % oil loss can leave; work that 60 % oil leaves
+ALMOST_ZERO = MODEL_ERROR  # above the friction floor: not significant within the model's error
+HALF = 0.5  # relative work that a 10 % oil loss can leave, and that is left at 60 % oil
 FAST = 0.5  # [m/s]
 
 
 def half_full(damper: Damper, bench: Bench = BENCH) -> tuple[float, float]:
     """Work at 50 % oil and 1.572 m/s relative to intact [1]: first oscillation, and 19th above the friction floor."""
-    w = relative(damper, 0.5, TOP, bench)
-    return float(w[0]), float(w[-1]) - floor(damper, TOP, bench)
+    w = relative(damper, 0.5, FASTEST, bench)
+    return float(w[0]), float(w[-1]) - friction_floor(damper, FASTEST, bench)
 
 
 def half_full_as_stated(damper: Damper, bench: Bench = BENCH) -> bool:
@@ -48,7 +47,7 @@ def c7(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     first, last = half_full(dampers["SA8"], bench)
     low, high = rounded(FIRST * (1 - MODEL_ERROR)), rounded(FIRST * (1 + MODEL_ERROR))
     holds = half_full_as_stated(dampers["SA8"], bench)
-    starts = [] if holds else starting(bench, lambda b: half_full_as_stated(dampers["SA8"], b))
+    starts = [] if holds else starts_that_hold(bench, lambda b: half_full_as_stated(dampers["SA8"], b))
     return Claim(
         id="C7",
         quote="Furthermore, even at an oil level of 50% for the 19th oscillation, the damping work of the SA is reduced "
@@ -62,7 +61,7 @@ def c7(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         figures={
             "first": rounded(first),
             "nineteenth_above_the_floor": rounded(last),
-            "friction_floor": rounded(floor(dampers["SA8"], TOP, bench)),
+            "friction_floor": rounded(friction_floor(dampers["SA8"], FASTEST, bench)),
             "limits_first": [low, high],
         },
         needs=f"{FV_STANDIN}, {DEAD}",
@@ -70,41 +69,46 @@ def c7(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         reason=""
         if holds
         else f"the first oscillation does {first:.2f}, the 19th {last:.2f} above the floor; it would hold "
-        + holding(dampers["SA8"], lambda one: half_full_as_stated(one, bench))
+        + dead_lengths_that_hold(dampers["SA8"], lambda candidate: half_full_as_stated(candidate, bench))
         + "; at the length of its file "
-        + beginning(starts),
+        + starts_in_words(starts),
         calibrated=("SA8",),
     )
 
 
 def ten_per_cent(damper: Damper, bench: Bench) -> tuple[list[str], float, float]:
-    """At 90 %: velocities above 0.5 m/s without a reduced work, the least work [1] and its velocity [m/s]."""
+    """At 90 %: velocities above 0.5 m/s without a loss of work, the smallest work [1] and its velocity [m/s]."""
     table = {v: fluid_relative(damper, 0.9, v, bench) for v in velocities(damper)}
-    unchanged = [f"{v:g}" for v, w in table.items() if v > FAST and w.max() >= 1 - NUMERIC]
+    not_reduced = [f"{v:g}" for v, w in table.items() if v > FAST and w.max() >= 1 - NUMERIC]
     total = {v: float(relative(damper, 0.9, v, bench).min()) for v in velocities(damper)}
     worst = min(total, key=total.__getitem__)
-    return unchanged, total[worst], worst
+    return not_reduced, total[worst], worst
 
 
 def c8(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     """Ten per cent of oil lost."""
     damper = dampers["SA8"]
-    unchanged, least, worst = ten_per_cent(damper, bench)
+    not_reduced, smallest, worst = ten_per_cent(damper, bench)
     low, high = rounded(HALF * (1 - MODEL_ERROR)), rounded(HALF * (1 + MODEL_ERROR))
     reason = []
-    if unchanged:
-        earlier, lowest, _ = ten_per_cent(damper.with_(v_cav=FAST), bench)
+    if not_reduced:
+        still_not_reduced, lowest, _ = ten_per_cent(damper.with_(v_cav=FAST), bench)
         reason.append(
-            f"nothing is lost at {', '.join(unchanged)} m/s, where Table 9 has no cavitation (v_cav = "
+            f"no work is lost at {', '.join(not_reduced)} m/s, where Table 9 has no cavitation (v_cav = "
             f"{damper.parameters.v_cav:g} m/s) and 90 % of the oil fill both working chambers; with v_cav = {FAST} m/s "
-            + ("the work would fall everywhere" if not earlier else f"it would still be whole at {', '.join(earlier)} m/s")
-            + f" and the least be {lowest:.2f}"
+            + (
+                f"it would still not fall at {', '.join(still_not_reduced)} m/s"
+                if still_not_reduced
+                else "the work would fall everywhere"
+            )
+            + f" and the smallest work would be {lowest:.2f}"
         )
-    if not low <= least <= high:
+    if not low <= smallest <= high:
         slower = {v: relative(damper, 0.9, v, bench).min() for v in velocities(damper) if v < worst}
-        near = [f"{v:g} m/s leave {w:.2f}" for v, w in slower.items() if low <= w <= high]
-        reason.append(f"the least work is {least:.2f}, at {worst:g} m/s" + (f"; {', '.join(near)}" if near else ""))
-    holds = not unchanged and low <= least <= high
+        within_limits = [f"at {v:g} m/s {w:.2f} is left" for v, w in slower.items() if low <= w <= high]
+        reason.append(f"the smallest work is {smallest:.2f}, at {worst:g} m/s")
+        reason += [", ".join(within_limits)] * bool(within_limits)
+    holds = not not_reduced and low <= smallest <= high
     return Claim(
         id="C8",
         quote="The figure shows that even an oil loss of 10% (oil level 90%) reduces the damping work performed at "
@@ -114,17 +118,17 @@ def c8(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         statement="SA8, 90 %: above 0.5 m/s the work is reduced from the first oscillation onwards; a 10 % loss can "
         "reduce it to 50 %",
         source="Section 3.4, Figure 34; abstract",
-        tested="fluid work (friction's assumed rise taken off) of all 19 oscillations below intact at every velocity "
-        f"above 0.5 m/s, by more than the error of the sampling ({NUMERIC:g}); the least work of all between {low} and "
+        tested="fluid work (without friction, whose rise is assumed) of all 19 oscillations below intact at every velocity "
+        f"above 0.5 m/s, by more than the error of the sampling ({NUMERIC:g}); the smallest work of all between {low} and "
         f"{high} (50 % within 10 %)",
         holds=holds,
         figures={
             "first_by_velocity": {f"{v:g}": rounded(fluid_relative(damper, 0.9, v, bench)[0]) for v in velocities(damper)},
             "nineteenth_by_velocity": {f"{v:g}": rounded(relative(damper, 0.9, v, bench)[-1]) for v in velocities(damper)},
-            "not_reduced_at": unchanged,
-            "least_work": rounded(least),
+            "not_reduced_at": not_reduced,
+            "least_work": rounded(smallest),
         },
-        needs=f"{FV_STANDIN}, {DEAD}; the 50 % are no evidence: the reading `cavitation_loss` was chosen by them "
+        needs=f"{FV_STANDIN}, {DEAD}; the 50 % are not evidence: the reading `cavitation_loss` was chosen with them "
         "(docs/open_choices.md)",
         because="" if holds else PAPER,
         reason="; ".join(reason),
@@ -132,13 +136,13 @@ def c8(dampers: Dampers, bench: Bench = BENCH) -> Claim:
 
 
 def transition(damper: Damper, bench: Bench = BENCH, oscillation: int = -1) -> dict[str, list[float]]:
-    """Work at 60, 50 and 40 % relative to intact, and of a damper without oil, at the velocities below cavitation [1]."""
+    """Work [1] at 60, 50 and 40 % and of a damper without oil, relative to intact, at the velocities below cavitation."""
     slow = [v for v in BLOCKS if v <= damper.parameters.v_cav]
     table = {f"{x:.0%}": [rounded(relative(damper, x, v, bench)[oscillation]) for v in slow] for x in (0.6, 0.5, 0.4)}
-    return table | {"floor": [rounded(floor(damper, v, bench)) for v in slow]}
+    return table | {"floor": [rounded(friction_floor(damper, v, bench)) for v in slow]}
 
 
-def left_at_40(table: dict[str, list[float]]) -> list[float]:
+def remaining_at_40(table: dict[str, list[float]]) -> list[float]:
     """Work at 40 % above the friction floor [1]."""
     return [rounded(w - f) for w, f in zip(table["40%"], table["floor"], strict=True)]
 
@@ -146,14 +150,14 @@ def left_at_40(table: dict[str, list[float]]) -> list[float]:
 def transition_as_stated(damper: Damper, bench: Bench = BENCH) -> bool:
     """Whether C9 holds."""
     table = transition(damper, bench)
-    return min(table["60%"]) > HALF and max(left_at_40(table)) <= ALMOST_ZERO
+    return min(table["60%"]) > HALF and max(remaining_at_40(table)) <= ALMOST_ZERO
 
 
 def c9(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     """The transition between 60 and 40 %."""
     damper = dampers["SA8"]
     table = transition(damper, bench)
-    above, holds = left_at_40(table), transition_as_stated(damper, bench)
+    above, holds = remaining_at_40(table), transition_as_stated(damper, bench)
     return Claim(
         id="C9",
         quote="This simulation study shows that an oil level between 40% and 60% represents a transition range of the "
@@ -161,8 +165,8 @@ def c9(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         "drops to almost zero at an oil level of 40%.",
         statement="SA8: 40-60 % is the transition: above half of the work at 60 %, almost zero at 40 %",
         source="Section 4 (Discussion), Figure 34",
-        tested="19th oscillation at the velocities below the cavitation threshold (above it C6 and C7 ask for almost "
-        f"nothing at 60 and 50 % already): more than {HALF} at 60 %, at most {ALMOST_ZERO} above a damper without oil at "
+        tested="19th oscillation at the velocities below the cavitation threshold (above it C6 and C7 require almost "
+        f"zero at 60 and 50 % already): more than {HALF} at 60 %, at most {ALMOST_ZERO} above a damper without oil at "
         "40 %",
         holds=holds,
         figures={
@@ -175,32 +179,33 @@ def c9(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         because="" if holds else STAND_IN,
         reason=""
         if holds
-        else f"least at 60 %: {min(table['60%']):.2f}; most at 40 % above the floor: {max(above):.2f} at 0.05 m/s, else "
-        f"{max(above[1:]):.2f}; it would hold " + holding(damper, lambda one: transition_as_stated(one, bench)),
+        else f"smallest at 60 %: {min(table['60%']):.2f}; largest at 40 % above the floor: {max(above):.2f} at 0.05 m/s, "
+        f"otherwise {max(above[1:]):.2f}; it would hold "
+        + dead_lengths_that_hold(damper, lambda candidate: transition_as_stated(candidate, bench)),
         calibrated=("SA8",),
     )
 
 
 def not_falling(damper: Damper, bench: Bench = BENCH) -> list[str]:
-    """Velocities, oscillations and levels where the fluid work is no lower than at the level above."""
-    found = []
-    levels = (1.0, *damper.measured_levels, 0.0)
+    """Levels, oscillations and velocities at which the fluid work is not lower than at the next higher level."""
+    cases = []
+    levels = (*oil_levels(damper), 0.0)
     for v in velocities(damper):
         table = [fluid_relative(damper, x, v, bench) for x in levels]
         for i, name in ((0, "1st"), (-1, "19th")):
             for higher, lower, level in zip(table, table[1:], levels[1:], strict=False):
                 if lower[i] > higher[i] - NUMERIC and higher[i] > NUMERIC:
-                    found.append(f"{level:.0%} {name} {v:g}")
-    return found
+                    cases.append(f"{level:.0%} {name} {v:g}")
+    return cases
 
 
 def comparisons(damper: Damper) -> int:
-    """How many comparisons `not_falling` makes."""
+    """Number of comparisons in `not_falling`."""
     return len(velocities(damper)) * 2 * (len(damper.measured_levels) + 1)
 
 
 def filled_from(damper: Damper, bench: Bench = BENCH) -> float:
-    """Dead length [m] from which on the higher measured oil volume fills both working chambers in every position."""
+    """Smallest dead length [m] at which the higher measured oil volume fills both working chambers in every position."""
     p = damper.parameters
     rod, piston = 0.25 * math.pi * p.D_PR**2, 0.25 * math.pi * p.D_li**2
     oil = damper.measured_levels[0] * p.V_oil - rod * ((bench.reach or amplitude(damper)) + bench.position)
@@ -210,16 +215,18 @@ def filled_from(damper: Damper, bench: Bench = BENCH) -> float:
 def c16(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     """The work falls with the level."""
     table = {name: not_falling(damper, bench) for name, damper in dampers.items()}
-    flat = {name: found for name, found in table.items() if found}
-    upper = [n for n, found in flat.items() if any(f.startswith(f"{dampers[n].measured_levels[0]:.0%}") for f in found)]
+    without_fall = {name: cases for name, cases in table.items() if cases}
+    upper, lower = (
+        [n for n, cases in without_fall.items() if any(f.startswith(f"{dampers[n].measured_levels[i]:.0%}") for f in cases)]
+        for i in (0, 1)
+    )
     filled = ", ".join(f"{n} {filled_from(dampers[n], bench) * 1e3:.0f} mm" for n in upper)
     reason = []
     if upper:
         reason.append(
-            "at the higher level of Table 2 the oil still fills both working chambers of Table 5, so that nothing is "
+            "at the higher level of Table 2 the oil still fills both working chambers of Table 5, so that no work is "
             f"lost at low velocity, unless the dead length is below: {filled}"
         )
-    lower = [n for n, found in flat.items() if any(f.startswith(f"{dampers[n].measured_levels[1]:.0%}") for f in found)]
     reason += [f"at the lower level it does not fall in {', '.join(lower)}"] * bool(lower)
     return Claim(
         id="C16",
@@ -227,17 +234,17 @@ def c16(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         "performed decreases as the oil level decreases.",
         statement="the work of an oscillation falls as the oil level falls, in every damper",
         source="Section 3.3, Figures 19-26",
-        tested="fluid work (friction's assumed rise with oil loss, up to 2 % of a work, taken off) of the 1st and the "
-        "19th oscillation at every velocity of every damper: lower at each level than at the one above, 100 %, the two "
-        f"of Table 2 and 0 %, by more than the error of the sampling ({NUMERIC:g} of the intact work), unless nothing is "
-        "left",
-        holds=not flat,
+        tested="fluid work (without friction, whose assumed rise with the oil loss is up to 2 % of a work) of the 1st and "
+        "the 19th oscillation at every velocity of every damper: lower at each level than at the one above, 100 %, the two "
+        f"of Table 2 and 0 %, by more than the error of the sampling ({NUMERIC:g} of the intact work), unless no work "
+        "is left",
+        holds=not without_fall,
         figures={
-            "comparisons_without_a_fall": {n: f"{len(found)} of {comparisons(dampers[n])}" for n, found in table.items()},
-            "where": flat,
+            "comparisons_without_a_fall": {n: f"{len(cases)} of {comparisons(dampers[n])}" for n, cases in table.items()},
+            "where": without_fall,
         },
         needs=f"{DEAD}, {FV_STANDIN}",
-        because="" if not flat else PAPER,
+        because="" if not without_fall else PAPER,
         reason="; ".join(reason),
         calibrated=tuple(dampers),
     )

@@ -20,14 +20,15 @@ from twintube.claims.claim import (
     rounded,
     run,
 )
-from twintube.claims.lengths import beginning, holding, starting
+from twintube.claims.lengths import dead_lengths_that_hold, starts_in_words, starts_that_hold
 from twintube.dampers import Damper
-from twintube.rig.signals import BLOCKS, Signal
+from twintube.rig.plan import oil_levels
+from twintube.rig.signals import SLOWEST, Signal
 
 DIRECTIONS = ("rebound", "compression")
-SLOWEST, STEPPED = BLOCKS[0], 0.08  # maximum velocities [m/s] of Figures 8 and 27
-SHARP, STEP = 5e-3, 1e-3  # ways [m] over which a sharp rise and a step happen
-JUDGED = 0.9  # share of the amplitude; beyond it the piston hardly moves and friction reverses
+STEPPED = 0.08  # maximum velocity [m/s] of Figure 27
+SHARP, STEP = 5e-3, 1e-3  # travel [m] of a sharp rise and of a step
+JUDGED = 0.9  # share of the amplitude that is evaluated; beyond it the piston is slow and the friction reverses
 HALF = 0.5  # a force above half of the intact one is not "very low"
 
 
@@ -43,9 +44,9 @@ def strokes(signal: Signal, direction: str) -> list[slice]:
 
 @dataclass(frozen=True)
 class Stroke:
-    """One stroke of a degraded damper beside the intact one; forces [N] without F_0, positive against the motion."""
+    """One stroke of a degraded damper and of the intact one; forces [N] without F_0, positive against the motion."""
 
-    way: Array  # [m], rising
+    travel: Array  # [m], rising
     at: Array  # stroke [m] from the middle
     force: Array
     intact: Array
@@ -58,57 +59,57 @@ def last_strokes(damper: Damper, oil_level: float, velocity: float, bench: Bench
     """The last stroke of a block in both directions."""
     signal, low = run(damper, oil_level, velocity, bench)
     _, full = run(damper, 1.0, velocity, bench)
-    found = {}
+    by_direction = {}
     for direction in DIRECTIONS:
-        part, sign = strokes(signal, direction)[-1], 1.0 if direction == "rebound" else -1.0
-        at = signal.stroke[part] - bench.position
-        found[direction] = Stroke(
-            way=sign * at,
+        span, sign = strokes(signal, direction)[-1], 1.0 if direction == "rebound" else -1.0
+        at = signal.stroke[span] - bench.position
+        by_direction[direction] = Stroke(
+            travel=sign * at,
             at=at,
-            force=sign * low.force[part],
-            intact=sign * (full.force[part] + damper.parameters.F_0),
-            fluid=sign * low.F_fluid[part],
-            intact_fluid=sign * full.F_fluid[part],
-            intact_damping=sign * (full.F_fluid[part] + full.F_friction[part]),
+            force=sign * low.force[span],
+            intact=sign * (full.force[span] + damper.parameters.F_0),
+            fluid=sign * low.F_fluid[span],
+            intact_fluid=sign * full.F_fluid[span],
+            intact_damping=sign * (full.F_fluid[span] + full.F_friction[span]),
         )
-    return found
+    return by_direction
 
 
-def largest_gain(way: Array, low: Array, full: Array, length: float) -> tuple[float, int, int]:
-    """Largest gain [N] of `low` over `length` [m] of the way, and where it begins and ends.
+def largest_gain(travel: Array, low: Array, full: Array, length: float) -> tuple[float, int, int]:
+    """Largest gain [N] of the force `low` over `length` [m] of travel, and its first and last sample.
 
-    What `full`, the intact damper, gains there by its velocity is taken off.
+    The gain of `full`, the intact damper, over the same travel is subtracted: it is due to the velocity.
     """
-    inner = np.flatnonzero(np.abs(way) <= JUDGED * np.abs(way).max())
-    ends = np.minimum(np.searchsorted(way, way[inner] + length), inner[-1])
+    inner = np.flatnonzero(np.abs(travel) <= JUDGED * np.abs(travel).max())
+    ends = np.minimum(np.searchsorted(travel, travel[inner] + length), inner[-1])
     gain = (low[ends] - low[inner]) - np.maximum(0.0, full[ends] - full[inner])
     best = int(np.argmax(gain))
     return float(gain[best]), int(inner[best]), int(ends[best])
 
 
-def apart(damper: Damper, oil_level: float, bench: Bench) -> float:
-    """How far the 19 slow loops lie from the last one in the diagram, as a share of either axis [1]."""
+def spread(damper: Damper, oil_level: float, bench: Bench) -> float:
+    """Largest distance of the 19 slow loops from the last one in the diagram, as a share of either axis [1]."""
     signal, result = run(damper, oil_level, SLOWEST, bench)
     span = slice(signal.marks[0], signal.marks[-1])
     points = np.column_stack([x[span] / np.ptp(x[span]) for x in (result.stroke, result.force)])
     last = points[signal.marks[-2] - signal.marks[0] :]
     last = np.vstack([last, last[:1]])
-    # The lines between the samples belong to the loop, or a step of the force would be a gap.
+    # The lines between the samples belong to the loop; otherwise a step of the force would leave a gap.
     fine = np.arange(0, len(last) - 1, 0.05)
     drawn = np.column_stack([np.interp(fine, np.arange(len(last)), column) for column in last.T])
     return float(cKDTree(drawn).query(points, p=np.inf)[0].max())
 
 
-def distances(dampers: Dampers, bench: Bench) -> dict[str, float]:
-    """`apart` of every damper at 100 % and both measured levels."""
-    return {f"{n} at {x:.0%}": apart(d, x, bench) for n, d in dampers.items() for x in (1.0, *d.measured_levels)}
+def all_spreads(dampers: Dampers, bench: Bench) -> dict[str, float]:
+    """`spread` of every damper at 100 % and both measured levels."""
+    return {f"{n} at {x:.0%}": spread(d, x, bench) for n, d in dampers.items() for x in oil_levels(d)}
 
 
 def c1(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     """Slow oscillations coincide."""
-    found = distances(dampers, bench)
-    away = [name for name, distance in found.items() if distance > VISIBLE]
-    worst = max(found, key=found.__getitem__)
+    spreads = all_spreads(dampers, bench)
+    beyond = [name for name, distance in spreads.items() if distance > VISIBLE]
+    worst = max(spreads, key=spreads.__getitem__)
     return Claim(
         id="C1",
         quote="It can be seen that all 19 oscillations of a condition are well superimposed.",
@@ -116,21 +117,21 @@ def c1(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         source="Section 3.1, Figure 8",
         tested="the force-displacement loops of the 19 oscillations, every damper at 100 % and both measured levels: in the "
         f"diagram no point of one is further from the last than {VISIBLE:.0%} of either axis, the line of a diagram",
-        holds=not away,
-        figures={"largest_distance": rounded(found[worst], 4), "at": worst, "limit": VISIBLE, "beyond": away},
+        holds=not beyond,
+        figures={"largest_distance": rounded(spreads[worst], 4), "at": worst, "limit": VISIBLE, "beyond": beyond},
         needs=DEAD,
-        because="" if not away else STAND_IN,
+        because="" if not beyond else STAND_IN,
         reason=""
-        if not away
-        else f"{', '.join(away)} differ, because the first oscillation does not follow a whole slow stroke; all "
-        "coincide " + beginning(starting(bench, lambda b: max(distances(dampers, b).values()) <= VISIBLE)),
+        if not beyond
+        else f"{', '.join(beyond)} differ, because no complete slow stroke precedes the first oscillation; all "
+        "coincide " + starts_in_words(starts_that_hold(bench, lambda b: max(all_spreads(dampers, b).values()) <= VISIBLE)),
         calibrated=tuple(dampers),
     )
 
 
 @dataclass(frozen=True)
 class Rise:
-    """The rise of the force within a slow stroke; forces relative to the intact damper's [1]."""
+    """The rise of the force within a slow stroke; forces relative to the intact damper [1]."""
 
     before: float  # lowest damping force before it
     gain: float  # within SHARP, relative to the highest intact damping force
@@ -139,15 +140,15 @@ class Rise:
     at: float  # stroke [m]
 
     @property
-    def is_there(self) -> bool:
-        """Whether the force is first below half of the intact one and then gains more than the model's own error."""
+    def exists(self) -> bool:
+        """Whether the force is first at most half of the intact one and then gains at least the model's error."""
         return self.before <= HALF and self.gain >= MODEL_ERROR
 
 
 def rise_of(stroke: Stroke) -> Rise:
-    """Measure the rise."""
-    gain, begin, end = largest_gain(stroke.way, stroke.force, stroke.intact_damping, SHARP)
-    inner = np.abs(stroke.way) <= JUDGED * np.abs(stroke.way).max()
+    """The rise of the force in a stroke."""
+    gain, begin, end = largest_gain(stroke.travel, stroke.force, stroke.intact_damping, SHARP)
+    inner = np.abs(stroke.travel) <= JUDGED * np.abs(stroke.travel).max()
     before, after = inner.copy(), inner.copy()
     before[begin + 1 :], after[:end] = False, False
     return Rise(
@@ -161,37 +162,43 @@ def rise_of(stroke: Stroke) -> Rise:
 
 def rises(damper: Damper, bench: Bench = BENCH) -> dict[str, Rise]:
     """The rises in both directions at the lowest measured level and 0.05 m/s."""
-    found = last_strokes(damper, damper.measured_levels[-1], SLOWEST, bench)
-    return {direction: rise_of(stroke) for direction, stroke in found.items()}
+    strokes_by_direction = last_strokes(damper, damper.measured_levels[-1], SLOWEST, bench)
+    return {direction: rise_of(stroke) for direction, stroke in strokes_by_direction.items()}
 
 
 def peak_to_peak(damper: Damper, bench: Bench) -> float:
-    """Height of the degraded loop over that of the intact one [1], which no static force changes."""
-    height = []
+    """Height of the degraded loop over that of the intact one [1]; a static force does not change it."""
+    heights = []
     for level in (damper.measured_levels[-1], 1.0):
         signal, result = run(damper, level, SLOWEST, bench)
-        height.append(float(np.ptp(result.force[signal.marks[-2] :])))
-    return height[0] / height[1]
+        heights.append(float(np.ptp(result.force[signal.marks[-2] :])))
+    return heights[0] / heights[1]
 
 
 def c2(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     """Low force first, then a sharp rise to a level below the intact one."""
-    found = {name: rises(damper, bench) for name, damper in dampers.items()}
-    silent = [f"{n} {d}" for n in found for d in DIRECTIONS if not found[n][d].is_there]
-    reached = [f"{n} {d}" for n in found for d in DIRECTIONS if found[n][d].is_there and found[n][d].after >= 1.0]
-    full = [f"{n} {d}" for n in found for d in DIRECTIONS if found[n][d].is_there and found[n][d].fluid_after > 1 - VISIBLE]
-    shares = [(r["rebound"].fluid_after, r["compression"].fluid_after) for r in found.values()]
-    alike = min(max(abs(a[0] - b[0]), abs(a[1] - b[1])) for i, a in enumerate(shares) for b in shares[:i])
-    holds = not silent and not reached and alike > VISIBLE
+    table = {name: rises(damper, bench) for name, damper in dampers.items()}
+    without_rise = [f"{n} {d}" for n in table for d in DIRECTIONS if not table[n][d].exists]
+    reached = [f"{n} {d}" for n in table for d in DIRECTIONS if table[n][d].exists and table[n][d].after >= 1.0]
+    whole_fluid_force = [
+        f"{n} {d}" for n in table for d in DIRECTIONS if table[n][d].exists and table[n][d].fluid_after > 1 - VISIBLE
+    ]
+    shares = [(r["rebound"].fluid_after, r["compression"].fluid_after) for r in table.values()]
+    closest = min(max(abs(a[0] - b[0]), abs(a[1] - b[1])) for i, a in enumerate(shares) for b in shares[:i])
+    holds = not without_rise and not reached and closest > VISIBLE
     reason = []
-    if silent:
+    if without_rise:
+
+        def both_rise(candidate: Damper) -> bool:
+            return all(rise.exists for rise in rises(candidate, bench).values())
+
         where = [
-            f"{n} {holding(dampers[n], lambda one: all(r.is_there for r in rises(one, bench).values()))}"
-            for n in dict.fromkeys(text.split()[0] for text in silent)
+            f"{n} {dead_lengths_that_hold(dampers[n], both_rise)}"
+            for n in dict.fromkeys(text.split()[0] for text in without_rise)
         ]
-        reason.append(f"no sharp rise from a very low force in {', '.join(silent)}; both are there in {'; '.join(where)}")
+        reason.append(f"no sharp rise from a very low force in {', '.join(without_rise)}; both exist in {'; '.join(where)}")
     if reached:
-        caps = ", ".join(f"{capped(dampers, text, bench):.2f} in {text.split()[0]}" for text in reached)
+        caps = ", ".join(f"{cap_below_intact(dampers, text, bench):.2f} in {text.split()[0]}" for text in reached)
         reason.append(
             f"the intact force is reached in {', '.join(reached)}, because equation 23 sets k = 1 once V1 holds no gas; "
             f"it would stay below with k capped at {caps}"
@@ -213,14 +220,14 @@ def c2(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         figures={
             "damping_force_before_gain_force_after_fluid_after": {
                 n: {d: [rounded(x, 2) for x in (r.before, r.gain, r.after, r.fluid_after)] for d, r in t.items()}
-                for n, t in found.items()
+                for n, t in table.items()
             },
-            "rise_at_mm": {n: {d: rounded(r.at * 1e3, 0) for d, r in t.items()} for n, t in found.items()},
+            "rise_at_mm": {n: {d: rounded(r.at * 1e3, 0) for d, r in t.items()} for n, t in table.items()},
             "loop_height_over_intact": {n: rounded(peak_to_peak(d, bench)) for n, d in dampers.items()},
-            "without_rise": silent,
+            "without_rise": without_rise,
             "intact_force_reached": reached,
-            "whole_fluid_force_reached": full,
-            "closest_shares_differ_by": rounded(alike),
+            "whole_fluid_force_reached": whole_fluid_force,
+            "closest_shares_differ_by": rounded(closest),
         },
         needs=f"{DEAD}, {FV_STANDIN}, gas stiffness (assumed)",
         because="" if holds else PAPER,
@@ -229,30 +236,32 @@ def c2(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     )
 
 
-def capped(dampers: Dampers, reached: str, bench: Bench) -> float:
-    """The highest k_degr after the rise [1] with which the force would stay below the intact one.
+def cap_below_intact(dampers: Dampers, reached: str, bench: Bench) -> float:
+    """Largest k_degr [1] after the rise at which the force stays below the intact one.
 
-    `reached` is a damper and a direction.
+    `reached` names a damper and a direction, e.g. `SA1 rebound`.
     """
     name, direction = reached.split()
     stroke = last_strokes(dampers[name], dampers[name].measured_levels[-1], SLOWEST, bench)[direction]
-    _, _, end = largest_gain(stroke.way, stroke.force, stroke.intact_damping, SHARP)
-    after = np.abs(stroke.way) <= JUDGED * np.abs(stroke.way).max()
+    _, _, end = largest_gain(stroke.travel, stroke.force, stroke.intact_damping, SHARP)
+    after = np.abs(stroke.travel) <= JUDGED * np.abs(stroke.travel).max()
     after[:end] = False
-    rest = stroke.intact - (stroke.force - stroke.fluid)
-    return float((rest / stroke.intact_fluid)[after].min())
+    available = stroke.intact - (stroke.force - stroke.fluid)
+    return float((available / stroke.intact_fluid)[after].min())
 
 
 def steps(damper: Damper, bench: Bench = BENCH) -> dict[str, float]:
-    """Largest step of the fluid force at 0.08 m/s and the higher level, relative to its highest intact value [1]."""
-    found = last_strokes(damper, damper.measured_levels[0], STEPPED, bench)
-    return {d: largest_gain(s.way, s.fluid, s.intact_fluid, STEP)[0] / float(s.intact_fluid.max()) for d, s in found.items()}
+    """Largest step of the fluid force at 0.08 m/s and the higher level, relative to the highest intact force [1]."""
+    return {
+        direction: largest_gain(s.travel, s.fluid, s.intact_fluid, STEP)[0] / float(s.intact_fluid.max())
+        for direction, s in last_strokes(damper, damper.measured_levels[0], STEPPED, bench).items()
+    }
 
 
 def c15(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     """Steps of the force where oil begins to flow."""
     table = {name: steps(dampers[name], bench) for name in ("SA1", "SA7")}
-    silent = [n for n, t in table.items() if max(t.values()) < MODEL_ERROR]
+    without_step = [n for n, t in table.items() if max(t.values()) < MODEL_ERROR]
     return Claim(
         id="C15",
         quote="The force steps can be explained by the different types of fluid flows. As soon as oil begins to flow "
@@ -260,13 +269,15 @@ def c15(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         statement="SA1 (text) or SA7 (caption), 60 %, 0.08 m/s: the force steps within a stroke as oil begins to flow "
         "through a valve",
         source="Section 3.3, Figure 27",
-        tested="the gain of the fluid force beyond what the velocity makes of it in the intact damper, over 1 mm, last "
+        tested="the gain of the fluid force less that of the intact damper (due to the velocity), over 1 mm, last "
         f"oscillation: at least {MODEL_ERROR:.0%} of the highest intact fluid force (the model's own error) in one "
-        "direction, in both dampers because the paper names either",
-        holds=not silent,
+        "direction, in both dampers because the paper names both",
+        holds=not without_step,
         figures={"largest_step_over_intact_force": {n: {d: rounded(x) for d, x in t.items()} for n, t in table.items()}},
         needs=f"{DEAD}, {FV_STANDIN}",
-        because="" if not silent else STAND_IN,
-        reason="" if not silent else f"the oil fills both working chambers of {', '.join(silent)} at this dead length",
+        because="" if not without_step else STAND_IN,
+        reason=f"the oil fills both working chambers of {', '.join(without_step)} at this dead length"
+        if without_step
+        else "",
         calibrated=("SA1", "SA7"),
     )

@@ -1,15 +1,17 @@
 """Commands about the FMU: build it, write its parameters."""
 
+import time
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from twintube.cli.base import answering, app
+from twintube.cli.base import app
 from twintube.dampers import Damper, load
 from twintube.dampers.closures import acting, closed
 from twintube.files import write_text
 from twintube.fmu.platforms import PLATFORMS, Kind
+from twintube.words import printable
 
 PARAMETERS = Annotated[Path | None, typer.Option(help="A parameter file (TOML) instead of a named damper.")]
 OIL_LEVEL = Annotated[float | None, typer.Option(help="Start value: oil, share of the intact volume.")]
@@ -51,23 +53,21 @@ def fmu(
 
     The first build for Windows compiles the runtime too and takes a minute or two; later ones take seconds.
     """
-    from tqdm import tqdm
-
     from twintube.fmu import BuildError, build_fmu
 
-    with answering(BuildError):
-        if damper is not None and parameters is not None:
-            raise BuildError(f"damper = {damper} and --parameters {parameters}: give one of them")
-        chosen = start_state(load(parameters or damper or "SA8"), oil_level, gas_lost, as_published)
-        with tqdm(unit="step", leave=False) as bar:
+    began = time.monotonic()
 
-            def progress(text: str) -> None:
-                bar.set_description(text)
-                bar.update()
+    def progress(text: str) -> None:
+        typer.echo(f"{time.monotonic() - began:4.0f} s  {text}", err=True)
 
-            built = build_fmu(chosen, output, kind, platform or tuple(PLATFORMS), progress)
+    if damper is not None and parameters is not None:
+        raise BuildError(f"damper = {damper} and --parameters {parameters}: give one of them")
+    if platform and kind == "python":
+        raise BuildError(f"--platform {platform[0]}: only for the native kind; the Python kind runs on linux64 and win64")
+    chosen = start_state(load(parameters or damper or "SA8"), oil_level, gas_lost, as_published)
+    built = build_fmu(chosen, output, kind, platform or tuple(PLATFORMS), progress)
     typer.echo(
-        f"{built}: {chosen.name}, {chosen.title}; valid {kind} FMI 2.0 co-simulation FMU, "
+        f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI 2.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"
         f"cavitation: {acting(chosen)}"
     )
@@ -84,7 +84,6 @@ def ssv(
     """Write all parameters for an importer of the FMU, as System Structure Parameter Values of SSP 1.0."""
     from twintube.fmu.ssv import to_ssv
 
-    with answering():
-        chosen = start_state(load(damper), oil_level, gas_lost, as_published)
-        write_text(output, to_ssv(chosen))
-        typer.echo(f"{output}: parameters of {chosen.name}, {chosen.title}")
+    chosen = start_state(load(damper), oil_level, gas_lost, as_published)
+    write_text(output, to_ssv(chosen))
+    typer.echo(f"{output}: parameters of {printable(chosen.name)}, {printable(chosen.title)}")

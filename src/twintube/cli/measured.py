@@ -8,25 +8,25 @@ from typing import Annotated
 import typer
 from tqdm import tqdm
 
-from twintube.cli.base import answering, app
+from twintube.cli.base import app
 from twintube.engine.simulate import InputError
 from twintube.files import write_text
+from twintube.words import counted
 
 
 @app.command(epilog="Example: twintube check my_dataset")
 def check(
     dataset: Annotated[Path, typer.Argument(help="A folder with dataset.toml and its records, or that file.")],
 ) -> None:
-    """Read measured data and report everything that is wrong or odd; nothing is repaired."""
+    """Read measured data and report all errors and warnings; nothing is repaired."""
     from twintube.data import check_dataset
 
-    with answering():
-        found = check_dataset(dataset)
-        for finding in found.findings:
-            typer.echo(str(finding))
-        if found.errors:
-            raise InputError(f"{dataset}: {len(found.errors)} errors, the dataset cannot be used")
-        typer.echo(f"{dataset}: {len(found.records)} records, {len(found.findings)} warnings, no error")
+    result = check_dataset(dataset)
+    for finding in result.findings:
+        typer.echo(str(finding))
+    if result.errors:
+        raise InputError(f"{dataset}: {counted(len(result.errors), 'error')}, the dataset cannot be used")
+    typer.echo(f"{dataset}: {len(result.records)} records, {counted(len(result.findings), 'warning')}, no error")
 
 
 @app.command(epilog="Example: twintube study oil_levels --output oil_levels.parquet")
@@ -43,10 +43,9 @@ def study(
     """Compute a grid over dampers, signals, parameters, oil levels and model variants into a Parquet file."""
     from twintube import studies
 
-    with answering():
-        chosen = studies.load(definition)
-        rows = studies.run(chosen, output, processes=processes, cluster=cluster)
-        typer.echo(f"{output}: {rows} rows of {len(chosen)} cases, {chosen.title}")
+    loaded = studies.load(definition)
+    rows = studies.run(loaded, output, processes=processes, cluster=cluster)
+    typer.echo(f"{output}: {rows} rows of {len(loaded)} cases, {loaded.title}")
 
 
 @app.command(epilog="Example: twintube identify my_dataset --output identified")
@@ -58,54 +57,53 @@ def identify(
     method: Annotated[
         str, typer.Option(help="Optimiser of the third and fourth step: pso (the paper's), cma or de.")
     ] = "pso",
-    quick: Annotated[bool, typer.Option("--quick", help="A tenth of the paper's budget, for a first look.")] = False,
-    seed: Annotated[int, typer.Option(help="Seed of all random numbers.")] = 1,
+    quick: Annotated[bool, typer.Option("--quick", help="A tenth of the paper's budget, for a first result.")] = False,
+    seed: Annotated[int, typer.Option(help="Seed of all random numbers.", min=0)] = 1,
 ) -> None:
     """Identify a damper from measured data with the paper's four steps, and validate it on the held-out records.
 
-    A run that was killed goes on where it was when it is started again with the same output folder.
+    An interrupted run continues when it is started again with the same output folder.
     """
     from twintube.dampers import to_toml
     from twintube.data import load_dataset
     from twintube.identification import METHODS, PAPER, QUICK, identify_dataset, summary
 
-    with answering():
-        if method not in METHODS:
-            raise InputError(f"--method {method}: must be one of {', '.join(METHODS)}")
-        read = load_dataset(dataset)
-        budget = QUICK if quick else PAPER
-        journal = output / "journal"
-        journal.mkdir(parents=True, exist_ok=True)
-        with tqdm(total=budget.generations, unit="generation", leave=False) as bar:
+    if method not in METHODS:
+        raise InputError(f"--method {method}: must be one of {', '.join(METHODS)}")
+    read = load_dataset(dataset)
+    budget = QUICK if quick else PAPER
+    journal = output / "journal"
+    journal.mkdir(parents=True, exist_ok=True)
+    with tqdm(total=budget.generations, unit="generation", leave=False) as bar:
 
-            def progress(title: str, error: float) -> None:
-                bar.set_description(title)
-                bar.set_postfix_str(f"error {error:.4g}", refresh=False)
-                bar.update()
+        def progress(title: str, error: float) -> None:
+            bar.set_description(title)
+            bar.set_postfix_str(f"error {error:.4g}", refresh=False)
+            bar.update()
 
-            result = identify_dataset(read, method=method, budget=budget, seed=seed, journal=journal, progress=progress)
-        from twintube.report.identification import write_report
+        result = identify_dataset(read, method=method, budget=budget, seed=seed, journal=journal, progress=progress)
+    from twintube.report.identification import write_report
 
-        write_text(output / "identified.toml", to_toml(result.identification.damper))
-        found = summary(result)
-        write_text(output / "identification.json", json.dumps(found, indent=1) + "\n")
-        write_report(result, output)
-        shutil.rmtree(journal)
-        for remark in result.remarks:
-            typer.echo(f"note: {remark}")
-        for e in result.identification.estimates:
-            said = "" if e.determined else "  not determined"
+    write_text(output / "identified.toml", to_toml(result.identification.damper))
+    figures = summary(result)
+    write_text(output / "identification.json", json.dumps(figures, indent=1) + "\n")
+    write_report(result, output)
+    shutil.rmtree(journal)
+    for remark in result.remarks:
+        typer.echo(f"note: {remark}")
+    for e in result.identification.estimates:
+        suffix = "" if e.determined else "  not determined"
+        typer.echo(
+            f"{e.name:10}{e.value:9.3g}   {e.low:.3g} to {e.high:.3g}{suffix}{'  at its bound' if e.at_bound else ''}"
+        )
+    for kind in ("fit", "heldout"):
+        if figures[kind] is not None:
             typer.echo(
-                f"{e.name:10}{e.value:9.3g}   {e.low:.3g} to {e.high:.3g}{said}{'  at its bound' if e.at_bound else ''}"
+                f"{kind:8}{figures[kind]['records']} records: force {figures[kind]['force_rmse_N']:.1f} N "
+                f"({figures[kind]['force_rmse_of_peak']:.1%} of the peak), work of the first oscillation "
+                f"{figures[kind]['work_error_first']:.1%} off, of the last {figures[kind]['work_error_last']:.1%}"
             )
-        for kind in ("fit", "heldout"):
-            if found[kind] is not None:
-                typer.echo(
-                    f"{kind:8}{found[kind]['records']} records: force {found[kind]['force_rmse_N']:.1f} N "
-                    f"({found[kind]['force_rmse_of_peak']:.1%} of the peak), work of the first oscillation "
-                    f"{found[kind]['work_error_first']:.1%} off, of the last {found[kind]['work_error_last']:.1%}"
-                )
-        typer.echo(f"{output}: identified.toml, identification.json, report.html")
+    typer.echo(f"{output}: identified.toml, identification.json, report.html")
 
 
 @app.command(epilog="Example: twintube reproduce --output reproduction")
@@ -121,13 +119,12 @@ def reproduce(
 ) -> None:
     """Draw the paper's figures from the model, each with the paper's statement and whether it holds.
 
-    The paper's measured curves are unpublished; the virtual rig stands for them, and every picture says so.
+    The paper's measured curves are unpublished. The virtual rig replaces them; the pictures are marked.
     """
-    from twintube.report import reproduce as run
+    from twintube.report.reproduce import reproduce as run
 
-    with answering():
-        made = run(output, figures=figure, quick=not paper_budget, processes=processes, report=typer.echo)
-        typer.echo(f"{made.page}: {len(made.pictures)} figures")
+    report = run(output, figures=figure, quick=not paper_budget, processes=processes, report=typer.echo)
+    typer.echo(f"{report.page}: {len(report.pictures)} figures")
 
 
 @app.command(epilog="Example: twintube diagnose my_dataset --output diagnosis")
@@ -137,26 +134,25 @@ def diagnose(
         "diagnosis"
     ),
 ) -> None:
-    """Find what the simulation gets wrong, name the cause and extend the model, judged on held-out records.
+    """Find the cause of the deviation from the measurement and extend the model, judged on held-out records.
 
-    How often it is right is stated in docs/diagnosis.md.
+    docs/diagnosis.md gives the hit rates.
     """
     from twintube.dampers import to_toml
     from twintube.diagnosis import as_json
     from twintube.diagnosis import diagnose as run
     from twintube.report.diagnosis import write_report
 
-    with answering():
-        with tqdm(unit="fit", leave=False) as bar:
+    with tqdm(unit="fit", leave=False) as bar:
 
-            def progress(text: str) -> None:
-                bar.set_description(text)
-                bar.update()
+        def progress(text: str) -> None:
+            bar.set_description(text)
+            bar.update()
 
-            found = run(dataset, progress)
-        output.mkdir(parents=True, exist_ok=True)
-        write_text(output / "extended.toml", to_toml(found.extended))
-        write_text(output / "diagnosis.json", json.dumps(as_json(found), indent=1) + "\n")
-        write_report(found, output)
-        typer.echo(found.sentence)
-        typer.echo(f"{output}: diagnosis.json, extended.toml, report.html ({found.seconds:.0f} s)")
+        result = run(dataset, progress)
+    output.mkdir(parents=True, exist_ok=True)
+    write_text(output / "extended.toml", to_toml(result.extended))
+    write_text(output / "diagnosis.json", json.dumps(as_json(result), indent=1) + "\n")
+    write_report(result, output)
+    typer.echo(result.sentence)
+    typer.echo(f"{output}: diagnosis.json, extended.toml, report.html ({result.seconds:.0f} s)")

@@ -12,7 +12,8 @@ import typer
 from tqdm import tqdm
 
 from twintube import dampers
-from twintube.cli.base import answering, app
+from twintube.cli.base import app
+from twintube.core.checks import VELOCITY
 from twintube.core.effects import Parameters
 from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import ParameterError
@@ -21,28 +22,32 @@ from twintube.engine.simulate import InputError
 from twintube.files import write_text
 from twintube.rig import signals
 
+SLOWEST, FASTEST = 0.001, VELOCITY["upper"]  # maximum velocity of a block [m/s]
+SMALLEST, LARGEST = 0.1, 500.0  # its amplitude [mm]
+LONGEST = 30.0  # period [s] of a block: a million samples
+
 
 @app.command("dampers", epilog="Example: twintube dampers SA8")
-def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this one: a name or a file.")] = None) -> None:
+def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this damper: a name or a file.")] = None) -> None:
     """List the named dampers, or show one as TOML with its sources."""
-    with answering():
-        if damper is not None:
-            one = dampers.load(damper)
-            typer.echo(f"# Gas that cavitation frees, in blocks and identification - {acting(one)}.")
-            typer.echo(f"# In rides and FMUs - {acting(closed(one))}.")
-            typer.echo(dampers.to_toml(one), nl=False)
-            return
-        for name in dampers.names():
-            one = dampers.load(name)
-            levels = ", ".join(f"{level:.0%}" for level in one.measured_levels)
-            typer.echo(f"{name}  {one.title:36} {one.parameters.V_oil * 1e6:4.0f} mL, measured at 100%, {levels}")
+    if damper is not None:
+        chosen = dampers.load(damper)
+        typer.echo(f"# Gas that cavitation frees, in blocks and identification - {acting(chosen)}.")
+        typer.echo(f"# In rides and FMUs - {acting(closed(chosen))}.")
+        typer.echo(dampers.to_toml(chosen), nl=False)
+        return
+    for name in dampers.names():
+        named = dampers.load(name)
+        levels = ", ".join(f"{level:.0%}" for level in named.measured_levels)
+        typer.echo(f"{name}  {named.title:36} {named.parameters.V_oil * 1e6:4.0f} mL, measured at 100%, {levels}")
 
 
 @app.command(epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv")
 def simulate(
     damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
     record: Annotated[
-        Path | None, typer.Option(help="CSV with 'time [s]', 'stroke [mm]', optional 'velocity [mm/s]'.")
+        Path | None,
+        typer.Option(help="CSV (or any format of a dataset) with 'time [s]', 'stroke [mm]', optional 'velocity [mm/s]'."),
     ] = None,
     velocity: Annotated[float, typer.Option(help="Without a record: maximum velocity [m/s] of a harmonic block.")] = 1.048,
     amplitude_mm: Annotated[float, typer.Option(help="Without a record: amplitude of the block [mm].")] = 45.0,
@@ -51,39 +56,46 @@ def simulate(
     output: Annotated[Path, typer.Option(help="CSV file for the result.")] = Path("simulation.csv"),
 ) -> None:
     """Simulate a record, or a harmonic block with its preconditioning, and write forces and volumes."""
-    from twintube.data.record import read_csv
+    from twintube.data.motion import read_motion
     from twintube.engine.simulate import simulate as run
+    from twintube.engine.simulate import unit_of
     from twintube.rig.signals import harmonic_block
 
-    with answering():
-        chosen = dampers.load(damper).with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1)
-        if record is not None:
-            time, stroke, speed = read_csv(record)
-        elif not (0.001 <= velocity <= 20 and 0.1 <= amplitude_mm <= 500):
-            raise InputError(f"velocity = {velocity:g} m/s, amplitude = {amplitude_mm:g} mm: 0.001 to 20 m/s, 0.1 to 500 mm")
-        else:
-            signal = harmonic_block(velocity, amplitude_mm * 1e-3)
-            time, stroke, speed = signal.time, signal.stroke, signal.velocity
-        result = run(chosen, stroke, speed, time)
-        head = ["time [s]", "stroke [m]", "velocity [m/s]"]
-        columns: list[Any] = [time, result.stroke, result.velocity]
-        units = {"force": "N", "k_degr": "1", "work": "J"}
-        for name, values in result.columns.items():
-            head.append(f"{name} [{units.get(name, 'N' if name[0] == 'F' else 'm3')}]")
-            columns.append(values)
-        lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-        write_text(output, "\n".join(lines) + "\n")
-        typer.echo(
-            f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
-            f"force from {result.force.min():.0f} to {result.force.max():.0f} N"
+    chosen = dampers.load(damper).with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1)
+    if record is not None:
+        time, stroke, speed = read_motion(record)
+    elif not (SLOWEST <= velocity <= FASTEST and SMALLEST <= amplitude_mm <= LARGEST):
+        raise InputError(
+            f"velocity = {velocity:g} m/s, amplitude = {amplitude_mm:g} mm: "
+            f"must be from {SLOWEST:g} to {FASTEST:g} m/s, from {SMALLEST:g} to {LARGEST:g} mm"
         )
+    else:
+        period = 2 * math.pi * amplitude_mm * 1e-3 / velocity
+        if period > LONGEST:
+            raise InputError(
+                f"an oscillation of {amplitude_mm:g} mm at {velocity:g} m/s takes {period:.0f} s: at most {LONGEST:g} s"
+            )
+        signal = harmonic_block(velocity, amplitude_mm * 1e-3)
+        time, stroke, speed = signal.time, signal.stroke, signal.velocity
+    result = run(chosen, stroke, speed, time)
+    head = ["time [s]", "stroke [m]", "velocity [m/s]"]
+    columns: list[Any] = [time, result.stroke, result.velocity]
+    for name, values in result.columns.items():
+        head.append(f"{name} [{unit_of(name)}]")
+        columns.append(values)
+    lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
+    write_text(output, "\n".join(lines) + "\n")
+    typer.echo(
+        f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
+        f"force from {result.force.min():.0f} to {result.force.max():.0f} N"
+    )
 
 
 @app.command(epilog="Example: twintube rig SA8 --output excitations")
 def rig(
     damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
     output: Annotated[Path, typer.Option(help="Folder for one CSV per measurement and plan.json.")] = Path("rig"),
-    seed: Annotated[int, typer.Option(help="Seed of the uneven road.")] = 1,
+    seed: Annotated[int, typer.Option(help="Seed of the uneven road.", min=0)] = 1,
     recovery: Annotated[
         bool, typer.Option("--recovery", help="The plan that decides what becomes of gas that cavitation frees.")
     ] = False,
@@ -92,25 +104,24 @@ def rig(
     from twintube.rig.plan import RECOVERY_LEVELS, REST, recovery_plan
     from twintube.vehicle.plan import plan
 
-    with answering():
-        chosen = dampers.load(damper)
-        listed = []
-        wanted = recovery_plan(chosen) if recovery else plan(chosen, seed)
-        for m in tqdm(list(wanted), unit="signal", leave=False):
-            name = f"{m.number:02}_{re.sub(r'[^a-z0-9.]+', '_', m.name.lower()).strip('_')}.csv"
-            table = np.column_stack([m.signal.time, m.signal.stroke * 1e3, m.signal.velocity * 1e3])
-            lines = ["time [s],stroke [mm],velocity [mm/s]"] + [f"{t:.6g},{z:.6g},{v:.6g}" for t, z, v in table]
-            write_text(output / name, "\n".join(lines) + "\n")
-            start, end = (float(m.signal.time[m.signal.marks[i]]) for i in (0, -1))
-            listed.append({"number": m.number, "name": m.name, "measurement": m.kind, "file": name,
-                           "measured_from_s": start, "measured_to_s": end})  # fmt: skip
-        about = {"damper": chosen.name, "seed": seed, "rest_before_each_s": REST, "signals": listed}
-        about["assumed"] = "block velocities, strokes of the drives (quarter car, road, obstacles), maximum stroke"
-        if recovery:
-            about["oil_levels_without_preload"] = [*RECOVERY_LEVELS, *chosen.measured_levels]
-            about["record_too"] = "temperature of the oil or the outer tube: a minute above v_cav heats the damper"
-        write_text(output / "plan.json", json.dumps(about, indent=1) + "\n")
-        typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
+    chosen = dampers.load(damper)
+    listed = []
+    wanted = recovery_plan(chosen) if recovery else plan(chosen, seed)
+    for m in tqdm(list(wanted), unit="signal", leave=False):
+        name = f"{m.number:02}_{re.sub(r'[^a-z0-9.]+', '_', m.name.lower()).strip('_')}.csv"
+        table = np.column_stack([m.signal.time, m.signal.stroke * 1e3, m.signal.velocity * 1e3])
+        lines = ["time [s],stroke [mm],velocity [mm/s]"] + [f"{t:.6g},{z:.6g},{v:.6g}" for t, z, v in table]
+        write_text(output / name, "\n".join(lines) + "\n")
+        start, end = (float(m.signal.time[m.signal.marks[i]]) for i in (0, -1))
+        listed.append({"number": m.number, "name": m.name, "measurement": m.kind, "file": name,
+                       "measured_from_s": start, "measured_to_s": end})  # fmt: skip
+    about = {"damper": chosen.name, "seed": seed, "rest_before_each_s": REST, "signals": listed}
+    about["assumed"] = "block velocities, strokes of the drives (quarter car, road, obstacles), maximum stroke"
+    if recovery:
+        about["oil_levels_without_preload"] = [*RECOVERY_LEVELS, *chosen.measured_levels]
+        about["record_too"] = "temperature of the oil or the outer tube: a minute above v_cav heats the damper"
+    write_text(output / "plan.json", json.dumps(about, indent=1) + "\n")
+    typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
 
 
 START = Annotated[str, typer.Option(help="Where an oscillation begins: rebound, top, compression or bottom.")]
@@ -128,27 +139,26 @@ def claims(
     """Evaluate the paper's statements C1 to C16 with its published parameters."""
     from twintube.claims import EVALUATORS, evaluate
 
-    with answering():
-        readings = dict(parsed_reading(text) for text in reading or [])
-        found = list(tqdm(evaluate(readings, bench(start, closure)), total=len(EVALUATORS), unit="claim", leave=False))
-        if json_file is not None:
-            write_text(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in found], indent=1) + "\n")
-        for c in found:
-            mark = "calibrated" if c.calibrated else "by assumption" if c.assumed else "evidence"
-            typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{mark:15}{c.statement} ({c.source})")
-            typer.echo(f'      the paper: "{c.quote}"')
-            typer.echo(f"      tested: {c.tested}")
-            for name, value in c.figures.items():
-                typer.echo(f"      {name}: {json.dumps(value)}")
-            typer.echo(f"      needs: {c.needs}")
-            if c.calibrated:
-                typer.echo(f"      used for the dead length of: {', '.join(c.calibrated)}")
-            if not c.holds:
-                typer.echo(f"      why not ({c.because}): {c.reason}")
-        for kind in (True, False):
-            some = [c for c in found if c.evidence is kind]
-            what = "evidence" if kind else "calibrated or by assumption"
-            typer.echo(f"{what}: {sum(c.holds for c in some)} of {len(some)} hold")
+    readings = dict(parsed_reading(text) for text in reading or [])
+    results = list(tqdm(evaluate(readings, bench(start, closure)), total=len(EVALUATORS), unit="claim", leave=False))
+    if json_file is not None:
+        write_text(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in results], indent=1) + "\n")
+    for c in results:
+        mark = "calibrated" if c.calibrated else "by assumption" if c.assumed else "evidence"
+        typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{mark:15}{c.statement} ({c.source})")
+        typer.echo(f'      the paper: "{c.quote}"')
+        typer.echo(f"      tested: {c.tested}")
+        for name, value in c.figures.items():
+            typer.echo(f"      {name}: {json.dumps(value)}")
+        typer.echo(f"      needs: {c.needs}")
+        if c.calibrated:
+            typer.echo(f"      used for the dead length of: {', '.join(c.calibrated)}")
+        if not c.holds:
+            typer.echo(f"      why not ({c.because}): {c.reason}")
+    for kind in (True, False):
+        some = [c for c in results if c.evidence is kind]
+        what = "evidence" if kind else "calibrated or by assumption"
+        typer.echo(f"{what}: {sum(c.holds for c in some)} of {len(some)} hold")
 
 
 def bench(start: str, closure: str = "") -> Any:
@@ -186,16 +196,13 @@ def calibrate(
     """Find the dead length of the chambers from all claims, as it was done for the named dampers."""
     from twintube.claims.calibrate import calibrate as run
 
-    with answering():
-        result = run(dampers.load(damper), bench(start))
-        for fit in result.fits:
-            found = ", ".join(f"{name} {value:.2f}" for name, value in fit.deviations.items() if value)
-            mark = "chosen" if fit is result.chosen else ""
-            typer.echo(f"{mark:8}{fit.dead_length * 1e3:5.0f} mm  misfit {fit.misfit:7.2f}  {found}")
-        low, high = (1e3 * x for x in result.range)
-        typer.echo(
-            f"as good as the best: {low:.0f} to {high:.0f} mm (deviations from the claims in units of their tolerances)"
-        )
+    result = run(dampers.load(damper), bench(start))
+    for fit in result.fits:
+        deviations = ", ".join(f"{name} {value:.2f}" for name, value in fit.deviations.items() if value)
+        mark = "chosen" if fit is result.chosen else ""
+        typer.echo(f"{mark:8}{fit.dead_length * 1e3:5.0f} mm  misfit {fit.misfit:7.2f}  {deviations}")
+    low, high = (1e3 * x for x in result.range)
+    typer.echo(f"as good as the best: {low:.0f} to {high:.0f} mm (deviations from the claims in units of their tolerances)")
 
 
 @app.command(epilog="Example: twintube readings --json readings.json")
@@ -206,16 +213,15 @@ def readings(
     from twintube.claims.compare import alternatives, compare
 
     table = []
-    for other, found in tqdm(compare(), total=len(alternatives()), unit="choice", leave=False):
-        flips = [f"{e.id} {'holds' if e.holds else 'fails'}" for e in found if e.flips]
+    for other, effects in tqdm(compare(), total=len(alternatives()), unit="choice", leave=False):
+        flips = [f"{e.id} {'holds' if e.holds else 'fails'}" for e in effects if e.flips]
         tqdm.write_text(f"{other.name} = {other.value}: {', '.join(flips) or 'no claim flips'}")
-        for effect in found:
+        for effect in effects:
             if effect.moves:
                 tqdm.write_text(f"      {effect.id:4}{effect.moves}")
-        table.append({"choice": other.name, "value": other.value, "claims": [asdict(effect) for effect in found]})
+        table.append({"choice": other.name, "value": other.value, "claims": [asdict(effect) for effect in effects]})
     if json_file is not None:
-        with answering():
-            write_text(json_file, json.dumps(table, indent=1) + "\n")
+        write_text(json_file, json.dumps(table, indent=1) + "\n")
 
 
 @app.command(epilog="Example: twintube variables > docs/variables.md")

@@ -1,7 +1,11 @@
 """The model, standard library only: what travels inside the FMU.
 
 variables   the one table: names, symbols, units, bounds, sources
-checks      what a parameter set and an input must fulfil
+messages    what the checks say, for both kinds of FMU
+consistency what must hold between parameters, in the kernel's subset
+checks      messages about a parameter set and its inputs
+instance    a damper that is stepped from outside, for the Python FMU
+outputs     the outputs as they follow from the state
 kernel/     the paper's equations
 effects/    physics beyond the paper, one file each
 frame       what the effects share

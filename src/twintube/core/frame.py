@@ -8,11 +8,13 @@ import math
 from dataclasses import dataclass
 
 from twintube.core.kernel.forces import fluid_force
-from twintube.core.variables import Parameters, State, var
+from twintube.core.variables import Derived, Parameters, State, var
 
 # Longest part of a step [s] for effects whose force has a memory of milliseconds, and the most parts of a step.
 PART = 2e-4
 MAX_PARTS = 8.0
+# The piston may come this close [m] to the ends of its chambers.
+CLEARANCE = 1e-6
 
 
 @dataclass(slots=True)
@@ -32,6 +34,11 @@ class Frame(State):
     k_mean: float = var("frame", "k_degr", "1", "mean of k_degr over the step, all effects", default=1.0)
     W_step: float = var("frame", "W", "J", "work dissipated in the step", default=0.0)
     elapsed: float = var("frame", "t", "s", "time since the start", default=0.0)
+
+
+def stroke_limit(d: Derived) -> float:
+    """Largest stroke [m] to each side that keeps the piston inside the tube."""
+    return d.half_length - CLEARANCE
 
 
 def valve_force(p: Parameters, u: float, k_re: float, k_co: float) -> float:

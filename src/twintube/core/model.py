@@ -24,6 +24,10 @@ from twintube.core.effects import (
 from twintube.core.kernel import fill, fluid_force, pour, prepare, step
 from twintube.core.variables import Derived, Flow
 
+# A step that is not longer [s] is the rounding of communication points: no time passes for the effects, whose rates over it
+# would be noise.
+SHORTEST = 1e-9
+
 
 def set_up(p: Parameters, d: Derived) -> None:
     """Fill `d` from `p`; to be called again after a parameter has changed."""
@@ -80,6 +84,8 @@ def advance_whole(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
 
 def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
     """The kernel's step with the effects around it."""
+    if dt <= SHORTEST:
+        dt = 0.0
     work = s.work
     friction = s.F_friction
     gas = s.F_gas

@@ -1,8 +1,8 @@
-"""The files of the equations, in calling order: the one list for the compiler, the translation to C and the fingerprints."""
+"""The files of the equations in calling order: the only list for the compiler, the translation to C and the fingerprints."""
 
 from pathlib import Path
 
-from twintube.core import effects
+from twintube.core import effects, hooks
 
 FOLDER = Path(__file__).parent
 KERNEL = (
@@ -12,7 +12,9 @@ KERNEL = (
     "kernel/compression.py",
     "kernel/step.py",
     "frame.py",
+    "outputs.py",
 )
+RULES = "consistency.py"
 MODEL = "model.py"
 
 
@@ -22,15 +24,20 @@ def text_of(name: str) -> str:
 
 
 def kernel_texts() -> list[str]:
-    """The paper's equations and the force at the valves."""
+    """The paper's equations, the force at the valves and the outputs."""
     return [text_of(name) for name in KERNEL]
 
 
 def effect_texts() -> list[str]:
     """The effects' files, and the functions that this package generates from them."""
-    return [*effects.sources().values(), effects.dispatch_source(), effects.reset_source()]
+    return [*hooks.sources().values(), hooks.dispatch_source(), hooks.reset_source(effects.State)]
 
 
 def model_text() -> str:
     """The kernel with the effects around it."""
     return text_of(MODEL)
+
+
+def rule_text() -> str:
+    """What must hold between parameters; the engine leaves it to the interpreter."""
+    return text_of(RULES)

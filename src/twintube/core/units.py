@@ -15,5 +15,31 @@ UNITS: dict[str, tuple[str, dict[str, str]]] = {
     "1/m": ("RelativeChangePerLength", {"m": "-1"}),
     "1/m2": ("RelativeChangePerSquareLength", {"m": "-2"}),
     "1/J": ("RelativeChangePerEnergy", {"kg": "-1", "m": "-2", "s": "2"}),
+    "N.s": ("Impulse", {"kg": "1", "m": "1", "s": "-1"}),
+    "N.s/m": ("Damping", {"kg": "1", "s": "-1"}),
+    "s/m": ("Slowness", {"m": "-1", "s": "1"}),
+    "N/m3": ("StiffnessPerSquareLength", {"kg": "1", "m": "-2", "s": "-2"}),
     "J": ("Energy", {"kg": "1", "m": "2", "s": "-2"}),
+}
+
+# What importers may show instead: the unit's name, and how many of it make the SI unit.
+DISPLAY: dict[str, tuple[str, float]] = {"m": ("mm", 1e3), "m3": ("mL", 1e6)}
+
+# The magnitude that a quantity of a damper usually has, in SI units, by which importers scale.
+NOMINAL: dict[str, float] = {
+    "1": 1.0,
+    "m": 0.05,
+    "m2": 1e-6,
+    "m3": 1e-4,
+    "m/s": 0.5,
+    "kg": 1.0,
+    "N": 1000.0,
+    "N/m": 1000.0,
+    "s": 0.01,
+    "1/s": 0.1,
+    "m/N": 1e-6,
+    "1/m": 1.0,
+    "1/m2": 10.0,
+    "1/J": 1e-5,
+    "J": 100.0,
 }

@@ -10,6 +10,8 @@ Standard library only: this file travels inside the Python FMU. All values are S
 from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
+from twintube.core.units import NOMINAL, UNITS
+
 # Points of each branch of the F-v curve; a shorter measured table is continued along its last segment.
 FV_POINTS = 20
 
@@ -27,8 +29,16 @@ def var(
     integer: bool = False,
     size: int = 1,
     default: float | None = None,
+    role: str = "",
+    nominal: float | None = None,
 ) -> Any:
-    """A record's field with its description; `unit` is an FMI base-unit expression, "1" where there is none."""
+    """A record's field with its description; `unit` is an FMI base-unit expression, "1" where there is none.
+
+    `nominal` is the usual magnitude [unit], by default that of the unit. Raises ValueError for a unit that `core/units.py`
+    does not define: files for importers would lack it.
+    """
+    if unit != "1" and unit not in UNITS:
+        raise ValueError(f"unit {unit!r} of {group or 'variable'} ({description}): must be 1 or one of {', '.join(UNITS)}")
     metadata = {
         "group": group,
         "symbol": symbol,
@@ -41,6 +51,8 @@ def var(
         "integer": integer,
         "size": size,
         "default": default,
+        "role": role,
+        "nominal": NOMINAL.get(unit, 1.0) if nominal is None else nominal,
     }
     return field(metadata=metadata)
 
@@ -53,9 +65,9 @@ def fmi_name(item: Field[Any]) -> str:
     return f"{group}.{item.name}" if group else item.name
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters:
-    """Everything that is given about a damper and its condition."""
+    """Everything that is given about a damper and its condition; cannot be changed, `dataclasses.replace` makes another."""
 
     oil_level: float = var("", "", "1", "oil in the damper, share of the intact oil volume", lower=0, upper=1,
                            source="Table 2", default=1.0)
@@ -76,19 +88,19 @@ class Parameters:
     stroke_max: float = var("geometry", "z_max", "m", "maximum stroke to each side of the middle position", lower=0.001,
                             upper=0.4, source="unpublished")
 
-    v_re: list[float] = var("fv", "v", "m/s", "F-v curve, rebound: velocities", lower=0, size=FV_POINTS,
+    v_re: tuple[float, ...] = var("fv", "v", "m/s", "F-v curve, rebound: velocities", lower=0, size=FV_POINTS,
                             source="Figure 3, unpublished")
-    F_re: list[float] = var("fv", "d", "N", "F-v curve, rebound: forces", lower=0, size=FV_POINTS,
+    F_re: tuple[float, ...] = var("fv", "d", "N", "F-v curve, rebound: forces", lower=0, size=FV_POINTS,
                             source="Figure 3, unpublished")
-    v_co: list[float] = var("fv", "v", "m/s", "F-v curve, compression: velocities (magnitude)", lower=0,
+    v_co: tuple[float, ...] = var("fv", "v", "m/s", "F-v curve, compression: velocities (magnitude)", lower=0,
                             size=FV_POINTS, source="Figure 3, unpublished")
-    F_co: list[float] = var("fv", "d", "N", "F-v curve, compression: forces (magnitude)", lower=0, size=FV_POINTS,
+    F_co: tuple[float, ...] = var("fv", "d", "N", "F-v curve, compression: forces (magnitude)", lower=0, size=FV_POINTS,
                             source="Figure 3, unpublished")
 
     F_FrS: float = var("friction", "F_FrS", "N", "saturated quasi-static friction force", lower=0, upper=2000,
-                       source="equation 2, unpublished", tunable=True)
+                       source="equation 2, unpublished", tunable=True, nominal=100.0)
     sigma_0: float = var("friction", "sigma_0", "N/m", "slope of the friction hysteresis at reversal", lower=1.0,
-                         upper=1e8, source="equation 2, unpublished", tunable=True)
+                         upper=1e8, source="equation 2, unpublished", tunable=True, nominal=1e5)
     delta_D: float = var("friction", "delta_D", "1", "exponent of the friction gradient", lower=0.1, upper=5,
                          source="equation 2, unpublished", tunable=True)
     k_high: float = var("friction", "k_FrS", "1", "Stribeck scaling of the friction at high velocity", lower=0, upper=5,
@@ -149,6 +161,12 @@ class Parameters:
     cavitation_loss: float = var("reading", "", "1", "oil loss from which cavitation acts in full, below it in proportion",
                                  lower=0, upper=1, source="open choice 3", default=0.2)
 
+    def __post_init__(self) -> None:
+        """Arrays given as lists become tuples."""
+        for item in fields(self):
+            if item.metadata["size"] > 1:
+                object.__setattr__(self, item.name, tuple(getattr(self, item.name)))
+
 
 @dataclass(slots=True)
 class Inputs:
@@ -176,8 +194,8 @@ class Outputs:
     V3_gas: float = var("V3.gas", "V_3gas", "m3", "gas in the reserve chamber", lower=0, source="the rest of its volume")
     V3_foam: float = var("V3.foam", "V_3foam", "m3", "foam in the reserve chamber", lower=0, source="equation 5")
     force_fluid: float = var("", "F_Fl k_degr", "N", "fluid force, degraded", source="equation 1")
-    force_friction: float = var("", "F_Fr", "N", "friction force", source="equation 2")
-    force_gas: float = var("", "F_S", "N", "gas force", source="equation 1")
+    force_friction: float = var("", "F_Fr", "N", "friction force", source="equation 2", nominal=100.0)
+    force_gas: float = var("", "F_S", "N", "gas force", source="equation 1", nominal=100.0)
     work: float = var("", "W", "J", "work dissipated since the start, by fluid and friction", source="Section 3.1")
 
 

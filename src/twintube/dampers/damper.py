@@ -1,16 +1,20 @@
 """A damper: its parameter set, where the values come from, and what was measured."""
 
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import Field, dataclass, fields, replace
 from typing import Any
 
 from twintube.core.checks import problems
 from twintube.core.effects import Parameters
 from twintube.core.variables import fmi_name
+from twintube.errors import UserError
+
+MOST_MESSAGES = 20
+LONGEST_NAME = 60  # characters, of names that are compared
 
 
-class ParameterError(ValueError):
+class ParameterError(UserError, ValueError):
     """A parameter set that cannot be used; the message names file, line, quantity, value and allowed range."""
 
 
@@ -28,12 +32,14 @@ class Damper:
 
     def with_(self, **changes: Any) -> "Damper":
         """The same damper with other parameters, e.g. `oil_level=0.4, gas_preload=0`; raises ParameterError."""
-        known = {item.name for item in fields(Parameters)}
-        for name in changes:
+        known = {item.name: item for item in fields(Parameters)}
+        for name, value in changes.items():
             if name not in known:
                 raise ParameterError(f"{self.name}: unknown parameter {name}{suggestion(name, known)}")
+            if known[name].metadata["integer"] and not float(value).is_integer():
+                raise ParameterError(f"{self.name}: {fmi_name(known[name])} = {value:g}: must be an integer")
         changed = replace(self.parameters, **changes)
-        refuse(self.name, problems(changed))
+        refuse(self.name, explained(problems(changed), changed))
         return replace(self, parameters=changed)
 
 
@@ -48,13 +54,30 @@ def elements(damper: Damper) -> Iterator[tuple[str, Field[Any], int, float]]:
                 yield f"{name}[{i + 1}]", item, i, part
 
 
-def refuse(where: str, found: list[str]) -> None:
-    """Raise ParameterError with all messages, if there are any."""
-    if found:
-        raise ParameterError(f"{where}: " + "; ".join(found))
+def refuse(where: str, messages: list[str]) -> None:
+    """Raise ParameterError with the messages, if there are any; after the first MOST_MESSAGES it only counts them."""
+    if messages:
+        raise ParameterError(f"{where}: {joined(messages)}")
 
 
-def suggestion(name: str, known: Any) -> str:
-    """`, did you mean ...?` where a known name is close."""
-    close = difflib.get_close_matches(name, known, n=1)
-    return f", did you mean {close[0]}?" if close else ""
+def joined(messages: list[str]) -> str:
+    """Messages in one line, the first MOST_MESSAGES and how many more there are."""
+    rest = len(messages) - MOST_MESSAGES
+    return "; ".join(messages[:MOST_MESSAGES]) + (f"; and {rest} more" if rest > 0 else "")
+
+
+def explained(messages: list[str], p: Parameters) -> list[str]:
+    """The messages about a parameter set, with the share where somebody gave a percentage."""
+    for item in fields(p):
+        value, meta = getattr(p, item.name), item.metadata
+        if meta["size"] == 1 and (meta["unit"], meta["lower"], meta["upper"]) == ("1", 0.0, 1.0) and 2.0 <= value <= 100.0:
+            head = f"{fmi_name(item)} = "
+            messages = [text + f" ({value:g} % is {value / 100:g})" * text.startswith(head) for text in messages]
+    return messages
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """`, did you mean ...?` where a known name is close, whatever its case."""
+    lower = {text.lower(): text for text in known}
+    close = difflib.get_close_matches(name.lower(), lower, n=1) if len(name) <= LONGEST_NAME else []
+    return f", did you mean {lower[close[0]]}?" if close else ""

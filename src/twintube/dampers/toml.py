@@ -1,7 +1,7 @@
 """Parameter sets in TOML: read, check, write. A named set is a file in this folder."""
 
 import re
-import tomllib
+from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -9,14 +9,22 @@ from typing import Any
 import tomlkit
 
 from twintube.core import effects
-from twintube.core.checks import problems
+from twintube.core.checks import outside, problems
 from twintube.core.effects import Parameters
 from twintube.core.variables import FV_POINTS, fmi_name
-from twintube.dampers.damper import Damper, ParameterError, refuse, suggestion
+from twintube.dampers.damper import Damper, ParameterError, explained, refuse, suggestion
 from twintube.dampers.quantity import quantity
+from twintube.reading import ReadError, read_toml
+from twintube.words import listed, short, shown
 
 FOLDER = Path(__file__).parent
 BRANCHES = {"rebound": ("v_re", "F_re"), "compression": ("v_co", "F_co")}
+CURVE_UNITS = {"velocity": "m/s", "force": "N"}
+FEW_UNKNOWN = 5  # keys that are named
+FEW_MISSING = 5  # parameters; whoever lacks more began without a complete file
+LONGEST_TEXT = 200  # characters of a name or title
+MOST_LEVELS = 20  # measured oil levels
+SMALLEST_AMPLITUDE = 1e-4  # [m] of a measurement
 
 
 def names() -> list[str]:
@@ -32,98 +40,167 @@ def load(damper: str | Path) -> Damper:
 
 def read_named(name: str | Path, folder: Path, what: str) -> tuple[dict[str, Any], str, str]:
     """Content, text and file name of a TOML file: one in `folder` by its name, or any by its path; raises ParameterError."""
-    path = folder / f"{name}.toml"
-    if not path.is_file():
-        path = Path(name)
-    if not path.is_file():
-        known = ", ".join(sorted(item.stem for item in folder.glob("*.toml")))
-        raise ParameterError(f"unknown {what} {name}: neither a file nor one of {known}")
+    known = sorted(item.stem for item in folder.glob("*.toml"))
+    path = folder / f"{name}.toml" if str(name) in known else Path(name)
     try:
-        text = path.read_text(encoding="utf-8")
-        return tomllib.loads(text), text, path.name
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ParameterError(f"{path.name}: {error}") from error
+        return *read_toml(path), path.name
+    except (FileNotFoundError, NotADirectoryError) as error:
+        hint = suggestion(str(name), known)
+        raise ParameterError(
+            f"unknown {what} {short(str(name))}: neither a file nor one of {', '.join(known)}{hint}"
+        ) from error
+    except (ReadError, OSError) as error:
+        raise ParameterError(f"{short(path.name)}: {getattr(error, 'strerror', None) or error}") from error
 
 
 def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     """A damper from parsed TOML; `text` and `file` serve the messages only."""
-    found: list[str] = []
+    messages: list[str] = []
     values: dict[str, Any] = {}
     known: dict[str, set[str]] = {
         "": {"name", "title", "sources", "assumed", "measured_oil", "measured_amplitude"},
         "fv": {"velocity_unit", "force_unit"},
     }
+    missing: list[str] = []
     for item in fields(Parameters):
         group, name = item.metadata["group"], item.name
         if item.metadata["size"] > 1:
             continue
         known.setdefault(group, set()).add(name)
-        table = content.get(group, {}) if group else content
+        table = as_table(content.get(group, {})) if group else content
         if name in table:
             try:
-                values[name] = quantity(table[name], item.metadata["unit"])
-                if item.metadata["integer"]:
-                    values[name] = int(values[name])
+                values[name] = read_value(table[name], item.metadata)
             except ValueError as error:
-                found.append(f"{line_of(text, group, name)}{fmi_name(item)}: {error}")
+                messages.append(f"{line_of(text, group, name)}{fmi_name(item)}: {error}")
         elif item.metadata["default"] is not None:
             values[name] = item.metadata["default"]
         else:
-            found.append(f"{fmi_name(item)} is missing")
+            missing.append(fmi_name(item))
     known["fv"] |= set(BRANCHES)
-    found += unknown_keys(content, text, known)
-    measured: list[float] = []
-    amplitude = None
-    try:
-        if "measured_amplitude" in content:
-            amplitude = quantity(content["measured_amplitude"], "m")
-    except ValueError as error:
-        found.append(f"{line_of(text, '', 'measured_amplitude')}measured_amplitude: {error}")
-    try:
-        measured = [quantity(volume, "m3") for volume in content.get("measured_oil", [])]
-    except ValueError as error:
-        found.append(f"{line_of(text, '', 'measured_oil')}measured_oil: {error}")
-    found += read_curve(content.get("fv", {}), values)
-    refuse(file, found)
+    messages += wrong_tables(content, text, {*known, "sources", "assumed"} - {""})
+    messages += unknown_keys(content, text, known)
+    messages += absent(missing)
+    messages += read_curve(as_table(content.get("fv", {})), values)
+    name, title = (read_text(content, key, text, messages) for key in ("name", "title"))
+    sources, assumed = (read_texts(content, key, text, messages) for key in ("sources", "assumed"))
+    refuse(file, messages)
     p = Parameters(**values)
-    refuse(file, [located(text, message) for message in problems(p)])
+    refuse(file, [located(text, message) for message in explained(problems(p), p)])
+    levels, amplitude = read_measured(content, text, p, messages)
+    refuse(file, messages)
     return Damper(
-        name=str(content.get("name", Path(file).stem)),
-        title=str(content.get("title", "")),
+        name=name or Path(file).stem,
+        title=title,
         parameters=p,
-        sources=content.get("sources", {}),
-        assumed=content.get("assumed", {}),
-        measured_levels=tuple(volume / p.V_oil for volume in measured),
+        sources=sources,
+        assumed=assumed,
+        measured_levels=levels,
         measured_amplitude=amplitude,
     )
 
 
+def as_table(value: Any) -> dict[str, Any]:
+    """A TOML table; empty where another value stands instead, which `wrong_tables` reports."""
+    return value if isinstance(value, dict) else {}
+
+
+def read_value(raw: Any, meta: Mapping[str, Any]) -> float | int:
+    """A parameter [SI] from a number or a quantity; raises ValueError."""
+    value = quantity(raw, meta["unit"])
+    if not meta["integer"]:
+        return value
+    if not value.is_integer():  # also infinity and NaN
+        raise ValueError(f"{shown(raw)} must be an integer")
+    return int(value)
+
+
+def absent(missing: list[str]) -> list[str]:
+    """A message about the parameters that the file lacks."""
+    if len(missing) <= FEW_MISSING:
+        return [f"{name} is missing" for name in missing]
+    return [
+        f"{len(missing)} parameters are missing ({listed(missing, 3)}): start from a complete file, "
+        "`twintube dampers SA8 > mine.toml`"
+    ]
+
+
+def read_text(content: dict[str, Any], key: str, text: str, messages: list[str]) -> str:
+    """A text of one line, empty where it is not given; what is wrong with it goes to `messages`."""
+    value = content.get(key, "")
+    if not isinstance(value, str) or len(value) > LONGEST_TEXT or "\n" in value:
+        limit = f"a text of one line and at most {LONGEST_TEXT} characters"
+        messages.append(f"{line_of(text, '', key)}{key} = {shown(value)}: must be {limit}")
+        return ""
+    return value
+
+
+def read_texts(content: dict[str, Any], key: str, text: str, messages: list[str]) -> dict[str, str]:
+    """A table of texts; what is wrong with it goes to `messages`."""
+    table = as_table(content.get(key, {}))
+    for name, value in table.items():
+        if not isinstance(value, str):
+            messages.append(f"{line_of(text, key, name)}{key}.{name} = {shown(value)}: must be a text")
+    return table
+
+
+def read_measured(
+    content: dict[str, Any], text: str, p: Parameters, messages: list[str]
+) -> tuple[tuple[float, ...], float | None]:
+    """The measured oil levels and the amplitude [m] of the measurement; what is wrong with them goes to `messages`."""
+    volumes: list[float] = []
+    amplitude = None
+    try:
+        raw = content.get("measured_oil", [])
+        if not isinstance(raw, list) or len(raw) > MOST_LEVELS:
+            raise ValueError(f"{shown(raw)} must be a list of at most {MOST_LEVELS} volumes like ['153 mL', '83 mL']")
+        volumes = [quantity(volume, "m3") for volume in raw]
+        messages += [
+            line_of(text, "", "measured_oil") + message
+            for volume in volumes
+            if (message := outside("measured_oil", volume, 0.0, p.V_oil, "m3"))
+        ]
+    except ValueError as error:
+        messages.append(f"{line_of(text, '', 'measured_oil')}measured_oil: {error}")
+    try:
+        if "measured_amplitude" in content:
+            amplitude = quantity(content["measured_amplitude"], "m")
+            message = outside("measured_amplitude", amplitude, SMALLEST_AMPLITUDE, p.stroke_max, "m")
+            messages += [line_of(text, "", "measured_amplitude") + message] if message else []
+    except ValueError as error:
+        messages.append(f"{line_of(text, '', 'measured_amplitude')}measured_amplitude: {error}")
+    return tuple(volume / p.V_oil for volume in volumes), amplitude
+
+
 def read_curve(table: dict[str, Any], values: dict[str, Any]) -> list[str]:
     """Put the F-v curve into `values`; messages about what is wrong with it."""
-    found: list[str] = []
+    messages: list[str] = []
+    try:
+        v_unit, F_unit = (scale(table.get(f"{name}_unit", unit), unit) for name, unit in CURVE_UNITS.items())
+    except ValueError as error:
+        return [f"fv: {error}"]
     for branch, (v_name, F_name) in BRANCHES.items():
         rows = table.get(branch)
         if rows is None:
-            found.append(f"fv.{branch} is missing")
-            continue
-        if not isinstance(rows, list) or not all(
+            messages.append(f"fv.{branch} is missing")
+        elif not isinstance(rows, list) or not all(
             isinstance(row, list) and len(row) == 2 and all(type(x) in (int, float) for x in row) for row in rows
         ):
-            found.append(f"fv.{branch}: must be a list of [velocity, force] pairs of numbers")
-            continue
-        if not 2 <= len(rows) <= FV_POINTS:
-            found.append(f"fv.{branch}: {len(rows)} points, must be from 2 to {FV_POINTS}")
-            continue
-        try:
-            v_unit = quantity("1 " + table.get("velocity_unit", "m/s"), "m/s")
-            F_unit = quantity("1 " + table.get("force_unit", "N"), "N")
-        except (ValueError, TypeError) as error:
-            found.append(f"fv: {error}")
-            continue
-        points = continued([(v * v_unit, F * F_unit) for v, F in rows])
-        values[v_name] = [v for v, _ in points]
-        values[F_name] = [F for _, F in points]
-    return found
+            messages.append(f"fv.{branch}: must be a list of [velocity, force] pairs of numbers")
+        elif not 2 <= len(rows) <= FV_POINTS:
+            messages.append(f"fv.{branch}: {len(rows)} points, must be from 2 to {FV_POINTS}")
+        else:
+            points = continued([(v * v_unit, F * F_unit) for v, F in rows])
+            values[v_name] = [v for v, _ in points]
+            values[F_name] = [F for _, F in points]
+    return messages
+
+
+def scale(unit: Any, si: str) -> float:
+    """What one `unit` is in the SI unit `si`; raises ValueError."""
+    if not isinstance(unit, str):
+        raise ValueError(f"{shown(unit)} is not a unit like {si!r}")
+    return quantity(f"1 {unit}", si)
 
 
 def continued(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -135,17 +212,31 @@ def continued(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return points
 
 
+def wrong_tables(content: dict[str, Any], text: str, tables: set[str]) -> list[str]:
+    """Messages about groups that are given as a single value."""
+    return [
+        f"{line_of(text, '', key)}{key} = {shown(value)}: must be a table [{key}]"
+        for key, value in content.items()
+        if key in tables and not isinstance(value, dict)
+    ]
+
+
 def unknown_keys(content: dict[str, Any], text: str, known: dict[str, set[str]]) -> list[str]:
-    """Messages about tables and keys that no parameter has."""
-    found = []
-    for key, value in content.items():
-        if isinstance(value, dict) and key in known:
-            for name in value:
-                if name not in known[key]:
-                    found.append(f"{line_of(text, key, name)}unknown {key}.{name}{suggestion(name, known[key])}")
-        elif key not in known[""]:
-            found.append(f"{line_of(text, '', key)}unknown {key}{suggestion(key, known[''] | set(known))}")
-    return found
+    """Messages about tables and keys that no parameter has; the first FEW_UNKNOWN of them and the number of the others."""
+    unknown = [
+        (key, name, known[key])
+        for key, value in content.items()
+        if isinstance(value, dict) and key in known
+        for name in value
+        if name not in known[key]
+    ]
+    unknown += [("", key, known[""] | set(known)) for key in content if key not in known and key not in known[""]]
+    messages = [
+        f"{line_of(text, group, name)}unknown {group + '.' if group else ''}{name}{suggestion(name, candidates)}"
+        for group, name, candidates in unknown[:FEW_UNKNOWN]
+    ]
+    rest = len(unknown) - len(messages)
+    return messages + ([f"{rest} more unknown keys"] if rest else [])
 
 
 def line_of(text: str, group: str, name: str) -> str:

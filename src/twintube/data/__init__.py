@@ -2,9 +2,11 @@
 
     load_dataset    a folder with dataset.toml; raises DataError with all findings at once
     check_dataset   the same without raising: the findings and what can be read
+    read_motion     time, stroke and velocity of a single record, for a simulation
     report          findings as text
 
-Reading: manifest.py (dataset.toml), formats.py (CSV, text, Parquet, MATLAB, MDF), table.py (units). Judging: checks.py.
+Reading: manifest.py (dataset.toml), raw.py (any file), formats.py (CSV, text), binary.py and its child read_binary.py
+(Parquet, MATLAB, MDF), table.py (units). Judging: checks.py.
 """
 
 from twintube.data.dataset import (
@@ -19,6 +21,7 @@ from twintube.data.dataset import (
     load_dataset,
 )
 from twintube.data.findings import DataError, Finding, report
+from twintube.data.motion import read_motion
 
 __all__ = [
     "GIVEN",
@@ -32,5 +35,6 @@ __all__ = [
     "check_dataset",
     "flipped_dataset",
     "load_dataset",
+    "read_motion",
     "report",
 ]

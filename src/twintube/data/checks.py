@@ -15,7 +15,7 @@ from twintube.data.table import Table
 SHORTEST_STEP, LONGEST_STEP = 1e-5, 0.5  # [s]
 NEIGHBOURS = 21  # steps whose median is usual: a rig may sample its blocks differently
 GAP = 1.5  # of the usual step: a sample is missing; jitter is allowed for on top
-BIG_GAP = 10.0  # of the usual step: what the damper did meanwhile cannot be told
+BIG_GAP = 10.0  # of the usual step: what the damper did meanwhile is unknown
 JITTER = 0.02  # standard deviation of the step over its median; a clocked rig has below 0.001
 # Units. A degraded damper still has friction of some 10 N, and no rig moves less than 1 mm; a factor of 1000 shows.
 LEAST_STROKE, MOST_STROKE = 0.5e-3, 1.0  # span [m]
@@ -24,7 +24,7 @@ COLDEST, HOTTEST = -60.0, 250.0  # [degC], outside K and degC are mixed up
 # Velocity against stroke, compared as strokes: integration does not raise the noise as differentiation does.
 SCALE = 0.05  # deviation of the ratio from 1; calibrations are within 1 %
 STRANGE = 0.2  # share of the stroke not explained by the velocity; 2 % come from noise
-ODD = 0.05  # the same, to be told: a channel delay of 5 ms at 1.6 Hz
+ODD = 0.05  # the share that is worth a warning: a channel delay of 5 ms at 1.6 Hz
 DRIFT = 0.02  # mean of velocity beyond that of the stroke, over rms
 SAME = 0.05  # of the roughness of a difference quotient: whoever has its noise too is computed from it
 # Others
@@ -61,9 +61,9 @@ class Places:
     tail: str  # how many there are
 
 
-def places(found: NDArray[np.bool_], rows: NDArray[np.int64], notes: Notes) -> Places | None:
-    """The rows where `found` holds."""
-    at = rows[np.flatnonzero(found)]
+def places(wrong: NDArray[np.bool_], rows: NDArray[np.int64], notes: Notes) -> Places | None:
+    """The rows where `wrong` holds."""
+    at = rows[np.flatnonzero(wrong)]
     return Places(int(at[0]), more(len(at), int(at[-1]), notes.counted)) if len(at) else None
 
 
@@ -73,9 +73,9 @@ def check_time(table: Table, notes: Notes) -> None:
     known = np.isfinite(table.columns["time"])
     time, rows = table.columns["time"][known], rows[known]
     step = np.diff(time)
-    for found, what in ((step < 0, "goes back"), (step == 0, "is repeated")):
-        if where := places(np.append(False, found), rows, notes):
-            i = int(np.flatnonzero(found)[0])
+    for wrong, what in ((step < 0, "goes back"), (step == 0, "is repeated")):
+        if where := places(np.append(False, wrong), rows, notes):
+            i = int(np.flatnonzero(wrong)[0])
             notes.error(f"time {what}: {time[i + 1]:g} s after {time[i]:g} s{where.tail}", header, where.first)
     step, rows = step[step > 0], rows[1:][step > 0]
     if not len(step):
@@ -89,9 +89,9 @@ def check_time(table: Table, notes: Notes) -> None:
     ratio = step / local
     usual = 1.4826 * float(np.median(np.abs(ratio - 1.0)))
     gap = ratio > GAP + 3.0 * usual
-    for found, severe in ((gap & (ratio > BIG_GAP), True), (gap & (ratio <= BIG_GAP), False)):
-        if where := places(found, rows, notes):
-            worst = int(np.argmax(np.where(found, ratio, 0.0)))
+    for wrong, severe in ((gap & (ratio > BIG_GAP), True), (gap & (ratio <= BIG_GAP), False)):
+        if where := places(wrong, rows, notes):
+            worst = int(np.argmax(np.where(wrong, ratio, 0.0)))
             what = f"step of up to {step[worst]:g} s where {local[worst]:g} s is usual"
             if severe:
                 notes.error(f"gap: {what}, must be at most {BIG_GAP:g} times that{where.tail}", header, where.first)
@@ -258,8 +258,8 @@ def check_repeats(table: Table, notes: Notes) -> None:
     if not steps.any():
         return
     resolution = float(steps[steps > 1e-9 * np.ptp(stroke)].min())
-    same = np.concatenate([[False], (steps == 0) & (np.diff(force) == 0), [False]]).astype(int)
-    begin, end = np.flatnonzero(np.diff(same) == 1), np.flatnonzero(np.diff(same) == -1)
+    equal = np.concatenate([[False], (steps == 0) & (np.diff(force) == 0), [False]]).astype(int)
+    begin, end = np.flatnonzero(np.diff(equal) == 1), np.flatnonzero(np.diff(equal) == -1)
     single, frozen = np.zeros(len(stroke), bool), np.zeros(len(stroke), bool)
     for i, j in zip(begin, end, strict=True):  # samples i to j are identical
         if stood_still(table, int(i), int(j), resolution):

@@ -1,6 +1,6 @@
 """Dataset folders: `dataset.toml` and the records it names."""
 
-import tomllib
+import hashlib
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,9 +11,10 @@ from twintube.core.checks import tube_limit
 from twintube.dampers import Damper, ParameterError, load, names
 from twintube.data.checks import check, computed
 from twintube.data.findings import DataError, Finding, Notes, UnreadableError
-from twintube.data.formats import read_raw
 from twintube.data.manifest import Entry, Manifest, read_manifest
+from twintube.data.raw import Outcome, read_all
 from twintube.data.table import Table, convert
+from twintube.reading import ReadError, read_toml
 
 FILE = "dataset.toml"
 MEASURED = "measured"
@@ -93,32 +94,39 @@ def read_dataset(path: str | Path, sign: int) -> Dataset:
     notes = Notes(toml.name)
     title = toml.resolve().parent.name
     try:
-        text = toml.read_text(encoding="utf-8")
-        content = tomllib.loads(text)
-    except (OSError, ValueError) as error:
-        notes.error(f"cannot be read: {error}")
+        content, text = read_toml(toml)
+    except (OSError, ReadError) as error:
+        notes.error(missing_manifest(folder) if isinstance(error, FileNotFoundError) else f"cannot be read: {error}")
         return Dataset(title, None, [], notes.findings)
     manifest = read_manifest(content, text, title, notes)
     damper = damper_of(manifest, toml.parent, notes)
     records: list[Record] = []
-    found: list[Finding] = []
-    for stated in manifest.entries:
-        entry = replace(stated, force_sign=sign * stated.force_sign)
+    findings: list[Finding] = []
+    known: dict[bytes, Record] = {}
+    entries = [replace(entry, force_sign=sign * entry.force_sign) for entry in manifest.entries]
+    outcomes = read_all([(toml.parent / entry.file, entry.form) for entry in entries if entry.file])
+    for entry in entries:
         own = Notes(entry.file)
-        record = read_record(entry, toml.parent, damper, notes, own)
-        found += own.findings
+        record = read_record(entry, next(outcomes) if entry.file else None, damper, notes, own)
+        findings += own.findings
         if record is not None:
-            twin = next((other for other in records if same(other, record)), None)
-            if twin is not None:
-                one = Finding("warning", record.file, "", None, f"the same samples as {twin.file}: recorded twice?")
-                found.append(one)
-                record = replace(record, findings=(*record.findings, one))
+            twin = known.setdefault(digest(record), record)
+            if twin is not record:
+                remark = Finding("warning", record.file, "", None, f"the same samples as {twin.file}: recorded twice?")
+                findings.append(remark)
+                record = replace(record, findings=(*record.findings, remark))
             records.append(record)
-    return Dataset(manifest.title, damper, records, notes.findings + found)
+    return Dataset(manifest.title, damper, records, notes.findings + findings)
+
+
+def missing_manifest(path: Path) -> str:
+    """What to do where dataset.toml is not there."""
+    where = f"no {FILE} in {path}" if path.is_dir() else f"{path}: no such folder or file"
+    return f"cannot be read: {where}; it names the damper and the records, `twintube new-dataset` writes one to start from"
 
 
 def damper_of(manifest: Manifest, folder: Path, notes: Notes) -> Damper | None:
-    """The named damper or the parameter file beside dataset.toml."""
+    """The named damper, or the parameter file in the folder of dataset.toml."""
     if not manifest.damper:
         return None
     try:
@@ -128,13 +136,13 @@ def damper_of(manifest: Manifest, folder: Path, notes: Notes) -> Damper | None:
         return None
 
 
-def same(one: Record, other: Record) -> bool:
-    """Whether two records hold the same samples."""
-    return np.array_equal(one.stroke, other.stroke) and np.array_equal(one.force, other.force)
+def digest(record: Record) -> bytes:
+    """Of the samples: equal for a record that was stored twice."""
+    return hashlib.sha256(record.stroke.tobytes() + record.force.tobytes()).digest()
 
 
-def read_record(entry: Entry, folder: Path, damper: Damper | None, notes: Notes, own: Notes) -> Record | None:
-    """Read and check a record; None if it has an error. `notes` takes findings on dataset.toml, `own` on the file."""
+def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, notes: Notes, own: Notes) -> Record | None:
+    """Check a record that was read; None if it has an error. `notes` takes findings on dataset.toml, `own` on the file."""
     limit, level = None, entry.oil_level
     if damper is not None:
         if level is None and entry.oil_volume is not None:
@@ -145,17 +153,16 @@ def read_record(entry: Entry, folder: Path, damper: Damper | None, notes: Notes,
                 notes.error(message + f", the intact volume of {damper.name}", "oil_volume_mL", entry.line)
                 entry = replace(entry, complete=False)
         limit = tube_limit(damper.parameters)
-    if not entry.file:
+    if outcome is None:
         return None
-    try:
-        table = convert(read_raw(folder / entry.file, entry.form), entry.form, own)
-    except UnreadableError as error:
+    if isinstance(outcome, UnreadableError):
         own.counted = "row"
-        own.error(str(error), row=error.row)
+        own.error(str(outcome), row=outcome.row)
         return None
-    except (OSError, MemoryError) as error:
-        own.error(f"cannot be read: {error}")
+    if isinstance(outcome, OSError):
+        own.error(f"cannot be read: {outcome.strerror or outcome}")
         return None
+    table = convert(outcome, entry.form, own)
     if table is None:
         return None
     table = turned(table, entry)

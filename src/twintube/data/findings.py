@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from twintube.engine.simulate import InputError
+from twintube.words import printable, shown
 
 
 @dataclass(frozen=True)
@@ -18,10 +19,15 @@ class Finding:
     message: str
     counted: Literal["row", "sample"] = "row"
 
-    def __str__(self) -> str:
+    @property
+    def text(self) -> str:
+        """Row, column and message, in one line."""
         place = [] if self.row is None else [f"{self.counted} {self.row}"]
-        place += [f"column {self.column!r}"] if self.column else []
-        return f"{self.severity}: {self.file}: " + "".join([", ".join(place), ": "] if place else []) + self.message
+        place += [f"column {shown(self.column)}"] if self.column else []
+        return " ".join(printable(": ".join([*([", ".join(place)] if place else []), self.message])).split("\n"))
+
+    def __str__(self) -> str:
+        return f"{self.severity}: {printable(self.file)}: {self.text}"
 
 
 class DataError(InputError):
@@ -30,8 +36,8 @@ class DataError(InputError):
     def __init__(self, title: str, findings: Iterable[Finding]) -> None:
         self.findings = list(findings)
         errors = [finding for finding in self.findings if finding.severity == "error"]
-        many = "1 error" if len(errors) == 1 else f"{len(errors)} errors"
-        super().__init__(f"{title}: {many}\n" + report(self.findings))
+        count = "1 error" if len(errors) == 1 else f"{len(errors)} errors"
+        super().__init__(f"{title}: {count}\n" + report(self.findings))
 
 
 def report(findings: Iterable[Finding]) -> str:

@@ -1,24 +1,29 @@
-"""The file formats: each reader gives its columns by name, unconverted and unjudged.
+"""Text records, CSV and the like: columns by name, unconverted and unjudged; and how every format is to be read."""
 
-A table of two dimensions gives one column for each index of its shorter side, `x_F[0]`, `x_F[1]`, ...; a field of a struct
-or a group is `struct.field`.
-"""
-
+import codecs
 import csv
 import io
+import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
 from twintube.data.findings import UnreadableError
+from twintube.words import listed, shown
 
 TEXT = {".csv": ",", ".txt": "whitespace", ".dat": "whitespace", ".tsv": "\t"}  # the delimiter where none is given
-MOST_COLUMNS = 64  # a wider table is no recording of channels
-QUANTITIES = ("time", "stroke", "force", "velocity", "temperature")
-HDF5 = b"\x89HDF"
+TEXT_BYTES = 256_000_000
+BINARY_BYTES = 4_000_000_000
+MOST_COLUMNS = 256  # a wider table is not a recording of channels
+MOST_SKIPPED = 100_000  # rows before the header
+NUMBER = re.compile(r"\s*[+-]?[0-9]+([.,][0-9]*)?([eE][+-]?[0-9]+)?\s*")
+DELIMITERS = {";": "';'", "\t": "'\\t'", ",": "','"}
+# Others take quadratic time, or are encodings of something else than a file.
+ENCODINGS = re.compile(
+    r"utf-(8|8-sig|16|32)(-le|-be)?|ascii|cp\d+|iso8859-\d+|mac-\w+|koi8-\w|big5|gbk?\d*|shift_jis|euc_\w+"
+)
 
 
 @dataclass(frozen=True)
@@ -40,153 +45,105 @@ class Raw:
     rows: Sequence[int]  # number of each sample in the file
     counted: Literal["row", "sample"] = "sample"
     units: dict[str, str] = field(default_factory=dict)  # where the format carries them besides the names
+    refused: dict[str, str] = field(default_factory=dict)  # columns that do not hold numbers, and what they hold
 
 
-def read_raw(path: Path, form: Format) -> Raw:
-    """The columns of a file; raises UnreadableError and OSError."""
-    ending = path.suffix.lower()
-    if ending in TEXT:
-        return read_text(path, form, form.delimiter or TEXT[ending])
-    readers = {".parquet": read_parquet, ".pq": read_parquet, ".mat": read_mat, ".mf4": read_mdf, ".mdf": read_mdf}
-    if ending not in readers:
-        raise UnreadableError(f"unknown format {ending!r}, must be one of {', '.join([*TEXT, *readers])}")
-    if isinstance(form.columns, list):
-        raise UnreadableError(
-            "columns: a list is for text files without header, here it must be a table: header = name in the file"
+def known_encoding(name: str) -> bool:
+    """Whether it is an encoding of text files."""
+    try:
+        return re.fullmatch(r"[\w .-]{1,40}", name, re.ASCII) is not None and bool(
+            ENCODINGS.fullmatch(codecs.lookup(name).name)
         )
-    with path.open("rb"):
-        pass  # a missing or forbidden file says so itself, the libraries' messages vary
-    try:
-        return readers[ending](path, form)
-    except (UnreadableError, MemoryError):
-        raise
-    except ModuleNotFoundError as error:
-        what = "'twintube[mdf]'" if error.name == "asammdf" else error.name
-        raise UnreadableError(f"{path.suffix} files need the package {error.name}: pip install {what}") from error
-    except Exception as error:  # the libraries raise nearly everything on a damaged file
-        raise UnreadableError(f"no readable {path.suffix} file ({type(error).__name__}: {error})") from error
+    except LookupError:
+        return False
 
 
-def read_text(path: Path, form: Format, delimiter: str) -> Raw:
-    """CSV and other text; the header is the first row after `skip_rows` unless `columns` is a list."""
+def read_text(path: Path, form: Format) -> Raw:
+    """CSV and other text; the header is the first row after `skip_rows` unless `columns` is a list.
+
+    Raises UnreadableError with the row, and OSError.
+    """
+    delimiter = form.delimiter or TEXT[path.suffix.lower()]
+    if delimiter == form.decimal:
+        raise UnreadableError(
+            f"delimiter and decimal are both {delimiter!r}: set `delimiter`, often ';' where decimal is ','"
+        )
+    table = split_text(decoded(path, form.encoding), delimiter, form.skip_rows)
+    if isinstance(form.columns, list):
+        headers, body = form.columns, table
+    else:
+        headers, body = [cell.strip() for cell in table[0][1]], table[1:]
+        check_header(table[0], delimiter)
+    if len(headers) > MOST_COLUMNS:
+        raise UnreadableError(f"{len(headers)} columns, at most {MOST_COLUMNS} are read", table[0][0])
+    for header, count in Counter(headers).items():
+        if header and count > 1:
+            raise UnreadableError(f"two columns are named {shown(header)}", table[0][0])
+    width = len(headers)
+    for number, cells in body:
+        if len(cells) > width and any(cell.strip() for cell in cells[width:]):
+            raise UnreadableError(wrong_width(len(cells), width, table[0][1], delimiter), number)
+    # Missing cells are reported as empty ones.
+    rows = [cells if len(cells) == width else (cells + [""] * width)[:width] for _, cells in body]
+    columns: dict[str, Any] = {header: [cells[i] for cells in rows] for i, header in enumerate(headers) if header}
+    return Raw(columns, [number for number, _ in body], "row")
+
+
+def decoded(path: Path, encoding: str) -> str:
+    """The file's text; raises UnreadableError."""
     try:
-        text = path.read_bytes().decode(form.encoding)
+        return path.read_bytes().decode(encoding)
     except UnicodeDecodeError as error:
         row = error.object[: error.start].count(b"\n") + 1
-        raise UnreadableError(f"no {form.encoding} text ({error.reason}); set `encoding`", row) from error
+        raise UnreadableError(f"not a text in {encoding} ({error.reason}); set `encoding`", row) from error
+    except UnicodeError as error:
+        raise UnreadableError(f"not a text in {encoding} ({error}); set `encoding`") from error
+
+
+def split_text(text: str, delimiter: str, skipped: int) -> list[tuple[int, list[str]]]:
+    """Rows with their number in the file, without `skipped` at the top and empty ones at the end; raises UnreadableError."""
+    lines = io.StringIO(text, newline="")
+    for _ in range(skipped):
+        if not lines.readline():
+            raise UnreadableError(f"skip_rows = {skipped}: the file has fewer rows")
     try:
-        lines, skipped = io.StringIO(text, newline=""), form.skip_rows
-        for _ in range(skipped):
-            lines.readline()
         if delimiter == "whitespace":
             table = [(number, line.split()) for number, line in enumerate(lines, start=skipped + 1)]
         else:
             reader = csv.reader(lines, delimiter=delimiter, skipinitialspace=True)
             table = [(reader.line_num + skipped, cells) for cells in reader]
     except csv.Error as error:
-        raise UnreadableError(f"no readable text table ({error})") from error
+        raise UnreadableError(f"not a readable text table ({error})") from error
     while table and not any(cell.strip() for cell in table[-1][1]):
-        table.pop()  # empty lines at the end
+        table.pop()
     if not table:
         raise UnreadableError("the file is empty")
-    if isinstance(form.columns, list):
-        headers, first = form.columns, 0
-    else:
-        headers, first = [cell.strip() for cell in table[0][1]], 1
-    twice = [header for header in headers if header and headers.count(header) > 1]
-    if twice:
-        raise UnreadableError(f"two columns are named {twice[0]!r}", table[0][0])
-    width = len(headers)
-    rows, body = [number for number, _ in table[first:]], [cells for _, cells in table[first:]]
-    for number, cells in table[first:]:
-        if len(cells) > width and any(cell.strip() for cell in cells[width:]):
-            raise UnreadableError(f"{len(cells)} cells where {width} columns are named", number)
-    if any(len(cells) != width for cells in body):
-        body = [(cells + [""] * width)[:width] for cells in body]  # the missing cells are found as empty ones
-    columns = {header: [cells[i] for cells in body] for i, header in enumerate(headers) if header}
-    if form.decimal == ",":
-        columns = {header: [cell.replace(",", ".") for cell in cells] for header, cells in columns.items()}
-    return Raw(columns, rows, "row")
+    return table
 
 
-def listed(columns: dict[str, Any]) -> Raw:
-    """Columns of a format without rows of its own."""
-    longest = max((len(values) for values in columns.values()), default=0)
-    return Raw(columns, range(longest))
+def check_header(row: tuple[int, list[str]], delimiter: str) -> None:
+    """Raise UnreadableError where the header holds numbers, or all names in a single cell."""
+    number, cells = row
+    if all(NUMBER.fullmatch(cell) for cell in cells):
+        text = listed(cells, 4)
+        raise UnreadableError(f"numbers ({text}) where the header must be: set `columns`, the headers as a list", number)
+    if len(cells) == 1 and (other := other_delimiter(cells[0], delimiter)):
+        raise UnreadableError(f"a header of one column {shown(cells[0])}: {other}", number)
 
 
-def read_parquet(path: Path, _: Format) -> Raw:
-    """Parquet, by its column names."""
-    import pyarrow.parquet
-
-    table = pyarrow.parquet.read_table(path)
-    return listed({name: table.column(name).to_pylist() for name in table.column_names})
-
-
-def read_mat(path: Path, _: Format) -> Raw:
-    """MATLAB v5 to v7.3."""
-    found: dict[str, Any] = {}
-    with path.open("rb") as file:
-        start = file.read(516)
-    if start.startswith(HDF5) or start[512:] == HDF5:
-        import h5py
-
-        with h5py.File(path) as hdf:
-            hdf.visititems(lambda name, item: flatten(name.replace("/", "."), item, found))
-    else:
-        from scipy.io import loadmat
-
-        for name, item in loadmat(path, struct_as_record=False).items():
-            if not name.startswith("__"):
-                flatten(name, item, found)
-    return listed(found)
+def wrong_width(cells: int, width: int, header: list[str], delimiter: str) -> str:
+    """The message about a row with more cells than there are columns."""
+    named = "1 column is" if width == 1 else f"{width} columns are"
+    other = other_delimiter(delimiter.join(header), delimiter)
+    hint = other if other else "is ',' both the delimiter and the decimal sign?" if delimiter == "," else ""
+    return f"{cells} cells where {named} named{'; ' + hint if hint else ''}"
 
 
-def flatten(name: str, item: Any, found: dict[str, Any]) -> None:
-    """Put the columns of a MATLAB variable or HDF5 dataset into `found`."""
-    if name.startswith("#refs#") or not hasattr(item, "dtype"):
-        return
-    if item.dtype == object and item.size == 1 and hasattr(np.asarray(item).flat[0], "_fieldnames"):
-        struct = np.asarray(item).flat[0]
-        for key in struct._fieldnames:
-            flatten(f"{name}.{key}", getattr(struct, key), found)
-        return
-    values = np.asarray(item)
-    if values.dtype.kind not in "fiu" or values.ndim not in {1, 2} or min(values.shape) == 0:
-        return
-    if values.ndim == 1 or min(values.shape) == 1:
-        found[name] = values.ravel()
-    elif min(values.shape) <= MOST_COLUMNS:
-        table = values if values.shape[0] >= values.shape[1] else values.T
-        for i in range(table.shape[1]):
-            found[f"{name}[{i}]"] = table[:, i]
-
-
-def read_mdf(path: Path, form: Format) -> Raw:
-    """ASAM MDF: the channels named in `columns`, else those named as quantities; time is their master channel."""
-    from asammdf import MDF
-
-    with MDF(path) as mdf:
-        masters = {mdf.groups[group].channels[i].name for group, i in mdf.masters_db.items()}
-        wanted = (
-            list(form.columns.values())
-            if isinstance(form.columns, dict)
-            else [name for name in mdf.channels_db if name.split(" [")[0] in QUANTITIES]
-        )
-        signals = {name: mdf.get(name) for name in dict.fromkeys(wanted) if name in mdf.channels_db and name not in masters}
-    signals = {name: signal for name, signal in signals.items() if signal.samples.dtype.kind in "fiu"}
-    if not signals:
-        return listed({})
-    first = next(iter(signals))
-    time = signals[first].timestamps
-    for name, signal in signals.items():
-        if not np.array_equal(signal.timestamps, time):
-            raise UnreadableError(
-                f"channel {name!r} is not sampled at the times of channel {first!r}; nothing is resampled here"
-            )
-    raw = listed({name: signal.samples for name, signal in signals.items()})
-    raw.units = {name: signal.unit for name, signal in signals.items() if signal.unit}
-    for name in masters | {"time"}:
-        raw.columns[name] = time
-        raw.units[name] = "s"
-    return raw
+def other_delimiter(line: str, delimiter: str) -> str:
+    """What to set where the line is rather split by another delimiter; empty where nothing says so."""
+    counts = {sign: line.count(sign) for sign in DELIMITERS if sign != delimiter}
+    sign = max(counts, key=lambda sign: counts[sign])
+    if not counts[sign]:
+        return ""
+    decimal = " and, where numbers are written 1,5, decimal = ','" if sign != "," else ""
+    return f"set delimiter = {DELIMITERS[sign]}{decimal}"

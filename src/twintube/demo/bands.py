@@ -1,4 +1,4 @@
-"""What a result depends on: the same rides with the damper of this process, over seeds, closures and assumed values."""
+"""Dependence of the results on assumptions: the rides repeated with the compiled damper over seeds, closures and values."""
 
 import os
 from collections.abc import Iterable, Iterator
@@ -11,15 +11,17 @@ from tqdm import tqdm
 
 from twintube.dampers import Damper, ParameterError
 from twintube.dampers.closures import CLOSURES, DEFAULT, closed
+from twintube.dampers.variants import scalar_factor
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import Drive
 from twintube.vehicle.ride import Track, measures, ride, track
 
+SPEEDS = (30.0, 50.0)  # [km/h]
 SEEDS = (1, 2, 3, 4, 5)
 DEAD_LENGTH = 0.010  # [m] to each side of the calibrated one
 FORCES = (0.75, 1.33)  # of the assumed F-v curve
-LOSSES = (0.05, 0.4)  # of oil, from which cavitation acts in full (assumed)
-NAMES = {  # of the car's values on pictures
+LOSSES = (0.05, 0.4)  # oil losses [1] from which cavitation has its full effect (assumed)
+NAMES = {  # of the car's values, for pictures
     "d_links": "links [N s/m]",
     "d_tyre": "tyre damping [N s/m]",
     "c_tyre": "tyre stiffness [N/m]",
@@ -31,7 +33,7 @@ SCALAR = "scalar factor"  # variant 1 of Section 3.4
 
 @dataclass(frozen=True)
 class Setting:
-    """One set of assumptions: `forces` scales the F-v curve, `dead_length` [m] is added; `car` and `damper` are changes."""
+    """One set of assumptions: factor of the F-v curve, addition to the dead length [m], changed values of car and damper."""
 
     closure: str = DEFAULT
     seed: int = 1
@@ -42,7 +44,7 @@ class Setting:
 
 
 def changed(damper: Damper, setting: Setting) -> Damper:
-    """The damper with the setting's assumed values; raises ParameterError where they do not fit."""
+    """The damper with the assumed values of a setting; raises ParameterError if they are not admissible."""
     p = damper.parameters
     values: dict[str, Any] = dict(setting.damper)
     if setting.forces != 1.0:
@@ -53,9 +55,9 @@ def changed(damper: Damper, setting: Setting) -> Damper:
 
 
 def condition(damper: Damper, oil_level: float, gas_preload: int, closure: str) -> Damper:
-    """The damper at an oil level with a closure, or with the oil level as a factor of its fluid force (variant 1)."""
+    """The damper at an oil level with a closure, or with the oil level as a factor of the fluid force (variant 1)."""
     if closure == SCALAR:
-        return damper.with_(oil_level=1.0, gas_preload=0, wear_re=oil_level - 1.0, wear_co=oil_level - 1.0)
+        return damper.with_(gas_preload=0, **scalar_factor(oil_level))
     return closed(damper.with_(oil_level=oil_level, gas_preload=gas_preload), closure)
 
 
@@ -67,24 +69,24 @@ def course(speed: float, seconds: float, seed: int, dt: float) -> Track:
 
 @dataclass(frozen=True)
 class Rides:
-    """Rides of one damper in one car, by speed [km/h], oil level and setting; each is driven once."""
+    """Rides of one damper in one car, by speed [km/h], oil level and setting; each is computed once."""
 
     damper: Damper
     car: CarSet
     seconds: float
     dt: float
-    seed: int = 1  # of the first road; a setting's seed counts from it
-    found: dict[tuple[float, float | None, Setting], dict[str, Any]] = field(default_factory=dict)
+    seed: int = 1  # of the first road; the seeds of settings are relative to it
+    results: dict[tuple[float, float | None, Setting], dict[str, Any]] = field(default_factory=dict)
 
     def run(self, speed: float, level: float | None, setting: Setting) -> Drive:
         """One ride; `level` None is the intact damper."""
         damper = changed(self.damper, setting)
         state = condition(damper, 1.0 if level is None else level, int(level is None), setting.closure)
-        on = course(speed, self.seconds, self.seed + setting.seed - 1, self.dt)
-        return ride(state, self.car.corner(damper, **dict(setting.car)), on)
+        route = course(speed, self.seconds, self.seed + setting.seed - 1, self.dt)
+        return ride(state, self.car.corner(damper, **dict(setting.car)), route)
 
     def group(self, speed: float, levels: Iterable[float], setting: Setting) -> Iterator[tuple[Any, dict[str, Any]]]:
-        """The intact damper and all levels over the same track, with their figures."""
+        """Figures of the intact damper and of all levels over the same track, by (speed, level, setting)."""
         corner = self.car.corner(changed(self.damper, setting), **dict(setting.car))
         intact = self.run(speed, None, setting)
         yield (speed, None, setting), measures(intact, corner, intact)
@@ -92,25 +94,25 @@ class Rides:
             yield (speed, level, setting), measures(self.run(speed, level, setting), corner, intact)
 
     def drive_all(self, speeds: Iterable[float], levels: Iterable[float], settings: Iterable[Setting], label: str) -> None:
-        """Drive what is missing, on all cores: the compiled damper runs beside others in one process."""
+        """Compute the missing rides on all cores, in threads: the compiled damper releases Python's lock."""
         levels = tuple(levels)
         jobs = [(speed, setting) for setting in dict.fromkeys(settings) for speed in speeds]
-        jobs = [job for job in jobs if any((job[0], level, job[1]) not in self.found for level in (None, *levels))]
+        jobs = [job for job in jobs if any((job[0], level, job[1]) not in self.results for level in (None, *levels))]
 
         def work(job: tuple[float, Setting]) -> dict[Any, dict[str, Any]]:
             return dict(self.group(job[0], levels, job[1]))
 
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            for some in tqdm(pool.map(work, jobs), total=len(jobs), unit="setting", desc=label):
-                self.found.update(some)
+            for figures_by_key in tqdm(pool.map(work, jobs), total=len(jobs), unit="setting", desc=label):
+                self.results.update(figures_by_key)
 
     def get(self, speed: float, level: float | None, setting: Setting, figure: str) -> Any:
-        """A figure of a ride that has been driven."""
-        return self.found[speed, level, setting][figure]
+        """A figure of a ride that has been computed."""
+        return self.results[speed, level, setting][figure]
 
 
 def assumptions(damper: Damper, car: CarSet) -> dict[str, tuple[Setting, Setting]]:
-    """The two ends of everything that is assumed, by name; what does not fit into the damper is left out."""
+    """The two ends of every assumed value, by name; values that the damper does not admit are left out."""
     ends = {
         f"{NAMES.get(name, name)} {low:g}-{high:g}": (Setting(car=((name, low),)), Setting(car=((name, high),)))
         for name, (low, high) in car.band.items()
@@ -122,7 +124,7 @@ def assumptions(damper: Damper, car: CarSet) -> dict[str, tuple[Setting, Setting
 
 
 def loss(value: float) -> Setting:
-    """Cavitation in full from an oil loss [1] on."""
+    """Full cavitation from an oil loss [1]."""
     return Setting(damper=(("cavitation_loss", value),))
 
 
@@ -135,24 +137,24 @@ def fits(damper: Damper, setting: Setting) -> bool:
     return True
 
 
-def over(rides: Rides, speed: float, level: float | None, settings: Iterable[Setting], figure: str = "dlc") -> list[float]:
-    """Smallest and largest value of a figure over settings."""
-    values = [rides.get(speed, level, setting, figure) for setting in settings]
+def extremes(rides: Rides, speed: float, level: float | None, settings: Iterable[Setting]) -> list[float]:
+    """Smallest and largest DLC over the settings."""
+    values = [rides.get(speed, level, setting, "dlc") for setting in settings]
     return [min(values), max(values)]
 
 
 def seeds() -> list[Setting]:
-    """The default assumptions on five roads."""
+    """The default assumptions, on five roads."""
     return [Setting(seed=seed) for seed in SEEDS]
 
 
 def closures() -> list[Setting]:
-    """Every closure on one road."""
+    """Every closure, on one road."""
     return [Setting(closure=name) for name in CLOSURES]
 
 
 def everything(rides: Rides) -> list[Setting]:
-    """All settings of the bands: one assumption varied at a time, the two that matter most together."""
+    """All settings of the bands: one assumption varied at a time, and the two most important ones together."""
     ends = [end for pair in assumptions(rides.damper, rides.car).values() for end in pair]
     pairs = [
         Setting(closure=name, car=(("d_links", links),)) for name in CLOSURES for links in rides.car.band.get("d_links", ())
@@ -161,17 +163,17 @@ def everything(rides: Rides) -> list[Setting]:
 
 
 def rises(rides: Rides, speed: float, level: float, settings: Iterable[Setting]) -> list[float]:
-    """DLC over that of the intact damper in the same car on the same road [1], for every setting."""
+    """DLC relative to the intact damper in the same car on the same road [1], for every setting."""
     return [rides.get(speed, level, s, "dlc") / rides.get(speed, None, s, "dlc") for s in settings]
 
 
 def bands(rides: Rides, speed: float, level: float | None) -> dict[str, Any]:
-    """The bands of the DLC at one speed and level, JSON ready; every entry [smallest, largest] but `closure`."""
+    """Bands of the DLC at one speed and level for JSON; every entry is [smallest, largest] except `closure`."""
     half_lives = [Setting(closure=name) for name in ("return_fast", "return_slow")]
-    found: dict[str, Any] = {
-        "seeds": over(rides, speed, level, seeds()),
-        "half_life": over(rides, speed, level, [*half_lives, Setting()]),
-        "closures": over(rides, speed, level, closures()),
+    figures: dict[str, Any] = {
+        "seeds": extremes(rides, speed, level, seeds()),
+        "half_life": extremes(rides, speed, level, [*half_lives, Setting()]),
+        "closures": extremes(rides, speed, level, closures()),
         "closure": {s.closure: rides.get(speed, level, s, "dlc") for s in closures()},
         "assumed": {
             name: [rides.get(speed, level, end, "dlc") for end in pair]
@@ -181,5 +183,5 @@ def bands(rides: Rides, speed: float, level: float | None) -> dict[str, Any]:
     if level is not None:
         for name, settings in (("seeds_over_intact", seeds()), ("all_over_intact", everything(rides))):
             values = rises(rides, speed, level, settings)
-            found[name] = [min(values), max(values)]
-    return found
+            figures[name] = [min(values), max(values)]
+    return figures

@@ -10,20 +10,22 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from fmpy.model_description import ScalarVariable
 
+from twintube.errors import UserError
+
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
 OUTPUTS = ("force", "force_fluid", "force_friction", "force_gas", "work", "k_degr")
 KEEPS_NO_STATE = c_int(1)  # noSetFMUStatePriorToCurrentPoint
 VOLUMES = tuple(f"V{chamber}.{phase}" for chamber in (1, 2, 3) for phase in ("oil", "gas", "foam"))
 
 
-class FmuError(RuntimeError):
-    """The FMU refused a step; the message holds what it logged."""
+class FmuError(UserError, RuntimeError):
+    """The FMU refused a step; the message contains its log."""
 
 
 class DamperFmu:
     """The FMU initialised at stroke 0 with the given start values; a context manager that frees it. Raises FmuError.
 
-    fmpy's own calls convert and log on every call (4 to 7 us); bare handles with arguments made once take a quarter of it.
+    fmpy's functions convert and log on every call (4 to 7 us); bare handles with prepared arguments need a quarter of it.
     """
 
     def __init__(self, fmu: Path, **start_values: float) -> None:
@@ -59,16 +61,16 @@ class DamperFmu:
             raise FmuError(f"{error}: " + "; ".join(self.messages[-3:])) from None
         self.now = c_double(0.0)
         self._component = c_void_p(self.fmu.component)
-        # By [] a function comes without prototype: its arguments, ready-made below, pass without a conversion.
+        # Indexing with [] returns a function without prototype: the arguments prepared below pass without a conversion.
         self._set, self._step, self._get = (self.fmu.dll[f"fmi2{name}"] for name in ("SetReal", "DoStep", "GetReal"))
-        self._inputs = self._places(variables, "stroke", "velocity")
-        self._force = self._places(variables, "force")
-        self._outputs = self._places(variables, *OUTPUTS)
-        self._volumes = self._places(variables, *VOLUMES)
+        self._inputs = self._references(variables, "stroke", "velocity")
+        self._force = self._references(variables, "force")
+        self._outputs = self._references(variables, *OUTPUTS)
+        self._volumes = self._references(variables, *VOLUMES)
 
     @staticmethod
-    def _places(variables: dict[str, ScalarVariable], *names: str) -> tuple[Array[c_uint], c_size_t, Array[c_double]]:
-        """Value references, their number, and room for the values."""
+    def _references(variables: dict[str, ScalarVariable], *names: str) -> tuple[Array[c_uint], c_size_t, Array[c_double]]:
+        """Value references, their number, and a buffer for the values."""
         n = len(names)
         return (c_uint * n)(*(variables[name].valueReference for name in names)), c_size_t(n), (c_double * n)()
 
@@ -96,9 +98,9 @@ class DamperFmu:
         self.now.value += dt
         return self._read(self._force)[0]
 
-    def _read(self, places: tuple[Array[c_uint], c_size_t, Array[c_double]]) -> Array[c_double]:
-        self._get(self._component, *places)
-        return places[2]
+    def _read(self, variables: tuple[Array[c_uint], c_size_t, Array[c_double]]) -> Array[c_double]:
+        self._get(self._component, *variables)
+        return variables[2]
 
     def outputs(self) -> dict[str, float]:
         """Forces [N], dissipated work [J] and k_degr after the last step."""

@@ -2,7 +2,7 @@
 
 import json
 import tempfile
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -14,22 +14,22 @@ from twintube.core import effects
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
 from twintube.dampers.closures import CLOSURES, DEFAULT, LETTER, acting, closed
-from twintube.demo.bands import SCALAR, Rides, Setting, bands, everything
+from twintube.demo.bands import SCALAR, SPEEDS, Rides, Setting, bands, everything
 from twintube.demo.moments import SPAN, Moment, moments
-from twintube.demo.ride import Case, Ride, ride
+from twintube.demo.ride import Ride, RideCase, ride
 from twintube.demo.words import sentences
 from twintube.files import write_text
 from twintube.fmu import build_fmu
+from twintube.processes import pool
 from twintube.vehicle import road
 from twintube.vehicle.cars import CarSet, axle
 from twintube.vehicle.quarter_car import Car, static_load
-from twintube.vehicle.ride import measures, track
+from twintube.vehicle.ride import WINDOW, measures, track
 
-SPEEDS = (30.0, 50.0)  # [km/h]
 LEVELS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
 MAP_SPEEDS = (20.0, 30.0, 40.0, 50.0, 60.0, 70.0)  # [km/h] of the time to failure
 MAP_CLOSURES = (DEFAULT, LETTER, "displaced")
-MAP_LONGER = 2  # times the other rides
+MAP_LONGER = 2  # length of these rides over that of the other rides
 FIGURES = ("dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share")
 WIDTHS = (5, 7, 6, 13, 13, 7, 10, 6, 6, 10, 9)  # of the table's columns
 
@@ -40,54 +40,56 @@ def strengths(damper: Damper) -> tuple[str, ...]:
     return tuple(fmi_name(table[name]) for name in effects.neutral(damper.parameters))
 
 
-def cases(off: tuple[str, ...]) -> list[Case]:
-    """Intact and all oil levels without preload, at both speeds; the same without the damper's own effects, `off`."""
+def cases(off: tuple[str, ...]) -> list[RideCase]:
+    """Intact and all oil levels without preload at both speeds, with and without the damper's effects `off`."""
     return [
-        Case(speed, level, preload, without)
+        RideCase(speed, level, preload, without)
         for without in dict.fromkeys(((), off))
         for speed in SPEEDS
         for level, preload in ((1.0, 1), *((level, 0) for level in LEVELS))
     ]
 
 
-def run(fmu: Path, car: Car, case: Case, seconds: float, dt: float, seed: int) -> Ride:
-    """One case, in a process of its own."""
+def run(fmu: Path, car: Car, case: RideCase, seconds: float, dt: float, seed: int) -> Ride:
+    """One ride; runs in a worker process."""
     return ride(fmu, car, case, track(case.speed_kmh, seconds, seed=seed, dt=dt))
 
 
-def run_all(fmu: Path, car: Car, todo: list[Case], seconds: float, dt: float, seed: int) -> dict[Case, Ride]:
+def run_all(fmu: Path, car: Car, todo: list[RideCase], seconds: float, dt: float, seed: int) -> dict[RideCase, Ride]:
     """All cases on all cores."""
-    with ProcessPoolExecutor() as pool:
-        futures = {pool.submit(run, fmu, car, case, seconds, dt, seed): case for case in todo}
+    with pool() as workers:
+        futures = {workers.submit(run, fmu, car, case, seconds, dt, seed): case for case in todo}
         bar = tqdm(as_completed(futures), total=len(todo), unit="ride", desc="quarter car with the FMU")
         return {futures[future]: future.result() for future in bar}
 
 
-def development(found: dict[str, Any]) -> list[dict[str, float]]:
+def development(figures: dict[str, Any]) -> list[dict[str, float]]:
     """The windows of a ride, one entry each."""
-    rows = zip(found["dlc_window"], found["damping_work_window_J"], found["oil_mL_window_end"], strict=True)
+    rows = zip(figures["dlc_window"], figures["damping_work_window_J"], figures["oil_mL_window_end"], strict=True)
     return [
-        {"from_s": 10.0 * i, "to_s": 10.0 * (i + 1), "dlc": d, "damping_work_J": w, "oil_mL": oil}
+        {"from_s": WINDOW * i, "to_s": WINDOW * (i + 1), "dlc": d, "damping_work_J": w, "oil_mL": oil}
         for i, (d, w, oil) in enumerate(rows)
     ]
 
 
-def entry(speed: float, level: float | None, found: dict[Case, Ride], rides: Rides, car: Car, off: tuple[str, ...]) -> Any:
-    """All figures of one state at one speed, JSON ready; `level` None is the intact damper."""
-    case = Case(speed, 1.0 if level is None else level, int(level is None))
-    intact = found[Case(speed, 1.0, 1)]
-    figures = measures(found[case], car, intact)
+def entry(
+    speed: float, level: float | None, rides_by_case: dict[RideCase, Ride], rides: Rides, car: Car, off: tuple[str, ...]
+) -> dict[str, Any]:
+    """All figures of one state at one speed for JSON; `level` None is the intact damper."""
+    case = RideCase(speed, 1.0 if level is None else level, int(level is None))
+    intact = rides_by_case[RideCase(speed, 1.0, 1)]
+    figures = measures(rides_by_case[case], car, intact)
     head = {"oil_level": case.oil_level, "gas_preload": case.gas_preload}
     figures = head | figures | {"development": development(figures), "bands": bands(rides, speed, level)}
     if off:
-        without = Case(case.speed_kmh, case.oil_level, case.gas_preload, off)
-        other = measures(found[without], car, found[Case(speed, 1.0, 1, off)])
-        figures["without_effects"] = {name: other[name] for name in FIGURES}
+        without = RideCase(case.speed_kmh, case.oil_level, case.gas_preload, off)
+        compared = measures(rides_by_case[without], car, rides_by_case[RideCase(speed, 1.0, 1, off)])
+        figures["without_effects"] = {name: compared[name] for name in FIGURES}
     if level is not None:
         for name, closure in (("scalar_factor", SCALAR), ("bare_paper_model", LETTER)):
-            other = rides.found[speed, level, Setting(closure=closure)]
-            more = ("dlc_window", "damping_work_window_J", "time_to_failure_s")
-            figures[name] = {key: other[key] for key in (*FIGURES, *more)}
+            compared = rides.results[speed, level, Setting(closure=closure)]
+            over_time = ("dlc_window", "damping_work_window_J", "time_to_failure_s")
+            figures[name] = {key: compared[key] for key in (*FIGURES, *over_time)}
     return figures
 
 
@@ -108,30 +110,66 @@ def failure_map(damper: Damper, car: CarSet, seconds: float, dt: float, seed: in
     }
 
 
-def shown(found: dict[Case, Ride], speeds: list[dict[str, Any]]) -> tuple[Ride, Ride, list[Moment]]:
-    """The ride in which the damping is lost latest, its intact one, and its moments."""
+def ride_to_show(rides_by_case: dict[RideCase, Ride], speeds: list[dict[str, Any]]) -> tuple[Ride, Ride, list[Moment]]:
+    """The ride in which the damping is lost last, the ride of the intact damper, and the moments to show."""
     block = speeds[-1]
     lost = [e for e in block["oil_levels"] if e["time_to_failure_s"]]
     level = lost[0]["oil_level"] if lost else 0.6
-    one, intact = (found[Case(block["speed_kmh"], *state)] for state in ((level, 0), (1.0, 1)))
-    return one, intact, moments(one, intact)
+    lossy, intact = (rides_by_case[RideCase(block["speed_kmh"], *state)] for state in ((level, 0), (1.0, 1)))
+    return lossy, intact, moments(lossy, intact)
+
+
+def road_figures(length: float, seed: int) -> dict[str, Any]:
+    """The road of the given length [m] for JSON."""
+    profile = road.generate(length, seed=seed)
+    centres, density = road.measured_density(profile.height)
+    return {
+        "class": "D",
+        "seed": seed,
+        "length_without_repetition_m": (len(profile.height) - 1) * road.SPACING,
+        "gd_n0_m3": road.measured_gd_n0(profile.height),
+        "density_m3_by_octave": dict(zip(map(float, centres), map(float, density), strict=True)),
+    }
+
+
+def fmu_difference(rides_by_case: dict[RideCase, Ride], rides: Rides, car: Car) -> float:
+    """Largest relative difference [1] of the DLC between the FMU and the compiled damper."""
+    differences: list[float] = []
+    for case, run_with_fmu in rides_by_case.items():
+        if not case.off:
+            compiled = rides.get(case.speed_kmh, None if case.gas_preload else case.oil_level, Setting(), "dlc")
+            differences.append(abs(measures(run_with_fmu, car)["dlc"] / compiled - 1))
+    return max(differences)
+
+
+def moment_figures(lossy: Ride, shown: list[Moment], dt: float) -> dict[str, Any]:
+    """The moments of a ride for JSON."""
+    return {
+        "speed_kmh": lossy.case.speed_kmh,
+        "oil_level": lossy.case.oil_level,
+        "moments": [
+            {
+                "name": moment.name,
+                "from_s": moment.start,
+                "to_s": moment.start + SPAN,
+                "power_share": moment.power_share,
+                "oil_mL": float(lossy.oil[round(moment.start / dt)] * 1e6),
+            }
+            for moment in shown
+        ],
+    }
 
 
 def summary(
-    damper: Damper, car: CarSet, found: dict[Case, Ride], rides: Rides, off: tuple[str, ...], seed: int
+    damper: Damper, car: CarSet, rides_by_case: dict[RideCase, Ride], rides: Rides, off: tuple[str, ...], seed: int
 ) -> tuple[dict[str, Any], tuple[Ride, Ride, list[Moment]]]:
-    """Everything that the pictures show, as numbers, and the ride whose moments are shown."""
+    """The content of summary.json, and the ride whose moments are shown."""
     corner = car.corner(damper)
-    profile = road.generate(rides.seconds * max(SPEEDS) / 3.6, seed=seed)
-    centres, density = road.measured_density(profile.height)
     speeds: list[dict[str, Any]] = []
     for speed in SPEEDS:
-        states = [entry(speed, level, found, rides, corner, off) for level in (None, *LEVELS)]
+        states = [entry(speed, level, rides_by_case, rides, corner, off) for level in (None, *LEVELS)]
         speeds.append({"speed_kmh": speed, "intact": states[0], "oil_levels": states[1:]})
-    one, intact, when = shown(found, speeds)
-    direct = {key: rides.get(key.speed_kmh, None if key.gas_preload else key.oil_level, Setting(), "dlc") for key in found
-              if not key.off}  # fmt: skip
-    differences = [abs(measures(found[key], corner)["dlc"] / value - 1) for key, value in direct.items()]
+    lossy, intact, moments_shown = ride_to_show(rides_by_case, speeds)
     result = {
         "damper": damper.name,
         "axle": axle(damper),
@@ -139,45 +177,32 @@ def summary(
         "effects": list(effects.active(damper.parameters)),
         "car": {"name": car.name, "title": car.title, "band": car.band, "assumed": dict(car.assumed)},
         "assumed": dict(damper.assumed) | {"closure": "; ".join(f"{c.name}: {c.says}" for c in CLOSURES.values())},
-        "road": {
-            "class": "D",
-            "seed": seed,
-            "length_without_repetition_m": (len(profile.height) - 1) * road.SPACING,
-            "gd_n0_m3": road.measured_gd_n0(profile.height),
-            "density_m3_by_octave": dict(zip(map(float, centres), map(float, density), strict=True)),
-        },
+        "road": road_figures(rides.seconds * max(SPEEDS) / 3.6, seed),
         "step_s": rides.dt,
         "seconds": rides.seconds,
         "static_wheel_load_N": static_load(corner),
-        "largest_difference_of_dlc_fmu_to_kernel": max(differences),
+        "largest_difference_of_dlc_fmu_to_kernel": fmu_difference(rides_by_case, rides, corner),
         "speeds": speeds,
         "time_to_failure": failure_map(damper, car, MAP_LONGER * rides.seconds, rides.dt, seed),
-        "moments": {
-            "speed_kmh": one.case.speed_kmh,
-            "oil_level": one.case.oil_level,
-            "moments": [
-                {"name": m.name, "from_s": m.start, "to_s": m.start + SPAN, "power_share": m.power_share,
-                 "oil_mL": float(one.oil[round(m.start / rides.dt)] * 1e6)}
-                for m in when
-            ],
-        },
-    }  # fmt: skip
-    return result | {"sentences": sentences(result)}, (one, intact, when)
+        "moments": moment_figures(lossy, moments_shown, rides.dt),
+    }
+    return result | {"sentences": sentences(result)}, (lossy, intact, moments_shown)
 
 
 def table(result: dict[str, Any]) -> str:
-    """The figures for the terminal."""
+    """The figures as a table for the terminal."""
     plain = "no effect" if result["effects"] else ""
     head = ("km/h", "oil", "DLC", "closures", "all bands", plain, "factor", "RMS N", "min N", "no contact", "fails at")
     lines = [" ".join(f"{name:>{width}}" for name, width in zip(head, WIDTHS, strict=True))]
     for block in result["speeds"]:
         for e in [block["intact"], *block["oil_levels"]]:
             intact = bool(e["gas_preload"])
-            both = e["bands"].get("all_over_intact")
+            over_intact = e["bands"].get("all_over_intact")
             failed = e["time_to_failure_s"]
             cells = (
                 f"{block['speed_kmh']:.0f}", "intact" if intact else f"{e['oil_level']:.0%}", f"{e['dlc']:.3f}",
-                "{:.3f}-{:.3f}".format(*e["bands"]["closures"]), "x {:.2f}-{:.2f}".format(*both) if both else "",
+                "{:.3f}-{:.3f}".format(*e["bands"]["closures"]),
+                "x {:.2f}-{:.2f}".format(*over_intact) if over_intact else "",
                 f"{e['without_effects']['dlc']:.3f}" if "without_effects" in e else "",
                 "" if intact else f"{e['scalar_factor']['dlc']:.3f}", f"{e['wheel_load_rms_N']:.0f}",
                 f"{e['min_wheel_load_N']:.0f}", f"{e['contact_loss_share']:.2%}",
@@ -188,25 +213,25 @@ def table(result: dict[str, Any]) -> str:
 
 
 def draw(
-    folder: Path, result: dict[str, Any], found: dict[Case, Ride], looked_at: tuple[Ride, Ride, list[Moment]]
+    folder: Path, result: dict[str, Any], rides_by_case: dict[RideCase, Ride], shown: tuple[Ride, Ride, list[Moment]]
 ) -> list[Path]:
     """All pictures, as PNG files in `folder`."""
-    from twintube.demo import moments as close
+    from twintube.demo import moments as moment_pictures
     from twintube.demo import pictures
 
-    one, intact, when = looked_at
-    name, speed = result["damper"], one.case.speed_kmh
+    lossy, intact, moments_shown = shown
+    name, speed = result["damper"], lossy.case.speed_kmh
     label = f"{name}, {speed:.0f} km/h"
-    at_speed = [r for case, r in found.items() if case.speed_kmh == speed and not case.off]
+    at_speed = [r for case, r in rides_by_case.items() if case.speed_kmh == speed and not case.off]
     at_speed.sort(key=lambda r: (-r.case.gas_preload, -r.case.oil_level))
     return [
         pictures.dlc(folder, name, result),
         pictures.development(folder, name, result),
         pictures.failure(folder, name, result),
         pictures.bands(folder, name, result),
-        close.wheel_load(folder, label, one, intact, when, result["static_wheel_load_N"]),
-        close.loops(folder, label, one, intact, when),
-        close.volumes(folder, f"{label}, {one.case.oil_level:.0%} oil", one, when),
+        moment_pictures.wheel_load(folder, label, lossy, intact, moments_shown, result["static_wheel_load_N"]),
+        moment_pictures.loops(folder, label, lossy, intact, moments_shown),
+        moment_pictures.volumes(folder, f"{label}, {lossy.case.oil_level:.0%} oil", lossy, moments_shown),
         pictures.spectrum(folder, label, at_speed),
     ]
 
@@ -222,10 +247,10 @@ def main_job(
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         fmu = build_fmu(closed(damper), Path(folder), platforms=(fmpy.platform,))
-        found = run_all(fmu, car.corner(damper), cases(off), seconds, dt, seed)
+        rides_by_case = run_all(fmu, car.corner(damper), cases(off), seconds, dt, seed)
     rides = Rides(damper, car, seconds, dt, seed)
     rides.drive_all(SPEEDS, LEVELS, [*everything(rides), Setting(closure=SCALAR)], "bands")
-    result, looked_at = summary(damper, car, found, rides, off, seed)
-    pictures = draw(output, result, found, looked_at)
+    result, shown = summary(damper, car, rides_by_case, rides, off, seed)
+    pictures = draw(output, result, rides_by_case, shown)
     write_text(output / "summary.json", json.dumps(result, indent=1))
     return result, pictures

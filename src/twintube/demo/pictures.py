@@ -1,4 +1,4 @@
-"""Pictures of all rides: wheel-load fluctuation over oil loss, over time, and what it depends on."""
+"""Pictures of all rides: wheel-load fluctuation over oil loss and over time, and its dependence on assumptions."""
 
 from pathlib import Path
 from typing import Any
@@ -9,9 +9,9 @@ from scipy import signal
 
 from twintube.demo.ride import Ride
 from twintube.demo.style import BAND, FULL, INTACT, LEVELS, PAPER, SCALAR, save
+from twintube.vehicle.ride import SETTLED, WINDOW
 
-WINDOW = 10  # [s] of `dlc_window`
-TIMES = (0, 5, -1)  # windows that the DLC over the oil level is shown in
+TIMES = (0, 5, -1)  # windows for which the DLC over the oil level is shown
 SHADES = ("#9ecae1", "#4292c6", "#084594")
 
 
@@ -21,12 +21,12 @@ def name_of(entry: dict[str, Any]) -> str:
 
 
 def window_name(number: int) -> str:
-    """The time that a window covers."""
-    return f"{number * WINDOW}-{(number + 1) * WINDOW} s"
+    """The time span of a window."""
+    return f"{number * WINDOW:.0f}-{(number + 1) * WINDOW:.0f} s"
 
 
 def dlc(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """DLC over the oil level at stated times, with the bands over seeds and closures, the bare paper model and a factor."""
+    """DLC over the oil level in several windows, with bands over seeds and closures, the bare paper model and the factor."""
     figure, axes = plt.subplots(1, len(result["speeds"]), figsize=(12, 5.4), sharey=True)
     for ax, block in zip(axes, result["speeds"], strict=True):
         entries = block["oil_levels"]
@@ -60,7 +60,7 @@ def dlc(folder: Path, name: str, result: dict[str, Any]) -> Path:
 
 
 def development(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """How the coefficient and the damper's power develop during the ride, with the bare paper model dotted."""
+    """DLC and power of the damper over time, with the bare paper model dotted."""
     figure, axes = plt.subplots(2, len(result["speeds"]), figsize=(11, 7), sharex=True, sharey="row")
     for column, block in enumerate(result["speeds"]):
         entries = [block["intact"]] + [e for e in block["oil_levels"] if e["oil_level"] in LEVELS]
@@ -74,7 +74,7 @@ def development(folder: Path, name: str, result: dict[str, Any]) -> Path:
                     bare = np.array(entry["bare_paper_model"][figure_name]) * scale
                     axes[row][column].plot(middle, bare, ":", color=colour, lw=1.4)
         axes[0][column].set_title(f"{block['speed_kmh']:.0f} km/h", loc="left", fontsize=11)
-        axes[1][column].set_xlabel("time [s], windows of 10 s   (dotted: bare paper model)")
+        axes[1][column].set_xlabel(f"time [s], windows of {WINDOW:.0f} s   (dotted: bare paper model)")
     axes[0][0].set_ylabel("dynamic load coefficient [1]")
     axes[1][0].set_ylabel("power of the damper [W]")
     for ax in axes.flat:
@@ -84,7 +84,7 @@ def development(folder: Path, name: str, result: dict[str, Any]) -> Path:
 
 
 def failure(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """Time to failure over oil level and speed, for the closures that differ most."""
+    """Time to failure over oil level and speed, for the most different closures."""
     table = result["time_to_failure"]
     figure, axes = plt.subplots(1, len(table["closures"]), figsize=(12, 4.4), sharey=True)
     for ax, (closure, rows) in zip(axes, table["closures"].items(), strict=True):
@@ -100,30 +100,30 @@ def failure(folder: Path, name: str, result: dict[str, Any]) -> Path:
         ax.grid(False)
     axes[0].set_ylabel("speed [km/h]")
     figure.colorbar(image, ax=axes[-1], label="[s]")
-    title = (f"Seconds until the damper does half of the intact one's work, {name}, class D road "
+    title = (f"Seconds until the damper does less than half of the intact damper's work, {name}, class D road "
              f"(-: not within {table['seconds']:.0f} s)")  # fmt: skip
     return save(figure, folder, "time_to_failure.png", title)
 
 
 def rises(entry: dict[str, Any], intact: dict[str, Any]) -> dict[str, list[float]]:
-    """Smallest and largest DLC over the intact one's, in the same car on the same road, by what is varied."""
+    """Smallest and largest DLC relative to intact in the same car on the same road, by the varied assumption."""
     own = entry["dlc"] / intact["dlc"]
     bars = {"road: five seeds": list(entry["bands"]["seeds_over_intact"])}
-    for text, key in (("half-life 6.1-10.2 s", "half_life"), ("what becomes of the gas", "closures")):
+    for text, key in (("half-life 6.1-10.2 s", "half_life"), ("closure (freed gas)", "closures")):
         bars[text] = [v / intact["dlc"] for v in entry["bands"][key]]
     for key, ends in entry["bands"]["assumed"].items():
-        both = [v / w for v, w in zip(ends, intact["bands"]["assumed"][key], strict=True)]
-        bars[key] = [min(*both, own), max(*both, own)]
+        ratios = [v / w for v, w in zip(ends, intact["bands"]["assumed"][key], strict=True)]
+        bars[key] = [min(*ratios, own), max(*ratios, own)]
     return bars
 
 
 def bands(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """What the rise over the intact damper depends on: one bar per assumption."""
+    """Dependence of the rise of the DLC on the assumptions: one bar each."""
     block = result["speeds"][-1]
-    shown = [e for e in block["oil_levels"] if e["oil_level"] in LEVELS]
+    entries = [e for e in block["oil_levels"] if e["oil_level"] in LEVELS]
     intact = block["intact"]
-    figure, axes = plt.subplots(1, len(shown), figsize=(12, 4.6), sharey=True, sharex=True)
-    for ax, entry in zip(axes, shown, strict=True):
+    figure, axes = plt.subplots(1, len(entries), figsize=(12, 4.6), sharey=True, sharex=True)
+    for ax, entry in zip(axes, entries, strict=True):
         bars = rises(entry, intact)
         for i, (low, high) in enumerate(bars.values()):
             ax.barh(i, high - low, left=low, color=FULL, height=0.6)
@@ -131,10 +131,10 @@ def bands(folder: Path, name: str, result: dict[str, Any]) -> Path:
         ax.axvline(1.0, color=INTACT, lw=0.9, ls="--")
         ax.set_yticks(range(len(bars)), list(bars))
         ax.set_title(name_of(entry), loc="left", fontsize=10)
-        ax.set_xlabel("DLC over the intact one's [1]")
+        ax.set_xlabel("DLC relative to intact [1]")
         ax.set_xlim(left=0.95)
     axes[0].invert_yaxis()
-    return save(figure, folder, "bands.png", f"What the rise of the DLC hangs on, {name}, {block['speed_kmh']:.0f} km/h, "
+    return save(figure, folder, "bands.png", f"Sensitivity of the rise of the DLC, {name}, {block['speed_kmh']:.0f} km/h, "
                 f"{result['seconds']:.0f} s (dashed: no rise, line: default)")  # fmt: skip
 
 
@@ -145,7 +145,7 @@ def spectrum(folder: Path, label: str, rides: list[Ride]) -> Path:
         if not ride.case.gas_preload and ride.case.oil_level not in LEVELS:
             continue
         rate = 1 / ride.time[1]
-        f, density = signal.welch(ride.wheel_load[ride.time > 5], rate, nperseg=int(8 * rate))
+        f, density = signal.welch(ride.wheel_load[ride.time > SETTLED], rate, nperseg=int(8 * rate))
         band = (f > 0.3) & (f < 40)
         colour = INTACT if ride.case.gas_preload else LEVELS[ride.case.oil_level]
         text = "intact" if ride.case.gas_preload else f"{ride.case.oil_level:.0%} oil"

@@ -1,8 +1,8 @@
 """One ride with the damper FMU: the quarter car over a road, the FMU in the loop in every step.
 
-Leapfrog: heights at whole steps, velocities at half steps. The damper gets its stroke at the start of a step and the mean
-velocity within it, so that FMU and car move by exactly the same stroke; its force, which belongs to the middle of a step, is
-carried to the start of the next one by its last change.
+Leapfrog: heights at whole steps, velocities at half steps. The FMU receives the damper stroke at the start of a step and
+the mean velocity within the step, so that FMU and car move by exactly the same stroke. The force of the FMU belongs to the
+middle of a step and is extrapolated linearly to the start of the next one.
 """
 
 from dataclasses import dataclass
@@ -15,15 +15,15 @@ from twintube.arrays import Array
 from twintube.core.variables import blank
 from twintube.demo.damper_fmu import VOLUMES, DamperFmu
 from twintube.vehicle.drive import CONDITIONING_STEP, Drive, conditioning
-from twintube.vehicle.quarter_car import Car, Motion, damper_stroke, damper_velocity, kick
+from twintube.vehicle.quarter_car import Car, Motion, damper_stroke, damper_velocity, leapfrog_step
 from twintube.vehicle.ride import Track
 
 EVERY = 20  # steps between two records of work and volumes
 
 
 @dataclass(frozen=True)
-class Case:
-    """What is driven; `off` are parameters of the FMU that are set to 0: the strengths of effects."""
+class RideCase:
+    """One ride: speed and state of the damper; `off` names FMU parameters to set to 0 (strengths of effects)."""
 
     speed_kmh: float
     oil_level: float
@@ -33,9 +33,9 @@ class Case:
 
 @dataclass(frozen=True)
 class Ride(Drive):
-    """Results of a case; `volumes` (n / EVERY, 9) [m3] in the order of VOLUMES; work and oil change every EVERY steps."""
+    """Results of a ride; `volumes` (n / EVERY, 9) [m3] in the order of VOLUMES; work and oil change every EVERY steps."""
 
-    case: Case
+    case: RideCase
     volumes: Array
 
 
@@ -45,14 +45,14 @@ def precondition(damper: DamperFmu) -> None:
         damper.step(z, (following - z) / CONDITIONING_STEP, CONDITIONING_STEP)
 
 
-def held(values: Array, n: int) -> Array:
-    """Values recorded every EVERY steps, one for each of `n` steps, linear between."""
+def interpolated(values: Array, n: int) -> Array:
+    """Values recorded every EVERY steps, interpolated linearly to each of `n` steps."""
     return np.interp(np.arange(n), np.arange(len(values)) * EVERY, values)
 
 
-def ride(fmu: Path, car: Car, case: Case, on: Track) -> Ride:
-    """Drive over a track; raises FmuError where the FMU refuses a step."""
-    n, dt = len(on.heights), on.dt
+def ride(fmu: Path, car: Car, case: RideCase, route: Track) -> Ride:
+    """Drive over a track; raises FmuError if the FMU refuses a step."""
+    n, dt = len(route.heights), route.dt
     stroke, velocity, force, load = (np.empty(n) for _ in range(4))
     work, volumes = np.empty(len(range(0, n, EVERY))), np.empty((len(range(0, n, EVERY)), len(VOLUMES)))
     start = {"oil_level": case.oil_level, "gas_preload": case.gas_preload} | dict.fromkeys(case.off, 0.0)
@@ -60,17 +60,17 @@ def ride(fmu: Path, car: Car, case: Case, on: Track) -> Ride:
         precondition(damper)
         started = damper.outputs()["work"]
         m = blank(Motion)
-        now = damper.outputs()["force"]
-        earlier = now
-        for i, (height, rate) in enumerate(zip(on.heights.tolist(), on.rates.tolist(), strict=True)):
+        current = damper.outputs()["force"]
+        earlier = current
+        for i, (height, rate) in enumerate(zip(route.heights.tolist(), route.rates.tolist(), strict=True)):
             if i % EVERY == 0:
                 work[i // EVERY] = damper.outputs()["work"] - started
                 volumes[i // EVERY] = damper.volumes()
             z = damper_stroke(car, m)
-            load[i] = kick(car, m, height, rate, 1.5 * now - 0.5 * earlier, 0.0, dt)
+            load[i] = leapfrog_step(car, m, height, rate, 1.5 * current - 0.5 * earlier, 0.0, dt)
             v = damper_velocity(car, m)
-            stroke[i], velocity[i], force[i] = z, v, now
-            earlier = now
-            now = damper.step(z, v, dt)
+            stroke[i], velocity[i], force[i] = z, v, current
+            earlier = current
+            current = damper.step(z, v, dt)
     oil = volumes[:, [0, 3, 6]].sum(axis=1)
-    return Ride(np.arange(n) * dt, stroke, velocity, force, load, held(work, n), held(oil, n), case, volumes)
+    return Ride(np.arange(n) * dt, stroke, velocity, force, load, interpolated(work, n), interpolated(oil, n), case, volumes)

@@ -1,4 +1,4 @@
-"""How the pictures look."""
+"""Style of the pictures."""
 
 from pathlib import Path
 
@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 from twintube.files import replacing
 
 FOOTNOTE = (
-    "Assumed, as unpublished: F-v curve, friction, gas spring, chamber dead length, car, and what becomes of the gas that "
+    "Assumed (unpublished): F-v curve, friction, gas spring, chamber dead length, car, and the closure for the gas that "
     "cavitation frees"
 )
 INTACT, FULL, PAPER, SCALAR = "#1b1b1b", "#2a7f9e", "#b3282d", "#7a7a7a"
 BAND = "#9cc7d8"
-LEVELS = {0.9: "#2a7f9e", 0.8: "#55a868", 0.6: "#d98c21", 0.4: "#b3282d"}  # oil levels that line plots show
+LEVELS = {0.9: "#2a7f9e", 0.8: "#55a868", 0.6: "#d98c21", 0.4: "#b3282d"}  # oil levels in line plots
 PHASES = {"oil": "#c98b1f", "foam": "#f0d9a8", "gas": "#cfe0ee"}
 
 plt.rcParams |= {
@@ -29,16 +29,17 @@ plt.rcParams |= {
     "figure.dpi": 110,
     "savefig.dpi": 130,
     "legend.frameon": False,
+    "text.parse_math": False,  # no picture holds a formula, but a damper's name may hold a $
 }
 
 
 def save(figure: Figure, folder: Path, name: str, title: str) -> Path:
-    """Title and footnote onto the figure, then to a file."""
+    """Add title and footnote to the figure and write it to a file."""
     figure.suptitle(title, x=0.01, ha="left", fontsize=12)
     figure.text(0.01, 0.005, FOOTNOTE, fontsize=7, color="#777")
     figure.tight_layout(rect=(0, 0.02, 1, 0.97))
     path = folder / name
-    with replacing(path) as part:
-        figure.savefig(part)
+    with replacing(path) as temporary:
+        figure.savefig(temporary)
     plt.close(figure)
     return path

@@ -1,15 +1,17 @@
-"""What is seen, in words: every sentence is made from the figures beside it and says under which conditions it stands."""
+"""The results as sentences, each composed from the figures of the summary and with the conditions it holds under."""
 
 from itertools import groupby
 from typing import Any
 
-NOTHING = 1.10  # DLC over the intact one's up to which no rise is claimed [1]
+from twintube.vehicle.ride import WINDOW
+
+NO_RISE = 1.10  # DLC relative to intact [1] up to which no rise is claimed
 
 
 def verdict(entry: dict[str, Any]) -> str:
-    """Whether the wheel load shows an oil level: under every assumption, under none, or that depends."""
+    """Whether the wheel load rises at an oil level: `all` assumptions, `none`, or `some` of them."""
     low, high = entry["bands"]["all_over_intact"]
-    return "none" if high <= NOTHING else "all" if low > NOTHING else "some"
+    return "none" if high <= NO_RISE else "all" if low > NO_RISE else "some"
 
 
 def percent(share: float) -> str:
@@ -24,22 +26,24 @@ def span(entries: list[dict[str, Any]]) -> str:
     return f"{first} % oil" if first == last else f"{first} to {last} % oil"
 
 
-def of_speed(block: dict[str, Any]) -> list[str]:
+def speed_sentences(block: dict[str, Any]) -> list[str]:
     """Sentences about one speed."""
-    found = []
-    for what, group in groupby(block["oil_levels"], verdict):
+    texts = []
+    for answer, group in groupby(block["oil_levels"], verdict):
         entries = list(group)
         low = min(e["bands"]["all_over_intact"][0] for e in entries)
         high = max(e["bands"]["all_over_intact"][1] for e in entries)
         head = f"{block['speed_kmh']:.0f} km/h, {span(entries)}: "
-        if what == "none":
-            found.append(head + f"the DLC rises by less than 10 % all over the bands (at most {percent(high)} over intact).")
-        elif what == "all":
-            found.append(head + f"the DLC rises all over the bands, by {percent(low)} to {percent(high)} over intact.")
+        if answer == "none":
+            texts.append(
+                head + f"the DLC rises by less than 10 % in the whole band (at most {percent(high)} relative to intact)."
+            )
+        elif answer == "all":
+            texts.append(head + f"the DLC rises in the whole band, by {percent(low)} to {percent(high)} relative to intact.")
         else:
-            found.append(head + f"not decided by what is published: from {percent(low)} to {percent(high)} over intact, "
-                         "by what becomes of the gas, by road, car and damper.")  # fmt: skip
-    return found
+            texts.append(head + f"published data do not decide: {percent(low)} to {percent(high)} relative to intact, "
+                         "depending on the closure for the freed gas, road, car and damper.")  # fmt: skip
+    return texts
 
 
 def when(time: float) -> str:
@@ -47,38 +51,39 @@ def when(time: float) -> str:
     return "from the start" if time == 0 else f"after {time:.0f} s"
 
 
-def of_time(block: dict[str, Any]) -> str:
-    """When the damping is lost, with the default assumptions."""
+def failure_sentence(block: dict[str, Any]) -> str:
+    """Time at which the damping is lost, with the default assumptions."""
     failed = [e for e in block["oil_levels"] if e["time_to_failure_s"] is not None]
     if not failed:
-        return f"{block['speed_kmh']:.0f} km/h: the damper keeps more than half of the intact one's power at every level."
+        return f"{block['speed_kmh']:.0f} km/h: the damper keeps more than half of the intact power at every level."
     times = ", ".join(f"{100 * e['oil_level']:.0f} % {when(e['time_to_failure_s'])}" for e in failed)
-    return f"{block['speed_kmh']:.0f} km/h: half of the damper's power is lost at {times} (gas returns; windows of 10 s)."
+    conditions = f"freed gas dissolves again; windows of {WINDOW:.0f} s"
+    return f"{block['speed_kmh']:.0f} km/h: half of the damper's power is lost at {times} ({conditions})."
 
 
-def of_paper(block: dict[str, Any]) -> str:
-    """The bare paper model and a scalar factor, at 60 % oil."""
+def model_sentence(block: dict[str, Any]) -> str:
+    """The default, the bare paper model and a scalar factor, at 60 % oil."""
     entry = next(e for e in block["oil_levels"] if e["oil_level"] == 0.6)
-    over = [v / block["intact"]["dlc"] for v in (entry["dlc"], entry["bands"]["closure"]["letter"],
+    ratios = [v / block["intact"]["dlc"] for v in (entry["dlc"], entry["bands"]["closure"]["letter"],
                                                  entry["scalar_factor"]["dlc"])]  # fmt: skip
     return (
-        f"{block['speed_kmh']:.0f} km/h, 60 % oil: {percent(over[0])} with return of the gas, {percent(over[1])} with the "
-        f"bare paper model, {percent(over[2])} with the oil level as a factor of the damper's fluid force."
+        f"{block['speed_kmh']:.0f} km/h, 60 % oil: {percent(ratios[0])} when the gas dissolves again, {percent(ratios[1])} "
+        f"with the bare paper model, {percent(ratios[2])} with the oil level as a factor of the damper's fluid force."
     )
 
 
 def sentences(result: dict[str, Any]) -> list[str]:
-    """All of them."""
-    found = [
-        "Bands: five roads, every closure (what becomes of the gas), both ends of every assumed value, one at a time, "
-        "closure and damping of the links together."
+    """All sentences."""
+    texts = [
+        "Bands: five roads, every closure (for the gas that cavitation frees) and both ends of every assumed value, one at "
+        "a time; closure and damping of the links also together."
     ]
     for block in result["speeds"]:
-        found += [*of_speed(block), of_time(block), of_paper(block)]
-    shown, level = result["moments"]["moments"], 100 * result["moments"]["oil_level"]
-    parts = [f"{100 * m['power_share']:.0f} % at {m['from_s']:.0f} s" for m in shown]
-    found.append(
-        f"{result['moments']['speed_kmh']:.0f} km/h, {level:.0f} % oil: the damper does {', '.join(parts)} of the "
-        f"intact one's power; its oil goes from {shown[0]['oil_mL']:.0f} to {shown[-1]['oil_mL']:.0f} mL."
+        texts += [*speed_sentences(block), failure_sentence(block), model_sentence(block)]
+    moments, level = result["moments"]["moments"], 100 * result["moments"]["oil_level"]
+    powers = [f"{100 * m['power_share']:.0f} % at {m['from_s']:.0f} s" for m in moments]
+    texts.append(
+        f"{result['moments']['speed_kmh']:.0f} km/h, {level:.0f} % oil: the damper has {', '.join(powers)} of "
+        f"the intact power; its oil goes from {moments[0]['oil_mL']:.0f} to {moments[-1]['oil_mL']:.0f} mL."
     )
-    return found
+    return texts

@@ -1,25 +1,26 @@
-"""What may be the cause: the effects, found in their folder, and the faults of the measurement."""
+"""What may be the cause: the effects of the catalogue and the faults of the measurement."""
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from twintube.core import effects
 from twintube.diagnosis.fit import Free, Problem
-from twintube.identification.objective import FASTER, TABLE_6, TABLES_7_8
+from twintube.diagnosis.rules import RULES
+from twintube.fitting.parameters import DEGRADATION, ranges
 
-BASE = (*TABLE_6, *TABLES_7_8)  # the parameters that a bad calibration is sought in
-OFFSET = 0.005  # of the largest force: zero of a good load cell
-DELAY = 3e-4  # [s] what sampling leaves open
-SHAPES = 2  # lengths, times and powers of a cause that are sought, the first in its file; the fit finds the others
-SHARES = (0.003, 0.01, 0.03, 0.1, 0.3)  # of a strength's range, at which a search begins
+FAULT_TITLES = {
+    "force_offset": "Zero of the load cell",
+    "force_gain": "Calibration of the force channel",
+    "channel_delay": "Delay between the channels",
+}
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """One possible cause: its parameters, and those of them that are neutral while it is absent."""
+    """A possible cause: its parameters, and those of them that are neutral while it is absent."""
 
     name: str
     title: str
@@ -29,36 +30,32 @@ class Candidate:
     units: Mapping[str, str]
     fault: bool
     decides: str  # the measurement that tells it from its look-alikes
+    laws: tuple[str, ...] = ()  # parameters whose lowest value is a law of its own
 
 
 def nuisances(problem: Problem) -> tuple[Free, ...]:
     """What every measurement has: a small zero of the load cell and less than a sample of delay."""
-    peak = max(case.peak for case in problem.cases)
+    zero = RULES.small_zero * max(record.peak for record in problem.records)
     return (
-        Free("force_offset", 0.0, -OFFSET * peak, OFFSET * peak),
-        Free("channel_delay", 0.0, -DELAY, DELAY),
+        Free("force_offset", 0.0, -zero, zero),
+        Free("channel_delay", 0.0, -RULES.small_delay, RULES.small_delay),
     )
 
 
 def base(problem: Problem) -> tuple[Free, ...]:
-    """The degradation parameters, from the given values."""
-    table = {item.name: item.metadata for item in fields(effects.Parameters)}
-    fastest = max(case.top_speed for case in problem.cases)
-    found = []
-    for name in BASE:
-        low, high = table[name]["lower"], table[name]["upper"]
-        if name == "v_cav":
-            high = min(high, FASTER * fastest)
-        start = min(max(getattr(problem.damper.parameters, name), low), high)
-        found.append(Free(name, start, low, high))
-    return tuple(found)
+    """The degradation parameters, in which a bad calibration is sought, from the given values."""
+    limits = ranges(DEGRADATION, max(record.top_speed for record in problem.records)).tolist()
+    free = []
+    for name, (low, high) in zip(DEGRADATION, limits, strict=True):
+        free.append(Free(name, min(max(getattr(problem.damper.parameters, name), low), high), low, high))
+    return tuple(free)
 
 
 def candidates(problem: Problem) -> list[Candidate]:
     """All effects that do not act already, and the faults."""
-    peak = max(case.peak for case in problem.cases)
-    reach = max(float(np.abs(case.stroke).max()) for case in problem.cases)
-    found = []
+    peak = max(record.peak for record in problem.records)
+    reach = max(float(np.abs(record.stroke).max()) for record in problem.records)
+    several = []
     for effect in effects.EFFECTS.values():
         if effect.acts(problem.damper.parameters):
             continue
@@ -66,56 +63,59 @@ def candidates(problem: Problem) -> list[Candidate]:
         for item in effect.parameters:
             meta = item.metadata
             low, high, start = meta["lower"], meta["upper"], meta["default"]
-            if meta["unit"] == "m" and high > reach > low and item.name not in effect.strength:
-                high, start = reach, 0.9 * reach  # a place within the stroke
+            if meta["role"] == "place" and high > reach > low:
+                high, start = reach, RULES.place * reach
             free.append(Free(item.name, start, low, high))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}
-        found.append(
-            Candidate(effect.name, effect.title, effect.cause, tuple(free), effect.strength, units, False, effect.decides)
+        laws = tuple(item.name for item in effect.parameters if item.metadata["role"] == "law")
+        several.append(
+            Candidate(
+                effect.name, effect.title, effect.cause, tuple(free), effect.strength, units, False, effect.decides, laws
+            )
         )
-    found.append(Candidate(
-        "force_offset", "Zero of the load cell", "The force channel reads a constant beside the force.",
-        (Free("force_offset", 0.0, -0.5 * peak, 0.5 * peak),), ("force_offset",), {"force_offset": "N"}, True,
+    zero, late = RULES.zero_range * peak, RULES.delay_range
+    several.append(Candidate(
+        "force_offset", FAULT_TITLES["force_offset"], "The force channel reads a constant in addition to the force.",
+        (Free("force_offset", 0.0, -zero, zero),), ("force_offset",), {"force_offset": "N"}, True,
         "the load cell read with the damper taken out",
     ))  # fmt: skip
-    found.append(Candidate(
-        "force_gain", "Calibration of the force channel", "The force channel reads all forces too large or too small.",
-        (Free("force_gain", 1.0, 0.5, 2.0),), ("force_gain",), {"force_gain": "1"}, True,
+    several.append(Candidate(
+        "force_gain", FAULT_TITLES["force_gain"], "The force channel reads all forces too large or too small.",
+        (Free("force_gain", 1.0, *RULES.gain_range),), ("force_gain",), {"force_gain": "1"}, True,
         "the load cell checked with a known weight",
     ))  # fmt: skip
-    found.append(Candidate(
-        "channel_delay", "Delay between the channels", "Force and stroke are not recorded at the same time.",
-        (Free("channel_delay", 0.0, -0.03, 0.03),), ("channel_delay",), {"channel_delay": "s"}, True,
+    several.append(Candidate(
+        "channel_delay", FAULT_TITLES["channel_delay"], "Force and stroke are not recorded simultaneously.",
+        (Free("channel_delay", 0.0, -late, late),), ("channel_delay",), {"channel_delay": "s"}, True,
         "a record of the friction alone at high frequency: only a delay shifts it",
     ))  # fmt: skip
-    return found
+    return several
 
 
 def grid(candidate: Candidate, f: Free) -> list[float]:
-    """Values from which to begin: a strength over its range with both signs, a length or time about its usual value.
+    """Values from which to begin: a strength over its range with both signs, a length or time near its usual value.
 
     A power or a share begins at its low end too, which is a law of its own.
     """
     if f.name not in candidate.strength:
         near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
-        near += [f.low] if candidate.units[f.name] == "1" else []
+        near += [f.low] if f.name in candidate.laws else []
         return sorted({min(max(x, f.low), f.high) for x in near})
     sides = [(sign, side) for sign, side in ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0]
-    return [f.start + sign * share * side for share in SHARES for sign, side in sides]
+    return [f.start + sign * share * side for share in RULES.shares for sign, side in sides]
 
 
 def best_start(
     problems: Sequence[Problem], candidate: Candidate, fixed: Sequence[Mapping[str, float]]
 ) -> tuple[float, dict[str, float]]:
-    """The point that explains the cases best, and their sum of squares there; one strength after another joins.
+    """The point that explains the records best, and their sum of squares there; strength after strength joins.
 
-    `fixed` holds the other values in each of the problems.
-
-    The zero of the load cell goes along: at the one of the model without the cause a residual spring would start as a loss.
+    `fixed` holds the other values in each of the problems. The zero of the load cell is free: at that of the model without
+    the cause a residual spring would start as a loss.
     """
     zeros = [nuisances(problem)[0] for problem in problems]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
-    shapes = [f.name for f in candidate.free if f.name not in candidate.strength][:SHAPES]
+    shapes = [f.name for f in candidate.free if f.name not in candidate.strength][: RULES.shapes]
     best, low = {f.name: f.start for f in candidate.free}, np.inf
     left = list(candidate.strength)
     while left:

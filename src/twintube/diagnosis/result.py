@@ -1,18 +1,19 @@
-"""What a diagnosis says; `as_json` is the contract of diagnosis.json."""
+"""The answer of a diagnosis; `as_json` is the contract of diagnosis.json."""
 
 from dataclasses import dataclass, field
 from typing import Any
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
-from twintube.diagnosis.prepare import Case
+from twintube.diagnosis.prepare import PreparedRecord
+from twintube.diagnosis.rules import RULES
 
 VERDICTS = ("cause", "none", "recalibrate", "ambiguous", "unexplained", "measurement_fault")
 
 
 @dataclass(frozen=True)
 class Signature:
-    """What was seen: its name, one sentence about it and the force RMS [N] that it stands for."""
+    """What the records show of a cause outside the catalogue: name, a sentence, and the force RMS [N] that it explains."""
 
     name: str
     text: str
@@ -20,14 +21,38 @@ class Signature:
 
 
 @dataclass(frozen=True)
-class Found:
-    """A parameter of a cause with its interval (95 %)."""
+class Estimate:
+    """A parameter of a cause with its interval (95 %) and the range it was sought in; SI units."""
 
     value: float
     low: float
     high: float
     unit: str
-    doubt: str = ""  # why the value is not to be relied on
+    bounds: tuple[float, float] | None = None  # None: it was not sought but read off
+    neutral: float | None = None  # value at which the cause is absent
+
+    @property
+    def at_bound(self) -> bool:
+        """Whether the value lies at an end of its range that is not its neutral value."""
+        if self.bounds is None:
+            return False
+        low, high = self.bounds
+        near = RULES.at_bound * (high - low)
+        absent = self.neutral in (low, high) and abs(self.value - self.neutral) < near
+        return min(self.value - low, high - self.value) < near and not absent
+
+    @property
+    def determined(self) -> bool:
+        """Whether the records determine the value: its interval is narrow against its range."""
+        return self.bounds is None or self.high - self.low <= RULES.wide * (self.bounds[1] - self.bounds[0])
+
+    @property
+    def doubt(self) -> str:
+        """Why the value is not to be relied on; empty without a reason."""
+        if self.at_bound and self.bounds is not None:
+            unit = f" {self.unit}" if self.unit not in ("", "1") else ""
+            return f"at the end of its range, {self.bounds[0]:g} to {self.bounds[1]:g}{unit}"
+        return "" if self.determined else "not determined by these records"
 
 
 @dataclass(frozen=True)
@@ -37,23 +62,23 @@ class Gain:
     fit: float
     heldout: float
     heldout_interval: tuple[float, float]  # by resampling the records
-    worst_record: float  # of the held-out ones
+    worst_record: float  # of those held out
 
 
 @dataclass(frozen=True)
 class Cause:
-    """An effect or fault that was found; the largest comes first."""
+    """An effect or fault that was identified; the largest comes first."""
 
     effect: str  # a name of the contract
     title: str
-    explanation: str  # one sentence
-    parameters: dict[str, Found]
-    gain: Gain
+    explanation: str  # a sentence
+    parameters: dict[str, Estimate]
+    gain: Gain  # of the model with all causes; of a fault that was put right, of that alone
 
 
 @dataclass(frozen=True)
 class Alternative:
-    """A candidate that explains the data about as well, or that was named beside."""
+    """A candidate that explains the data about as well as the named cause."""
 
     effect: str
     heldout_gain: float
@@ -62,19 +87,19 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Tried:
-    """One candidate in one round of the selection."""
+    """A candidate in a round of the selection."""
 
     round: int
     effect: str
     heldout_gain: float  # of the explainable error, against the model of the round before
     interval: tuple[float, float]
-    decision: str  # chosen | rejected | alternative
+    decision: str  # chosen | rejected
     reason: str
 
 
 @dataclass(frozen=True)
 class Map:
-    """Root mean square of the residual over bins of one quantity, of all records of the degraded or all states."""
+    """Root mean square of the residual of all records over bins of a quantity."""
 
     quantity: str  # stroke, velocity, acceleration, time, cycle, dissipated energy, oil level, frequency
     unit: str
@@ -87,9 +112,9 @@ class Map:
 
 @dataclass(frozen=True)
 class RecordResult:
-    """One record: measured and simulated mean forces (n,) over its intervals, and errors [N]."""
+    """A record: measured and simulated mean forces (n,) over its intervals, and errors [N]."""
 
-    case: Case
+    record: PreparedRecord
     split: str  # fit | heldout
     measured: Array
     base: Array
@@ -128,7 +153,7 @@ class Diagnosis:
     recalibrated: Damper
     extended: Damper
     next_measurements: list[str]
-    structure: dict[str, list[str]]  # base, recalibrated, extended -> records in which its residual is no white noise
+    structure: dict[str, list[str]]  # base, recalibrated, extended -> records in which its residual is more than white noise
     remarks: list[str] = field(default_factory=list)
     seconds: float = 0.0
 
@@ -164,9 +189,9 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         "tried": [vars(t) | {"interval": list(t.interval)} for t in d.tried],
         "records": [
             {
-                "record": r.case.name, "split": r.split, "oil_level": r.case.oil_level, "top_speed": r.case.top_speed,
+                "record": r.record.name, "split": r.split, "oil_level": r.record.oil_level, "top_speed": r.record.top_speed,
                 "base_rmse_N": r.rms(r.base), "recalibrated_rmse_N": r.rms(r.recalibrated),
-                "extended_rmse_N": r.rms(r.extended), "noise_N": float((r.case.noise**2).mean() ** 0.5),
+                "extended_rmse_N": r.rms(r.extended), "noise_N": float((r.record.noise**2).mean() ** 0.5),
             }
             for r in d.records
         ],

@@ -7,6 +7,7 @@ from typing import Any
 
 from twintube.core.effects import effects_parts
 from twintube.core.model import advance, advance_whole, set_up, start
+from twintube.core.outputs import reserve_gas, total_force
 
 # A longer step [s] that goes less than this share of the way its velocities say is a rest, where a cubic would swing.
 REST = 0.3
@@ -29,11 +30,12 @@ COLUMNS = (
     "V3_oil",
     "V3_foam",
     "V_cav",
+    "V3_gas",
 )
 
 
 def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any) -> int:
-    """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,), and write `out` (n, 15).
+    """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,), and write `out` (n, 16).
 
     Row 0 is the state at the first sample. Returns the number of samples done, less than n if a step failed.
     """
@@ -45,7 +47,7 @@ def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any)
         before = v[i]
         time = t[i]
         row = out[i]
-        row[0] = s.F_fluid + s.F_friction + s.F_gas
+        row[0] = total_force(s)
         row[1] = s.k_degr
         row[2] = s.F_fluid
         row[3] = s.F_friction
@@ -60,6 +62,7 @@ def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any)
         row[12] = s.V3_oil
         row[13] = s.V3_foam
         row[14] = s.V_cav
+        row[15] = reserve_gas(d, s)
     return len(z)
 
 
@@ -135,7 +138,7 @@ def run_means(
                     # The work over the stroke is the mean force, wherever in the step it jumped.
                     total += ((s.work - from_work) / way + d.c_gas * 0.5 * (at + goal) - d.F_0) / n
                 else:
-                    total += (s.F_fluid + s.F_friction + s.F_gas) / n
+                    total += total_force(s) / n
                 at = goal
                 v0 = speed
             force[i] = total

@@ -1,45 +1,76 @@
 """The kernel driven over records: stroke and velocity in, forces and volumes out."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from twintube.arrays import Array
+from twintube.arrays import Array, freeze_arrays
 from twintube.core import effects, model
-from twintube.core.checks import bad_input, problems, stroke_limit
-from twintube.core.variables import Derived, Flow, blank
+from twintube.core.checks import VELOCITY, bad_input, problems
+from twintube.core.frame import stroke_limit
+from twintube.core.variables import Derived, Flow, Outputs, blank
 from twintube.dampers import Damper
 from twintube.dampers.damper import refuse
 from twintube.engine import compiled, loops
+from twintube.errors import UserError
 
 
-class InputError(ValueError):
+class InputError(UserError, ValueError):
     """A record that cannot be simulated; the message names the quantity, the sample, the value and the range."""
 
 
 @dataclass(frozen=True)
 class Simulation:
-    """What `simulate` returns; all arrays (n,), SI units, row i belongs to sample i of the record."""
+    """What `simulate` returns; all arrays (n,), read-only, SI units, row i belongs to sample i of the record."""
 
-    stroke: Array
-    velocity: Array
-    columns: dict[str, Array]  # the names of loops.COLUMNS, and V3_gas
+    stroke: Array  # [m]
+    velocity: Array  # [m/s]
+    force: Array  # [N], positive when the damper resists rebound (Eq. 1)
+    k_degr: Array  # [1], mean over the step (Eq. 23-39)
+    F_fluid: Array  # [N]
+    F_friction: Array  # [N]
+    F_gas: Array  # [N]
+    work: Array  # [J] dissipated since the start
+    V1_oil: Array  # [m3], as all volumes
+    V1_gas: Array
+    V1_foam: Array
+    V2_oil: Array
+    V2_gas: Array
+    V2_foam: Array
+    V3_oil: Array
+    V3_gas: Array
+    V3_foam: Array
+    V_cav: Array  # [m3] of oil lost to gas by cavitation so far
 
-    def __getattr__(self, name: str) -> Array:
-        if name == "columns" or name not in self.columns:
-            raise AttributeError(f"no column {name}")
-        return self.columns[name]
+    def __post_init__(self) -> None:
+        """Nobody writes into a result."""
+        freeze_arrays(self)
+
+    @property
+    def columns(self) -> dict[str, Array]:
+        """The results by name, without the inputs."""
+        return {name: getattr(self, name) for name in RESULTS}
+
+
+RESULTS = tuple(item.name for item in fields(Simulation) if item.name not in ("stroke", "velocity"))
+
+
+def unit_of(name: str) -> str:
+    """The unit of a result."""
+    table = {item.name: item.metadata["unit"] for item in (*fields(effects.State), *fields(Outputs))}
+    return str(table[name])
 
 
 def checked(stroke: ArrayLike, velocity: ArrayLike, limit: float) -> tuple[Array, Array]:
-    """Stroke [m] and velocity [m/s] as arrays (n,); raises InputError at the first sample that is no good."""
-    z = np.ascontiguousarray(stroke, dtype=float)
-    v = np.ascontiguousarray(velocity, dtype=float)
+    """Stroke [m] and velocity [m/s] as arrays (n,); raises InputError at the first sample that is not admissible."""
+    # Copies, as compiled code takes arrays that can be written to.
+    z = np.array(stroke, dtype=float, order="C")
+    v = np.array(velocity, dtype=float, order="C")
     if z.ndim != 1 or z.shape != v.shape or z.size == 0:
         raise InputError(f"stroke {z.shape} and velocity {v.shape} must be arrays of one length above 0")
-    for i in np.flatnonzero(~(np.abs(z) <= limit) | ~(np.abs(v) <= 20.0))[:1]:
+    for i in np.flatnonzero(~(np.abs(z) <= limit) | ~((v >= VELOCITY["lower"]) & (v <= VELOCITY["upper"])))[:1]:
         raise InputError(f"sample {i}: " + bad_input(float(z[i]), float(v[i]), limit))
     return z, v
 
@@ -61,11 +92,11 @@ def checked_time(damper: Damper, time: ArrayLike | None, size: int) -> Array:
         if needing:
             raise InputError(f"a record without time, but {', '.join(needing)} of {damper.name} acts with time")
         return np.zeros(size)
-    t = np.ascontiguousarray(time, dtype=float)
+    t = np.array(time, dtype=float, order="C")
     if t.shape != (size,):
         raise InputError(f"time {t.shape} and stroke ({size},) must be arrays of one length")
     for i in np.flatnonzero(~np.isfinite(t))[:1]:
-        raise InputError(f"sample {i}: time = {t[i]:g} s is no number")
+        raise InputError(f"sample {i}: time = {t[i]:g} s is not a number")
     for i in np.flatnonzero(np.diff(t) < 0.0)[:1]:
         raise InputError(f"sample {i + 1}: time = {t[i + 1]:g} s is before {t[i]:g} s")
     return t
@@ -120,7 +151,7 @@ def simulate(
     finished(done, z)
     columns: dict[str, Array] = {name: out[:, i] for i, name in enumerate(loops.COLUMNS)}
     columns["V3_gas"] = np.maximum(0.0, records[1].V_reserve - columns["V3_oil"] - columns["V3_foam"])
-    return Simulation(z, v, columns)
+    return Simulation(z, v, **columns)
 
 
 def work_between(

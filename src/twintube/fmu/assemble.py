@@ -5,21 +5,23 @@ import json
 import shutil
 import tempfile
 import uuid
-import zipfile
 from collections.abc import Callable, Sequence
-from datetime import UTC, datetime
-from importlib.metadata import distribution
 from pathlib import Path
 
+from twintube.core.checks import problems
 from twintube.dampers import Damper
+from twintube.errors import UserError
 from twintube.files import replacing
-from twintube.fmu import binaries, description, documentation, python_kind, reference, sources
+from twintube.fmu import archive, binaries, description, documentation, licences, python_kind, related, sources, terminals
 from twintube.fmu.description import model_name
 from twintube.fmu.equations import StaleTranslationError
-from twintube.fmu.platforms import PLATFORMS, Kind
+from twintube.fmu.platforms import PLATFORMS, Kind, PlatformError, known
+
+Progress = Callable[[str], None]
+REFUSALS = (binaries.CompilerError, StaleTranslationError, PlatformError, licences.LicenceError, archive.DateError)
 
 
-class BuildError(RuntimeError):
+class BuildError(UserError, RuntimeError):
     """The FMU could not be built; the message says why."""
 
 
@@ -29,48 +31,60 @@ def identity(content: dict[str, bytes]) -> str:
     return "{" + str(uuid.uuid5(uuid.NAMESPACE_URL, listed)) + "}"
 
 
-def native_content(damper: Damper, platforms: Sequence[str]) -> tuple[str, dict[str, bytes]]:
+def native_content(damper: Damper, platforms: Sequence[str], progress: Progress) -> tuple[str, dict[str, bytes]]:
     """GUID, and sources and libraries by their path inside the FMU."""
-    guid = identity({name: text.encode() for name, text in sources.sources(damper, "").items()})
-    texts = sources.sources(damper, guid)
-    libraries = binaries.binaries(texts, model_name(damper), platforms)
+    texts = sources.sources(damper, "")
+    guid = identity({name: text.encode() for name, text in texts.items()})
+    texts |= {"model.h": sources.identity(damper, guid)}
+    libraries = binaries.binaries(texts, model_name(damper), platforms, progress)
     return guid, {f"sources/{name}": text.encode() for name, text in texts.items()} | libraries
 
 
-def contents(damper: Damper, kind: Kind, platforms: Sequence[str]) -> dict[str, bytes]:
-    """All files of the FMU by their path."""
-    date = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+def contents(damper: Damper, kind: Kind, platforms: Sequence[str], date: str, progress: Progress) -> dict[str, bytes]:
+    """All files of the FMU by their path, the model description first, the others by name."""
     if kind == "native":
-        guid, content = native_content(damper, platforms)
+        guid, content = native_content(damper, platforms, progress)
         xml = description.described(damper, guid, date, sources.CAPABILITIES, [sources.COMPILED], sources.LOG_CATEGORIES)
     else:
+        progress("Python sources")
         content = python_kind.content(damper)
-        xml = description.described(damper, identity(content), date, python_kind.CAPABILITIES, [], [])
-    return {
-        "modelDescription.xml": xml,
-        **content,
-        "model.png": (sources.FOLDER / "model.png").read_bytes(),
+        content["documentation/externalDependencies.txt"] = documentation.NEEDS_PYTHON.encode()
+        xml = description.described(damper, identity(content), date, python_kind.CAPABILITIES, [], sources.LOG_CATEGORIES)
+    progress("reference run, documentation, licences")
+    icon = (sources.FOLDER / "model.png").read_bytes()
+    content |= {
+        "model.png": icon,
+        terminals.FILE: terminals.terminals(),
+        terminals.ICON: icon,
         "documentation/index.html": documentation.page(damper, kind).encode(),
-        "documentation/licenses/license.txt": licence(),
-        **{f"extra/twintube/{name}": text.encode() for name, text in reference.files(damper).items()},
     }
-
-
-def licence() -> bytes:
-    """The text of this package's licence."""
-    text = distribution("twintube").read_text("licenses/LICENSE")
-    if text is None:
-        raise BuildError("the installed package twintube has no licence file; install it again")
-    return text.encode()
+    content |= licences.files(kind, platforms) | related.files(damper)
+    return {"modelDescription.xml": xml, **dict(sorted(content.items()))}
 
 
 def validated(fmu: Path) -> None:
     """Raise BuildError with whatever fmpy's validation says."""
     from fmpy.validation import validate_fmu
 
-    found = validate_fmu(str(fmu))
-    if found:
-        raise BuildError("the FMU is not valid: " + "; ".join(found))
+    remarks = validate_fmu(str(fmu))
+    if remarks:
+        raise BuildError("the FMU is not valid: " + "; ".join(remarks))
+
+
+def target_file(output: Path | str | None, damper: Damper) -> Path:
+    """The file to write: `output`, or a file in this folder; raises OSError where nothing can be written there."""
+    target = Path(output) if output is not None else Path.cwd()
+    if target.suffix.lower() != ".fmu":
+        target = target / f"{model_name(damper)}.fmu"
+    if target.is_dir():
+        raise IsADirectoryError(f"{target}: is a folder, must be a file")
+    parent = next(folder for folder in target.absolute().parents if folder.exists())
+    try:
+        with tempfile.TemporaryFile(dir=parent):
+            pass
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(target)) from None
+    return target
 
 
 def build_fmu(
@@ -78,26 +92,26 @@ def build_fmu(
     output: Path | str | None = None,
     kind: Kind = "native",
     platforms: Sequence[str] = tuple(PLATFORMS),
-    progress: Callable[[str], None] = lambda text: None,
+    progress: Progress = lambda text: None,
 ) -> Path:
     """Build and validate the FMU of a damper; `output` is a file or a folder, by default the current one.
 
-    `platforms` are those that a native FMU gets libraries for. Nothing is left behind if it fails. Raises BuildError, and
-    OSError where the output cannot be written.
+    `platforms` are those that a native FMU gets libraries for. `progress` is called with a few words before each step. The
+    environment variable SOURCE_DATE_EPOCH fixes the date; all other bytes follow from damper, kind and platforms. Nothing
+    is left behind if it fails. Raises BuildError, and OSError where the output cannot be written.
     """
-    target = Path(output) if output is not None else Path.cwd()
-    if target.suffix != ".fmu":
-        target = target / f"{model_name(damper)}.fmu"
-    target.parent.mkdir(parents=True, exist_ok=True)
+    target = target_file(output, damper)
+    inadmissible = problems(damper.parameters)
+    if inadmissible:
+        raise BuildError(f"{damper.name}: " + "; ".join(inadmissible))
     try:
-        content = contents(damper, kind, platforms)
-    except (binaries.CompilerError, StaleTranslationError) as error:
+        content = contents(damper, kind, known(platforms), archive.build_date(), progress)
+    except REFUSALS as error:
         raise BuildError(str(error)) from error
     with tempfile.TemporaryDirectory() as folder:
         fresh = Path(folder) / target.name
-        with zipfile.ZipFile(fresh, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, data in content.items():
-                archive.writestr(name, data)
+        archive.write(fresh, content)
+        progress("validation by fmpy")
         validated(fresh)
         with replacing(target) as part:
             shutil.copyfile(fresh, part)

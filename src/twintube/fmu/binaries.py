@@ -1,44 +1,90 @@
 """Sources to shared libraries for all platforms, by the C compiler of the package ziglang."""
 
+import hashlib
+import os
 import struct
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
+from twintube.fmu import library_cache
 from twintube.fmu.platforms import PLATFORMS
 from twintube.fmu.sources import COMPILED
 
-# No fused multiply-add: every platform computes the same operations in the same order.
+# No fused multiply-add: every platform computes equal operations in equal order.
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-shared", "-s")
+SLOW = 15  # [s] after which a word is due
 PAGE = 14  # bits of the alignment of a part of a universal file
-MACHINES = {"x86_64-macos": (0x01000007, 3), "aarch64-macos": (0x0100000C, 0)}
+MACHINES = {"x86_64-macos.11.0": (0x01000007, 3), "aarch64-macos.11.0": (0x0100000C, 0)}
 
 
 class CompilerError(RuntimeError):
     """The sources could not be compiled; the message says why."""
 
 
+def require_compiler() -> None:
+    """Raise CompilerError where ziglang is not installed."""
+    if find_spec("ziglang") is None:
+        raise CompilerError("no C compiler: pip install ziglang")
+
+
 def headers() -> Path:
     """The folder with the headers of FMI 2.0: fmpy has them."""
     spec = find_spec("fmpy")
-    assert spec is not None and spec.origin is not None
+    if spec is None or spec.origin is None:
+        raise CompilerError("no headers of FMI 2.0: pip install fmpy")
     return Path(spec.origin).parent / "c-code"
 
 
+def target_flags(target: str, flags: Sequence[str], file: str) -> tuple[str, ...]:
+    """What a target needs besides the common flags: code that can be loaded anywhere, on macOS a name without a path."""
+    if "windows" in target:
+        return ()
+    if "macos" in target and "-shared" in flags:
+        return ("-fPIC", f"-Wl,-install_name,@rpath/{file}")
+    return ("-fPIC",)
+
+
 def compiled(source: Path, target: str, output: Path, flags: Sequence[str] = FLAGS) -> None:
-    """Compile one source file for a target; raises CompilerError."""
-    if find_spec("ziglang") is None:
-        raise CompilerError("no C compiler: pip install ziglang")
-    position = () if "windows" in target else ("-fPIC",)
-    command = [sys.executable, "-m", "ziglang", "cc", "-target", target, *flags, *position, f"-I{headers()}"]
+    """Compile a source file for a target; raises CompilerError."""
+    require_compiler()
+    command = [sys.executable, "-m", "ziglang", "cc", "-target", target, *flags, *target_flags(target, flags, output.name)]
     done = subprocess.run(
-        [*command, str(source), "-o", str(output), "-lm"], capture_output=True, text=True, check=False, cwd=output.parent
-    )
+        [*command, f"-I{headers()}", str(source), "-o", str(output), "-lm"],
+        capture_output=True, text=True, check=False, cwd=output.parent,
+    )  # fmt: skip
     if done.returncode != 0 or not output.exists():
-        raise CompilerError(f"{target}: {done.stderr.strip() or 'no library was made'}")
+        raise CompilerError(f"{target}: {done.stderr.strip() or 'the compiler wrote no library'}")
+
+
+def key(texts: Mapping[str, str], target: str, file: str) -> str:
+    """A digest of all that a library depends on: sources, headers, flags, target, name and compiler."""
+    parts = [target, file, version("ziglang"), *FLAGS, *target_flags(target, FLAGS, file)]
+    parts += [part for name in sorted(texts) for part in (name, texts[name])]
+    parts += [path.read_text(encoding="utf-8") for path in sorted(headers().glob("fmi2*.h"))]
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()
+
+
+def library(texts: Mapping[str, str], target: str, file: str) -> bytes:
+    """A library for a target, from the cache where it was compiled before; raises CompilerError."""
+    name = key(texts, target, file)
+    data = library_cache.stored(name)
+    if data is None:
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            for path, text in texts.items():
+                (folder / path).write_text(text, encoding="utf-8")
+            output = folder / "out" / file
+            output.parent.mkdir()
+            compiled(folder / COMPILED, target, output)
+            data = output.read_bytes()
+        library_cache.store(name, data)
+    return data
 
 
 def universal(parts: Mapping[str, bytes]) -> bytes:
@@ -53,23 +99,28 @@ def universal(parts: Mapping[str, bytes]) -> bytes:
     return head + b"\0" * ((1 << PAGE) - len(head)) + body
 
 
-def binaries(sources: Mapping[str, str], name: str, platforms: Sequence[str]) -> dict[str, bytes]:
-    """The libraries by their path inside the FMU."""
-    found = {}
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = Path(temporary)
-        for file, text in sources.items():
-            (folder / file).write_text(text, encoding="utf-8")
+def binaries(
+    texts: Mapping[str, str], name: str, platforms: Sequence[str], progress: Callable[[str], None] = lambda text: None
+) -> dict[str, bytes]:
+    """The libraries of known platforms by their path inside the FMU; targets are compiled in parallel."""
+    require_compiler()
+    libraries = {}
+    with ThreadPoolExecutor(os.cpu_count()) as workers:
+        waiting: dict[str, dict[str, Future[bytes]]] = {}
         for platform in platforms:
-            if platform not in PLATFORMS:
-                raise CompilerError(f"platform = {platform}: must be one of {', '.join(PLATFORMS)}")
             ending, targets = PLATFORMS[platform]
-            parts = {}
-            for target in targets:
-                made = folder / target / f"{name}.{ending}"
-                made.parent.mkdir()
-                compiled(folder / COMPILED, target, made)
-                parts[target] = made.read_bytes()
-            whole = universal(parts) if len(parts) > 1 else next(iter(parts.values()))
-            found[f"binaries/{platform}/{name}.{ending}"] = whole
-    return found
+            waiting[platform] = {t: workers.submit(library, texts, t, f"{name}.{ending}") for t in targets}
+        try:
+            for number, (platform, futures) in enumerate(waiting.items(), start=1):
+                progress(f"library {number} of {len(waiting)}, {platform}")
+                if wait(futures.values(), SLOW).not_done:
+                    progress(
+                        f"{platform} takes longer the first time, as its runtime is compiled too (Windows: two minutes)"
+                    )
+                parts = {target: future.result() for target, future in futures.items()}
+                whole = universal(parts) if len(parts) > 1 else next(iter(parts.values()))
+                libraries[f"binaries/{platform}/{name}.{PLATFORMS[platform][0]}"] = whole
+        except BaseException:
+            workers.shutdown(cancel_futures=True)
+            raise
+    return libraries

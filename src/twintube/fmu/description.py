@@ -1,16 +1,20 @@
-"""modelDescription.xml of both kinds of FMU, made from the table of variables."""
+"""modelDescription.xml of both kinds of FMU, generated from the table of variables."""
 
+import hashlib
 import re
+import unicodedata
 from collections.abc import Mapping, Sequence
 from xml.etree import ElementTree as ET
 
 from twintube import __version__
-from twintube.core.units import UNITS
+from twintube.core.checks import tube_limit
+from twintube.core.units import DISPLAY, UNITS
 from twintube.dampers import Damper
 from twintube.fmu.table import Variable, variables
 
 TITLE = "Twin-tube shock absorber after oil and gas loss (Schramm, Zwosta, Prokop 2025): stroke and velocity in, force out"
-EXPERIMENT = {"startTime": "0.0", "stopTime": "2.0", "stepSize": "0.001"}
+# The unit has no solver: the tolerance is for importers that take theirs from here.
+EXPERIMENT = {"startTime": "0.0", "stopTime": "2.0", "tolerance": "1e-06", "stepSize": "0.001"}
 CAPABILITIES = {
     "needsExecutionTool": "false",  # nothing but a Python library in the Python kind; PyFMI refuses FMUs that say true
     "canHandleVariableCommunicationStepSize": "true",
@@ -18,15 +22,34 @@ CAPABILITIES = {
     "canGetAndSetFMUstate": "true",
     "canSerializeFMUstate": "true",
 }
+PREFIX = "twintube_"
+LONGEST = 48  # characters of an identifier: Simulink's names end at 63
 
 
 def model_name(damper: Damper) -> str:
-    """The model's name and identifier: an identifier of the C language."""
-    return "twintube_" + re.sub(r"\W", "_", damper.name)
+    """The model's name and identifier: an identifier of the C language, ASCII; also a file name.
+
+    Accents are dropped. Where letters are lost, or the name is cut, a digest of the name tells two such dampers apart.
+    """
+    plain = "".join(c for c in unicodedata.normalize("NFKD", damper.name) if not unicodedata.combining(c))
+    name = PREFIX + re.sub(r"[^A-Za-z0-9_]", "_", plain)
+    if len(name) > LONGEST or any(c.isalnum() and not c.isascii() for c in plain):
+        digest = hashlib.sha256(damper.name.encode(errors="surrogatepass")).hexdigest()[:8]
+        return f"{name[: LONGEST - 9]}_{digest}"
+    return name
 
 
-def scalar(parent: ET.Element, reference: int, variable: Variable) -> str:
-    """Add one variable; returns its unit."""
+def limits(damper: Damper, variable: Variable) -> tuple[float | None, float | None]:
+    """The bounds of a variable; those of the stroke are where the piston reaches the ends of this damper's tube."""
+    if variable.name == "stroke":
+        stroke = tube_limit(damper.parameters)
+        return -stroke, stroke
+    meta = variable.item.metadata
+    return meta["lower"], meta["upper"]
+
+
+def scalar(parent: ET.Element, reference: int, variable: Variable, bounds: tuple[float | None, float | None]) -> str:
+    """Add a variable; returns its unit."""
     meta = variable.item.metadata
     attributes = {
         "name": variable.name,
@@ -41,19 +64,42 @@ def scalar(parent: ET.Element, reference: int, variable: Variable) -> str:
     if unit:
         kind.set("declaredType", UNITS[unit][0])
         kind.set("unit", unit)
-    # The range of the stroke depends on the tube too; the unit checks it.
-    for name, limit in (("min", meta["lower"]), ("max", meta["upper"])):
-        if limit is not None:
-            kind.set(name, str(int(limit)) if variable.integer else repr(float(limit)))
-    if variable.start is not None:
-        kind.set("start", str(int(variable.start)) if variable.integer else repr(float(variable.start)))
+        if unit in DISPLAY:
+            kind.set("displayUnit", DISPLAY[unit][0])
+    numbers = zip(("min", "max", "nominal", "start"), (*bounds, meta["nominal"], variable.start), strict=True)
+    for name, value in numbers:
+        if value is not None and not (variable.integer and name == "nominal"):
+            kind.set(name, str(int(value)) if variable.integer else repr(float(value)))
     return unit
+
+
+def define_units(root: ET.Element, used: set[str]) -> None:
+    """Fill the definitions of units, with what may be shown instead, and of types."""
+    definitions, types = root.find("UnitDefinitions"), root.find("TypeDefinitions")
+    assert definitions is not None and types is not None
+    for symbol, (quantity, exponents) in UNITS.items():
+        if symbol not in used:
+            continue
+        unit = ET.SubElement(definitions, "Unit", name=symbol)
+        ET.SubElement(unit, "BaseUnit", exponents)
+        real = ET.SubElement(ET.SubElement(types, "SimpleType", name=quantity), "Real", quantity=quantity, unit=symbol)
+        if symbol in DISPLAY:
+            name, factor = DISPLAY[symbol]
+            ET.SubElement(unit, "DisplayUnit", name=name, factor=repr(factor))
+            real.set("displayUnit", name)
+
+
+def serialized(root: ET.Element) -> bytes:
+    """An XML file, indented."""
+    ET.indent(root)
+    body: bytes = ET.tostring(root, encoding="utf-8")
+    return b'<?xml version="1.0" encoding="UTF-8"?>\n' + body + b"\n"
 
 
 def described(
     damper: Damper, guid: str, date: str, capabilities: Mapping[str, str], sources: Sequence[str], categories: Sequence[str]
 ) -> bytes:
-    """The model description; `capabilities` of the kind come beside those of both, `sources` are what is to be compiled."""
+    """The model description; `capabilities` of the kind are added to those of both, `sources` are what is to be compiled."""
     name = model_name(damper)
     root = ET.Element(
         "fmiModelDescription", fmiVersion="2.0", modelName=name, guid=guid, description=TITLE, author="twintube",
@@ -65,7 +111,8 @@ def described(
         files = ET.SubElement(unit, "SourceFiles")
         for file in sources:
             ET.SubElement(files, "File", name=file)
-    definitions, types = ET.SubElement(root, "UnitDefinitions"), ET.SubElement(root, "TypeDefinitions")
+    ET.SubElement(root, "UnitDefinitions")
+    ET.SubElement(root, "TypeDefinitions")
     if categories:
         logs = ET.SubElement(root, "LogCategories")
         for category in categories:
@@ -75,16 +122,10 @@ def described(
     outputs, initial = ET.SubElement(structure, "Outputs"), ET.SubElement(structure, "InitialUnknowns")
     used = set()
     for i, variable in enumerate(variables(damper)):
-        used.add(scalar(listed, i, variable))
+        used.add(scalar(listed, i, variable, limits(damper, variable)))
         if variable.causality == "output":
             # Outputs change in doStep only: no direct feedthrough, so that importers need not iterate.
             ET.SubElement(outputs, "Unknown", index=str(i + 1), dependencies="")
             ET.SubElement(initial, "Unknown", index=str(i + 1))
-    for symbol, (quantity, exponents) in UNITS.items():
-        if symbol in used:
-            ET.SubElement(ET.SubElement(definitions, "Unit", name=symbol), "BaseUnit", exponents)
-            simple = ET.SubElement(types, "SimpleType", name=quantity)
-            ET.SubElement(simple, "Real", quantity=quantity, unit=symbol)
-    ET.indent(root)
-    body: bytes = ET.tostring(root, encoding="utf-8")
-    return b'<?xml version="1.0" encoding="UTF-8"?>\n' + body
+    define_units(root, used)
+    return serialized(root)

@@ -1,4 +1,4 @@
-"""The documentation page inside the FMU, made from the table of variables and the parameter set."""
+"""The documentation page inside the FMU, generated from the table of variables and the parameter set."""
 
 import base64
 import io
@@ -7,15 +7,20 @@ from html import escape
 
 from twintube import __version__
 from twintube.core.effects import Parameters
-from twintube.core.variables import Inputs, Outputs, fmi_name
+from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
 from twintube.dampers.closures import OWN, acting
-from twintube.fmu import reference
+from twintube.fmu import reference, related
+from twintube.fmu.description import limits
+from twintube.fmu.table import Variable, variables
+from twintube.words import printable
 
 STYLE = (
-    "body{font-family:sans-serif;max-width:84em;padding:0 2em;margin:2em auto;color:#222}table{border-collapse:collapse}"
-    "td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}.assumed{color:#a40}"
-    "td:nth-child(7),td:nth-child(9){min-width:17em}"
+    "body{font-family:sans-serif;max-width:70em;padding:0 1.5em;margin:2em auto;color:#222;line-height:1.4}"
+    "img{max-width:100%}table{border-collapse:collapse;width:100%;font-size:.92em}"
+    "td,th{border-bottom:1px solid #ccc;padding:.25em .6em;text-align:left;vertical-align:top}"
+    "td:nth-child(2),td:nth-child(3){white-space:nowrap}td:nth-child(4){width:55%}"
+    "h2{margin-top:1.6em}td small{color:#555}td small.assumed{color:#a40}"
 )
 MEANING = """
 <p>Inputs are the values at the start of a communication step: the damper moves from its own stroke to
@@ -31,23 +36,49 @@ GAS = """
 back: that suits blocks of seconds, to which they were fitted; over minutes of cavitation no oil would be left. Which closure
 is right is not published. The parameters {} choose it; all 0 are the paper's equations.</p>
 """
+STROKE = """
+<p>The range of the stroke is that of the start values: the piston stays inside the tube. It moves with
+<em>geometry.h_l</em> and <em>geometry.dead_length</em>.</p>
+"""
+NEEDS_PYTHON = """This FMU runs its equations in Python 3.11 or newer, in the process of the importer. It needs no package.
+
+Importers written in Python (fmpy, libcosimpy, ecospy) have what it needs. Other importers on Linux do not: the library in
+binaries/linux64 names no Python library, so that loading it ends with "undefined symbol: _Py_NoneStruct". Load Python's
+library first, for instance
+
+    LD_PRELOAD=libpython3.11.so.1.0 fmusim ...
+
+On Windows python3.dll and the runtime of Microsoft Visual C++ must be on the search path. The native kind of this FMU needs
+neither.
+"""
+CAUSALITIES = ("input", "output", "parameter")
 KINDS = {
     "native": """
-<p>Compiled code without dependencies for Linux (glibc 2.17 or newer, x86-64), Windows (x86-64) and macOS (x86-64 and arm64);
-the C99 sources are inside, <em>fmi2.c</em> is the one to compile.</p>
+<p>Compiled code that needs nothing but the C library of its system, for those of these platforms that <em>binaries</em> has:
+<em>linux64</em> (x86-64, glibc 2.17 or newer), <em>aarch64-linux</em> (ARM, glibc 2.17 or newer), <em>win64</em> (x86-64),
+<em>darwin64</em> (macOS 11 or newer, x86-64 and arm64). The C99 sources are inside; compile <em>fmi2.c</em>.</p>
 <p>With the first derivative of the velocity set as input derivative, the velocity goes evenly within the coming step; it
-holds for one step only. The stroke's derivative is the velocity and is not needed.</p>
+holds for one attempt at a step, also a refused one. The stroke's derivative is the velocity and is not needed.</p>
 <p>A refused value or step (stroke beyond the tube, NaN, negative or mistimed step, parameter out of its range) is answered
 by <em>fmi2Error</em>, a log message that names the quantity, its value and the allowed range, and the state as before.</p>
+<p>A serialized state is accepted by an FMU with the same GUID only. Steps of at most 1e-9 s count as rounding: no time
+passes for effects.</p>
 """,
     "python": """
-<p>A refused step (stroke beyond the tube, NaN, negative step, parameter out of its range) is answered by
-<em>fmi2Discard</em>, a log message of status Error that names the quantity, its value and the allowed range, and the
-state as before.</p>
-<p>This FMU carries its equations as Python source and runs them in the Python 3.11 or newer of the host computer; it
-needs no package, only that Python's shared library is found.</p>
+<p>A refused value or step (stroke beyond the tube, NaN, negative or mistimed step, parameter out of its range) is logged
+with status Error; the message names the quantity, its value and the allowed range. The coming step is answered by
+<em>fmi2Discard</em>, with the state as before. Every message goes to Python's logger <em>twintube.fmu</em>; the FMI log has
+it where the importer has turned logging on. The GUID is not checked, as pythonfmu does not pass it on.</p>
+<p>This FMU carries its equations as Python source and runs them in the importer's process by Python 3.11 or newer. It needs
+no package. Importers written in Python run it as they are; others must load Python's shared library first, see
+<em>externalDependencies.txt</em>.</p>
 """,
 }
+
+
+def text(words: str) -> str:
+    """Words from a parameter file as HTML."""
+    return escape(printable(words))
 
 
 def picture(damper: Damper) -> str:
@@ -76,40 +107,64 @@ def origin(damper: Damper, name: str, group: str) -> str:
     """Where a parameter's value comes from, as HTML."""
     for key in (name, group):
         if key in damper.assumed:
-            return f'<span class="assumed">assumed: {escape(damper.assumed[key])}</span>'
+            return f'<small class="assumed">assumed: {text(damper.assumed[key])}</small>'
     for key in (name, group):
         if key in damper.sources:
-            return escape(damper.sources[key])
+            return f"<small>value: {text(damper.sources[key])}</small>"
     return ""
 
 
+def interval(lower: float | None, upper: float | None) -> str:
+    """A range in words; empty where there is none."""
+    if lower is not None and upper is not None:
+        return f"{lower:.4g} to {upper:.4g}"
+    return f"from {lower:.4g}" if lower is not None else f"up to {upper:.4g}" if upper is not None else ""
+
+
+def row(damper: Damper, variable: Variable, size: int) -> str:
+    """A row of the table; an array has a single row."""
+    meta = variable.item.metadata
+    name = fmi_name(variable.item)
+    unit = "" if meta["unit"] == "1" else meta["unit"]
+    value = f"{size} values" if size > 1 else "" if variable.start is None else f"{variable.start:g} {unit}"
+    bounds = interval(*limits(damper, variable))
+    about = [meta["symbol"], variable.variability if variable.causality == "parameter" else ""]
+    lines = [escape(meta["description"]), f"<small>{escape(meta['source'])}</small>" if meta["source"] else ""]
+    lines += [origin(damper, name, meta["group"])] if variable.causality == "parameter" else []
+    cells = (
+        escape(name).replace(".", ".<wbr>") + f"<br><small>{escape(', '.join(filter(None, about)))}</small>",
+        escape(value or unit),
+        escape(f"{bounds} {unit}" if bounds else ""),
+        "<br>".join(filter(None, lines)),
+    )
+    return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+
+
+def table(damper: Damper, causality: str) -> str:
+    """All variables of a causality."""
+    rows = [
+        row(damper, variable, variable.item.metadata["size"])
+        for variable in variables(damper)
+        if variable.causality == causality and variable.index < 1
+    ]
+    what = "meaning, source, origin of the value" if causality == "parameter" else "meaning, source"
+    heads = ("name, symbol", "unit" if causality == "output" else "start value", "range", what)
+    return "<table><tr>" + "".join(f"<th>{head}</th>" for head in heads) + "</tr>" + "\n".join(rows) + "</table>"
+
+
 def page(damper: Damper, kind: str) -> str:
-    """One self-contained HTML page for a kind of FMU."""
-    rows = []
+    """A self-contained HTML page for a kind of FMU."""
     amplitude = reference.AMPLITUDE * damper.parameters.stroke_max
-    for record, causality in ((Inputs, "input"), (Outputs, "output"), (Parameters, "parameter")):
-        for item in fields(record):
-            meta, name = item.metadata, fmi_name(item)
-            value = getattr(damper.parameters, item.name) if record is Parameters else ""
-            text = f"{len(value)} values" if isinstance(value, list) else f"{value:g}" if value != "" else ""
-            limits = ", ".join(
-                f"{word} {bound:g}" for word, bound in (("from", meta["lower"]), ("to", meta["upper"])) if bound is not None
-            )
-            cells = (name, meta["symbol"], causality, meta["unit"], text, limits, meta["description"], meta["source"])
-            came = origin(damper, name, meta["group"]) if record is Parameters else ""
-            rows.append("<tr>" + "".join(f"<td>{escape(c)}</td>" for c in cells) + f"<td>{came}</td></tr>")
-    heads = ("name", "symbol", "causality", "unit", "value", "range", "meaning", "source", "origin of the value")
+    name, title = text(damper.name), text(damper.title)
+    tables = "".join(f"<h2>{causality.capitalize()}s</h2>{table(damper, causality)}" for causality in CAUSALITIES)
     return (
-        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>twintube {escape(damper.name)}</title>'
-        f"<style>{STYLE}</style><h1>twintube: {escape(damper.name)}</h1><p>{escape(damper.title)}. Semi-physical model of "
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>twintube {name}</title>'
+        '<meta name="viewport" content="width=device-width">'
+        f"<style>{STYLE}</style><h1>twintube: {name}</h1><p>{title}. Semi-physical model of "
         "a twin-tube shock absorber after oil and gas loss, after Schramm, Zwosta, Prokop, Vehicles 2025, 7(1), 26, "
         f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}"
-        f"{GAS.format(escape(acting(damper)), chosen_by())}{KINDS[kind]}"
+        f"{GAS.format(text(acting(damper)), chosen_by())}{KINDS[kind]}"
         f'<figure><img alt="force over stroke and velocity" src="{picture(damper)}"><figcaption>Second half of the '
-        f"reference run in extra/twintube: {reference.FREQUENCY:g} Hz, {amplitude * 1e3:.0f} mm, with the start values of "
-        "this FMU.</figcaption></figure><table><tr>"
-        + "".join(f"<th>{h}</th>" for h in heads)
-        + "</tr>"
-        + "\n".join(rows)
-        + "</table></html>"
+        f"reference run in {related.FOLDER}: {reference.FREQUENCY:g} Hz, {amplitude * 1e3:.0f} mm, with the start values of "
+        f"this FMU.</figcaption></figure>{STROKE}{tables}</html>"
     )

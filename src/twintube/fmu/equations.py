@@ -1,4 +1,4 @@
-"""The equations as one typed module, as pyccel reads it, and its digest, by which a build knows stale C."""
+"""The equations as a typed module, as pyccel reads it, and its digest, by which a build knows stale C."""
 
 import ast
 import hashlib
@@ -7,12 +7,24 @@ from collections.abc import Sequence
 from dataclasses import fields
 
 from twintube.core import effects, sources
-from twintube.core.variables import FV_POINTS, Derived, Flow
+from twintube.core.consistency import Violation
+from twintube.core.variables import FV_POINTS, Derived, Flow, Outputs
 
-RECORDS = {"Parameters": effects.Parameters, "Derived": Derived, "State": effects.State, "Flow": Flow}
-ARGUMENTS = {"p": "Parameters", "d": "Derived", "s": "State", "f": "Flow"}
-ENTRIES = ("set_up", "start", "advance")  # what the wrapper calls
-INTEGERS = ("effects_active", "effects_parts")  # of the functions made from the effects' files, what returns an int
+RECORDS = {
+    "Parameters": effects.Parameters,
+    "Derived": Derived,
+    "State": effects.State,
+    "Flow": Flow,
+    "Outputs": Outputs,
+    "Violation": Violation,
+}
+ARGUMENTS = {"p": "Parameters", "d": "Derived", "s": "State", "f": "Flow", "o": "Outputs", "violation": "Violation"}
+# What the wrapper calls.
+ENTRIES = (
+    "set_up", "start", "advance", "publish", "curve_rule", "fit_rule", "stroke_limit", "time_slack", "stroke_jump",
+    "possible",
+)  # fmt: skip
+INTEGERS = ("effects_active", "effects_parts")  # of the functions generated from the effects' files
 
 
 def record_source(name: str, record: type) -> str:
@@ -31,7 +43,7 @@ def signature(node: ast.FunctionDef) -> str:
     arguments = []
     for argument in node.args.args:
         written = ast.unparse(argument.annotation) if argument.annotation else "float"
-        kind = ARGUMENTS.get(argument.arg, written.replace("list[float]", "float[:]"))
+        kind = ARGUMENTS.get(argument.arg, written.replace("tuple[float, ...]", "float[:]"))
         arguments.append(f"{argument.arg}: {kind!r}")
     returned = ast.unparse(node.returns) if node.returns else "None"
     if node.name.startswith("effects_"):
@@ -53,17 +65,17 @@ def functions(text: str) -> dict[str, str]:
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant(value=int() | float() as value)):
                 values[name] = value
     lines = text.splitlines()
-    found = {}
+    texts = {}
     for node in body:
         if isinstance(node, ast.FunctionDef):
             inside = "\n".join(lines[node.body[0].lineno - 1 : node.end_lineno])
             for name, value in values.items():
                 inside = re.sub(rf"\b{name}\b", repr(value), inside)
-            found[node.name] = f"{signature(node)}\n{inside}"
-    return found
+            texts[node.name] = f"{signature(node)}\n{inside}"
+    return texts
 
 
-def ordered(found: dict[str, str], entries: Sequence[str]) -> list[str]:
+def ordered(texts: dict[str, str], entries: Sequence[str]) -> list[str]:
     """The entries and what they call, every function below those that it calls; raises ValueError on a recursion."""
     done: list[str] = []
 
@@ -71,8 +83,8 @@ def ordered(found: dict[str, str], entries: Sequence[str]) -> list[str]:
         if name in above:
             raise ValueError(f"{name} calls itself")
         if name not in done:
-            for node in ast.walk(ast.parse(found[name])):
-                if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in found:
+            for node in ast.walk(ast.parse(texts[name])):
+                if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in texts:
                     place(node.func.id, (*above, name))
             done.append(name)
 
@@ -83,12 +95,11 @@ def ordered(found: dict[str, str], entries: Sequence[str]) -> list[str]:
 
 def joined_source() -> str:
     """One typed module of all equations, as pyccel reads it."""
-    texts = [*sources.kernel_texts(), *sources.effect_texts(), sources.model_text()]
-    found: dict[str, str] = {}
-    for text in texts:
-        found |= functions(text)
+    typed: dict[str, str] = {}
+    for text in (*sources.kernel_texts(), *sources.effect_texts(), sources.model_text(), sources.rule_text()):
+        typed |= functions(text)
     parts = ["import math", *(record_source(name, record) for name, record in RECORDS.items())]
-    parts += [found[name] for name in ordered(found, ENTRIES)]
+    parts += [typed[name] for name in ordered(typed, ENTRIES)]
     return "\n\n\n".join(parts) + "\n"
 
 
@@ -102,9 +113,11 @@ class StaleTranslationError(RuntimeError):
 
 
 def marked(body: str) -> str:
-    """The C under a line that says what it was made from, and the digest of the body: a change by hand shows."""
+    """The C under a line that says what it was translated from, and the digest of the body: a change by hand shows."""
     body_digest = hashlib.sha256(body.encode()).hexdigest()[:16]
-    return f"/* Made by twintube/fmu/translate.py from the equations {digest()}, body {body_digest}; do not edit. */\n{body}"
+    return (
+        f"/* Written by twintube/fmu/translate.py from the equations {digest()}, body {body_digest}; do not edit. */\n{body}"
+    )
 
 
 def checked(text: str) -> str:

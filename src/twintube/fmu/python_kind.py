@@ -43,7 +43,9 @@ def stage(folder: Path, damper: Damper) -> Path:
         path = folder / package / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(renamed(text), encoding="utf-8")
-    start = {"model_name": model_name(damper), "parameters": asdict(damper.parameters)}
+    start = {"model_name": model_name(damper), "sources": digest, "parameters": asdict(damper.parameters)}
+    # A state is restored only in the FMU that it comes from; the GUID is not known inside.
+    start["identity"] = hashlib.sha256(json.dumps(start).encode()).hexdigest()[:32]
     (folder / "start.json").write_text(json.dumps(start, indent=1), encoding="utf-8")
     script = folder / f"slave_{digest}.py"
     script.write_text(renamed(slave), encoding="utf-8")
@@ -60,7 +62,7 @@ def built(script: Path, folder: Path) -> Path:
     options = {"needsExecutionTool": "false", "canGetAndSetFMUstate": "true", "canSerializeFMUstate": "true"}
     try:
         with contextlib.redirect_stdout(io.StringIO()):
-            found: Path = FmuBuilder.build_FMU(
+            fmu: Path = FmuBuilder.build_FMU(
                 script, dest=folder, project_files=[package, script.parent / "start.json"], **options
             )
     finally:
@@ -68,7 +70,7 @@ def built(script: Path, folder: Path) -> Path:
         for name in set(sys.modules) - modules:
             if name.startswith((package.name, script.stem)):
                 del sys.modules[name]
-    return Path(found)
+    return Path(fmu)
 
 
 def content(damper: Damper) -> dict[str, bytes]:

@@ -4,6 +4,7 @@ import math
 
 from twintube.core import model
 from twintube.core.effects import State
+from twintube.core.outputs import total_force
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper
 
@@ -19,18 +20,18 @@ def rows(damper: Damper) -> list[tuple[float, float, float, float, float]]:
     model.start(p, d, s, 0.0)
     model.advance(p, d, s, f, 0.0, 0.0, 0.0, 0.0)
     stroke = [AMPLITUDE * p.stroke_max * math.sin(2 * math.pi * FREQUENCY * i * STEP) for i in range(STEPS + 2)]
-    found = []
+    run = []
     for i in range(STEPS + 1):
         # The mean velocity of the coming step, so that the damper meets the strokes.
         v = (stroke[i + 1] - stroke[i]) / STEP
-        found.append((i * STEP, stroke[i], v, s.F_fluid + s.F_friction + s.F_gas, s.k_degr))
+        run.append((i * STEP, stroke[i], v, total_force(s), s.k_degr))
         model.advance(p, d, s, f, stroke[i] + v * STEP, v, v, STEP)
-    return found
+    return run
 
 
 def files(damper: Damper) -> dict[str, str]:
     """`input.csv` (time, stroke, velocity) and `reference.csv` (time, force, k_degr), one row per communication point."""
-    found = rows(damper)
-    given = ['"time","stroke","velocity"', *(f"{t!r},{z!r},{v!r}" for t, z, v, _, _ in found)]
-    made = ['"time","force","k_degr"', *(f"{t!r},{force!r},{k!r}" for t, _, _, force, k in found)]
-    return {"input.csv": "\n".join(given) + "\n", "reference.csv": "\n".join(made) + "\n"}
+    run = rows(damper)
+    given = ['"time","stroke","velocity"', *(f"{t!r},{z!r},{v!r}" for t, z, v, _, _ in run)]
+    computed = ['"time","force","k_degr"', *(f"{t!r},{force!r},{k!r}" for t, _, _, force, k in run)]
+    return {"input.csv": "\n".join(given) + "\n", "reference.csv": "\n".join(computed) + "\n"}

@@ -5,6 +5,7 @@ from xml.etree import ElementTree as ET
 from twintube import __version__
 from twintube.core.units import UNITS
 from twintube.dampers import Damper, elements
+from twintube.words import printable
 
 STANDARD = "http://ssp-standard.org/SSP1/SystemStructure"
 
@@ -15,7 +16,8 @@ def to_ssv(damper: Damper) -> str:
     root = ET.Element(
         "ssv:ParameterSet",
         {"xmlns:ssv": f"{STANDARD}ParameterValues", "xmlns:ssc": f"{STANDARD}Common"},
-        version="1.0", name=damper.name, description=damper.title, generationTool=f"twintube {__version__}",
+        version="1.0", name=printable(damper.name), description=printable(damper.title),
+        generationTool=f"twintube {__version__}",
     )  # fmt: skip
     parameters, units = ET.SubElement(root, "ssv:Parameters"), ET.SubElement(root, "ssv:Units")
     used = set()

@@ -34,14 +34,14 @@ def translated() -> str:
             [pyccel, "compile", "--language", "C", "--convert-only", f"{MODULE}.py"],
             cwd=folder, capture_output=True, text=True, check=False,
         )  # fmt: skip
-        made = {path.suffix: path.read_text(encoding="utf-8") for path in folder.rglob(f"{MODULE}.[ch]")}
-        if done.returncode != 0 or len(made) != 2:
+        output = {path.suffix: path.read_text(encoding="utf-8") for path in folder.rglob(f"{MODULE}.[ch]")}
+        if done.returncode != 0 or len(output) != 2:
             raise RuntimeError(f"pyccel failed:\n{done.stdout}{done.stderr}")
-        return header(made[".h"], made[".c"])
+        return header(output[".h"], output[".c"])
 
 
 def header(declared: str, defined: str) -> str:
-    """One header of records and static functions, so that several FMUs can be linked into one program."""
+    """A header of records and static functions, so that several FMUs can be linked into one program."""
     records = re.findall(r"^struct \w+ \{\n.*?^\};\n", declared, re.DOTALL | re.MULTILINE)
     # The wrapper sets the records up itself.
     records = [re.sub(r" *bool is_freed;\n", "", record) for record in records]
@@ -53,7 +53,7 @@ def header(declared: str, defined: str) -> str:
 
 
 def commented(body: str) -> str:
-    """A function with its docstring as one comment, without pyccel's rulers."""
+    """A function with its docstring as a single comment, without pyccel's rulers."""
     lines: list[str] = []
     said: list[str] = []
     for line in body.splitlines():

@@ -1,17 +1,19 @@
 """Identification: parameters of the degradation model from measured records (Section 3.2, equations 42 and 43).
 
-    identify_dataset    a dataset folder in, the four steps, validation on all records
-    identify_damper     the four steps on records
+    identify            a dataset folder in, the four steps, validation on all records
+    identify_dataset    the steps on a dataset that is read already
+    identify_damper     the steps on records
     Objective, minimise equations 42 and 43 for whole swarms, and the optimisers
 
 First step: intact.py, sines.py; third and fourth: objective.py, optimise.py; what is known of the result: uncertainty.py,
-validation.py.
+validation.py. What diagnosis needs as well is in twintube.fitting.
 """
 
-from twintube.identification.dataset import Result, identify_dataset, summary
-from twintube.identification.objective import Harmonic, Objective
+from twintube.fitting.harmonic import Harmonic
+from twintube.fitting.oscillations import harmonic
+from twintube.identification.dataset import Result, identify, identify_dataset, summary
+from twintube.identification.objective import Objective
 from twintube.identification.optimise import METHODS, Best, minimise
-from twintube.identification.oscillations import harmonic
 from twintube.identification.workflow import PAPER, QUICK, Budget, Identification, identify_damper
 
 __all__ = [
@@ -25,6 +27,7 @@ __all__ = [
     "Objective",
     "Result",
     "harmonic",
+    "identify",
     "identify_damper",
     "identify_dataset",
     "minimise",

@@ -8,28 +8,57 @@ from typing import Any
 import numpy as np
 
 from twintube.dampers import Damper
-from twintube.data import LoadedDataset
+from twintube.data import LoadedDataset, load_dataset
+from twintube.data.condition import is_intact
 from twintube.engine.simulate import InputError
-from twintube.identification.averaging import averaging, through
-from twintube.identification.objective import TABLE_6, Harmonic
-from twintube.identification.oscillations import harmonic
+from twintube.fitting.averaging import averaging, through
+from twintube.fitting.harmonic import Harmonic
+from twintube.fitting.oscillations import harmonic
+from twintube.fitting.parameters import TABLE_6
+from twintube.fitting.splits import distinct
 from twintube.identification.validation import Validated, intact, validate_drives, validate_harmonic
 from twintube.identification.workflow import PAPER, Budget, Identification, identify_damper
 
-ENOUGH = 5  # distinct velocities from which on some are held out, if dataset.toml splits nothing itself
+ENOUGH = 5  # distinct velocities from which on some are held out, where dataset.toml splits nothing
 HELD_OUT = (3, 1)  # every third velocity from the second on; not the two highest, between which cavitation begins
-SAME_SPEED = 1.03  # velocities within 3 % are one
+EQUAL_SPEEDS = 1.03  # velocities of sines, free of noise, that differ by a smaller factor are taken for equal
 
 
 @dataclass(frozen=True)
 class Result:
-    """What `twintube identify` found."""
+    """What `twintube identify` reports."""
 
     dataset: LoadedDataset
     harmonics: list[tuple[Harmonic, str]]  # with their split, in the order of the dataset
     identification: Identification
     validation: list[Validated]
     remarks: list[str]
+
+
+def identify(
+    path: str | Path,
+    *,
+    method: str = "pso",
+    budget: Budget = PAPER,
+    seed: int = 1,
+    journal: Path | None = None,
+    progress: Callable[[str, float], None] | None = None,
+) -> Result:
+    """Identify the damper of a dataset folder and validate it on all records.
+
+    Args:
+        path: a folder with dataset.toml and its records, or that file.
+        method: pso (the paper's), cma or de.
+        budget: PAPER, QUICK or a Budget: how long to search.
+        seed: of all random numbers.
+        journal: a folder that makes a killed run resumable.
+        progress: called with the step's title and its error after each generation.
+
+    Raises DataError with all defects of the records, and InputError where they do not suffice.
+
+    """
+    dataset = load_dataset(path)
+    return identify_dataset(dataset, method=method, budget=budget, seed=seed, journal=journal, progress=progress)
 
 
 def identify_dataset(
@@ -44,61 +73,54 @@ def identify_dataset(
     """Identify the dataset's damper from its records for fitting and validate it on all; raises InputError."""
     slow = [r for r in dataset.records if r.measurement == "quasi-static"]
     drives = [r for r in dataset.records if r.measurement == "stochastic"]
-    found = [harmonic(r) for r in dataset.records if r.measurement == "harmonic"]
-    if not found:
+    sines = [harmonic(r) for r in dataset.records if r.measurement == "harmonic"]
+    if not sines:
         raise InputError(f"{dataset.title}: no harmonic record to identify from")
     stated = {r.name: r.split for r in dataset.records}
-    split, remarks = splits(found, stated)
-    smoothed = averaging(found)
+    split, remarks = splits(sines, stated)
+    smoothed = averaging(sines)
     if smoothed is not None:
-        found = through(found, smoothed)
-        remarks.append(f"{smoothed.text}; the model is seen through the same mean where sines are fitted and validated")
-    fitted = [h for h, kind in zip(found, split, strict=True) if kind == "fit"]
+        sines = through(sines, smoothed)
+        remarks.append(f"{smoothed.text}; the model is passed through an equal mean where sines are fitted and validated")
+    fitted = [h for h, kind in zip(sines, split, strict=True) if kind == "fit"]
     if not fitted:
         raise InputError(f"{dataset.title}: all harmonic records are held out, none is left to identify from")
     result = identify_damper(
         dataset.damper,
         next(((r.stroke, r.force) for r in slow if intact(r) and r.split != "heldout"), None),
-        [h for h in fitted if is_intact(h)],
-        [h for h in fitted if not is_intact(h)],
+        [h for h in fitted if h.intact],
+        [h for h in fitted if not h.intact],
         slow_lost=[(r.oil_level, (r.stroke, r.force)) for r in slow if not r.gas_preload and r.split != "heldout"],
         method=method, budget=budget, seed=seed, journal=journal, progress=progress,
     )  # fmt: skip
-    levels = sorted({h.oil_level for h in found if not is_intact(h)}, reverse=True)
+    levels = sorted({h.oil_level for h in sines if not h.intact}, reverse=True)
     damper = with_origin(replace(result.damper, measured_levels=tuple(levels)), dataset, result, method, seed, len(fitted))
     result = replace(result, damper=damper)
-    rows = [validate_harmonic(damper, h, kind, result.offset) for h, kind in zip(found, split, strict=True)]
+    rows = [validate_harmonic(damper, h, kind, result.offset) for h, kind in zip(sines, split, strict=True)]
     return Result(
-        dataset, list(zip(found, split, strict=True)), result, rows + validate_drives(damper, drives),
+        dataset, list(zip(sines, split, strict=True)), result, rows + validate_drives(damper, drives),
         remarks + result.remarks,
     )  # fmt: skip
 
 
-def is_intact(record: Harmonic) -> bool:
-    """Whether the record is of the full damper with its preload."""
-    return bool(record.gas_preload) and record.oil_level >= 0.995
-
-
 def splits(records: Sequence[Harmonic], stated: dict[str, str | None]) -> tuple[list[str], list[str]]:
-    """`fit` or `heldout` for every record, and a remark on what was decided here."""
+    """`fit` or `heldout` for every record, and remarks on the choice."""
     if any(stated[r.name] for r in records):
         return [stated[r.name] or "fit" for r in records], []
-    judged = [not is_intact(r) for r in records]
+    judged = [not r.intact for r in records]
     judged = judged if any(judged) else [True] * len(records)
-    speeds: list[float] = []
-    for v in sorted(r.top_speed for r, counts in zip(records, judged, strict=True) if counts):
-        if not speeds or v > SAME_SPEED * speeds[-1]:
-            speeds.append(v)
+    speeds = distinct((r.top_speed for r, counts in zip(records, judged, strict=True) if counts), EQUAL_SPEEDS)
     every, first = HELD_OUT
     held = [v for i, v in enumerate(speeds[:-2]) if len(speeds) >= ENOUGH and i % every == first]
     kinds = [
-        "heldout" if counts and any(v <= r.top_speed <= SAME_SPEED * v for v in held) else "fit"
+        "heldout" if counts and any(v <= r.top_speed <= EQUAL_SPEEDS * v for v in held) else "fit"
         for r, counts in zip(records, judged, strict=True)
     ]
     if not held:
-        return kinds, [f"{len(speeds)} velocities, fewer than {ENOUGH}: no record is held out, the validation is of the fit"]
-    told = ", ".join(f"{v:.3g}" for v in held)
-    return kinds, [f"dataset.toml splits nothing: the records at {told} m/s are held out"]
+        count = "1 velocity" if len(speeds) == 1 else f"{len(speeds)} velocities"
+        return kinds, [f"{count}, fewer than {ENOUGH}: no record is held out, the validation is of the fit"]
+    velocities = ", ".join(f"{v:.3g}" for v in held)
+    return kinds, [f"dataset.toml splits nothing: the records at {velocities} m/s are held out"]
 
 
 def with_origin(
@@ -136,27 +158,27 @@ def parameters_of(damper: Damper, group: str) -> dict[str, Any]:
 
 def summary(result: Result) -> dict[str, Any]:
     """The result as JSON takes it."""
-    found = result.identification
+    identified = result.identification
     return {
         "dataset": result.dataset.title,
-        "damper": found.damper.name,
+        "damper": identified.damper.name,
         "remarks": result.remarks,
         "steps": [
             {
                 "title": s.title, "parameters": s.names, "error": s.best.error, "unit": s.unit,
                 "evaluations": s.best.evaluations,
             }
-            for s in found.steps
+            for s in identified.steps
         ],
         "parameters": {
             e.name: {
                 "value": e.value, "interval": [e.low, e.high], "bounds": e.bounds,
                 "determined": e.determined, "at_bound": e.at_bound,
             }
-            for e in found.estimates
+            for e in identified.estimates
         },
-        "not_told_apart": [{"parameters": [a, b], "correlation": c} for a, b, c in found.pairs],
-        "force_offset_N": found.offset,
+        "not_told_apart": [{"parameters": [a, b], "correlation": c} for a, b, c in identified.pairs],
+        "force_offset_N": identified.offset,
         "validation": [asdict(row) for row in result.validation],
         "heldout": totals(result.validation, "heldout"),
         "fit": totals(result.validation, "fit"),
@@ -164,9 +186,9 @@ def summary(result: Result) -> dict[str, Any]:
 
 
 def totals(rows: Sequence[Validated], split: str) -> dict[str, float | None] | None:
-    """Errors over the harmonic records of a split: force as RMSE, works relative to the measured one and to the intact one.
+    """Errors over the harmonic records of a split: force as RMSE, works relative to the measured and to the intact work.
 
-    The latter says more where a degraded damper does little work: 3 J of 10 J are nothing beside the intact 100 J.
+    The latter says more where a degraded damper does little work: 3 J of 10 J are little against the intact 100 J.
     """
     harmonics = [row for row in rows if row.measurement == "harmonic" and row.split == split]
     if not harmonics:
@@ -174,25 +196,25 @@ def totals(rows: Sequence[Validated], split: str) -> dict[str, float | None] | N
     errors = np.array([
         [abs(s - m) / abs(m) for s, m in zip(row.work_simulated, row.work_measured, strict=True)] for row in harmonics
     ])  # fmt: skip
-    found: dict[str, float | None] = {
+    figures: dict[str, float | None] = {
         "records": len(harmonics),
         "force_rmse_N": float(np.sqrt(np.mean([row.force_rmse**2 for row in harmonics]))),
         "force_rmse_of_peak": float(np.mean([row.force_rmse / row.force_peak for row in harmonics])),
     }
     for i, which in enumerate(("first", "last")):
-        found[f"work_error_{which}"] = float(np.median(errors[:, i]))
-        found[f"work_error_{which}_worst"] = float(errors[:, i].max())
+        figures[f"work_error_{which}"] = float(np.median(errors[:, i]))
+        figures[f"work_error_{which}_worst"] = float(errors[:, i].max())
         relative = [of_intact(row, rows, i) for row in harmonics]
         known = [value for value in relative if value is not None]
-        found[f"work_error_{which}_of_intact"] = float(np.median(known)) if known else None
-        found[f"work_error_{which}_of_intact_worst"] = max(known) if known else None
-    return found
+        figures[f"work_error_{which}_of_intact"] = float(np.median(known)) if known else None
+        figures[f"work_error_{which}_of_intact_worst"] = max(known) if known else None
+    return figures
 
 
 def of_intact(row: Validated, rows: Sequence[Validated], i: int) -> float | None:
-    """Error of a record's first or last work relative to that of the intact damper at the same velocity."""
+    """Error of a record's first or last work relative to that of the intact damper at an equal velocity."""
     for other in rows:
-        full = other.gas_preload and other.oil_level >= 0.995 and other.measurement == "harmonic"
-        if full and row.top_speed / SAME_SPEED <= other.top_speed <= SAME_SPEED * row.top_speed:
+        full = is_intact(other.oil_level, other.gas_preload) and other.measurement == "harmonic"
+        if full and row.top_speed / EQUAL_SPEEDS <= other.top_speed <= EQUAL_SPEEDS * row.top_speed:
             return abs(row.work_simulated[i] - row.work_measured[i]) / abs(other.work_measured[i])
     return None

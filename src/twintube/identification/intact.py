@@ -13,7 +13,7 @@ from twintube.core.variables import FV_POINTS
 from twintube.dampers import Damper
 from twintube.dampers.toml import continued
 from twintube.engine.simulate import InputError
-from twintube.identification.objective import Harmonic
+from twintube.fitting.harmonic import Harmonic
 
 # The middle of the stroke, in which friction is saturated and no stop is near [share of the largest stroke].
 MIDDLE = 0.6
@@ -23,7 +23,7 @@ V_SLOW = 1e-3  # velocity of the quasi-static measurement [m/s]
 
 @dataclass(frozen=True)
 class QuasiStatic:
-    """What the quasi-static record tells."""
+    """Gas spring and friction from the quasi-static record."""
 
     c_gas: float  # slope of the force over the stroke [N/m]
     F_0: float  # gas force at stroke 0, pushes the rod out [N]
@@ -34,7 +34,7 @@ class QuasiStatic:
 def turns(stroke: Array) -> list[int]:
     """The samples of all reversals by more than the noise of a stroke, the first and the last sample included."""
     least = NOISE * float(np.ptp(stroke))
-    found, extreme, rising = [0], 0, 0
+    reversals, extreme, rising = [0], 0, 0
     for i, z in enumerate(stroke.tolist()):
         if (rising >= 0 and z > stroke[extreme]) or (rising <= 0 and z < stroke[extreme]):
             if rising == 0 and abs(z - stroke[0]) > least:
@@ -42,16 +42,16 @@ def turns(stroke: Array) -> list[int]:
             if rising != 0:
                 extreme = i
         elif rising != 0 and abs(z - stroke[extreme]) > least:
-            found.append(extreme)
+            reversals.append(extreme)
             extreme, rising = i, -rising
-    return [*found, len(stroke) - 1]
+    return [*reversals, len(stroke) - 1]
 
 
 def branches(stroke: Array) -> list[slice]:
     """The strokes of one direction between reversals, those that cross the middle only."""
-    found = [slice(a, b + 1) for a, b in itertools.pairwise(turns(stroke)) if b > a]
+    strokes = [slice(a, b + 1) for a, b in itertools.pairwise(turns(stroke)) if b > a]
     reach = MIDDLE * np.abs(stroke).max()
-    return [s for s in found if np.abs(stroke[s]).max() >= reach and stroke[s].min() < 0 < stroke[s].max()]
+    return [s for s in strokes if np.abs(stroke[s]).max() >= reach and stroke[s].min() < 0 < stroke[s].max()]
 
 
 def quasi_static(stroke: Array, force: Array) -> QuasiStatic:
@@ -83,7 +83,7 @@ def reversal_slope(stroke: Array, force: Array, line: Array, F_FrS: float) -> fl
 
     After a reversal F = F_FrS (1 - 2 exp(-sigma_0 x / F_FrS)), which is zero at x = F_FrS ln 2 / sigma_0.
     """
-    found = []
+    lengths = []
     for part in branches(stroke)[1:]:
         z = stroke[part]
         friction = (force[part] - np.polyval(line, z)) * (1.0 if z[-1] > z[0] else -1.0)
@@ -91,18 +91,18 @@ def reversal_slope(stroke: Array, force: Array, line: Array, F_FrS: float) -> fl
         if len(crossed):
             i = int(crossed[0])
             share = -friction[i] / (friction[i + 1] - friction[i])
-            found.append(abs(z[i] + share * (z[i + 1] - z[i]) - z[0]))
-    if not found or np.median(found) <= 0:
-        raise InputError("quasi-static record: no reversal of the friction found; sample more densely")
-    return float(F_FrS * np.log(2) / np.median(found))
+            lengths.append(abs(z[i] + share * (z[i + 1] - z[i]) - z[0]))
+    if not lengths or np.median(lengths) <= 0:
+        raise InputError("quasi-static record: the friction reverses within a single interval; sample more densely")
+    return float(F_FrS * np.log(2) / np.median(lengths))
 
 
 def direction(stroke: Array) -> NDArray[np.bool_]:
     """Whether the stroke rises (n,), reversals by its noise apart."""
-    found = np.zeros(len(stroke), dtype=bool)
+    rising = np.zeros(len(stroke), dtype=bool)
     for a, b in itertools.pairwise(turns(stroke)):
-        found[a : b + 1] = stroke[b] > stroke[a]
-    return found
+        rising[a : b + 1] = stroke[b] > stroke[a]
+    return rising
 
 
 def fv_points(damper: Damper, records: Sequence[Harmonic]) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:

@@ -1,12 +1,5 @@
-"""Optimisers from libraries behind one call, seeded and resumable.
+"""Optimisers from libraries behind a common call, seeded and resumable (twintube.fitting.journal)."""
 
-Every generation's objective values go to a journal. A run that was killed is started again with the same seed: the optimiser
-repeats its own cheap moves and reads the expensive values from the journal, so that the result is that of an
-uninterrupted run, whatever the optimiser.
-"""
-
-import hashlib
-import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from twintube.arrays import Array
-
-Objective = Callable[[Array], Array]
+from twintube.fitting.journal import Journal, Objective
 
 
 @dataclass(frozen=True)
@@ -27,48 +19,6 @@ class Best:
     error: float
     trace: Array
     evaluations: int
-
-
-class Journal:
-    """An objective that remembers: values per generation in a file of JSON lines, and the best of all."""
-
-    def __init__(self, objective: Objective, path: Path | None, progress: Callable[[float], None] | None) -> None:
-        self.objective, self.path, self.progress = objective, path, progress
-        self.known: list[dict[str, Any]] = []
-        if path is not None and path.exists():
-            for line in path.read_text(encoding="utf-8").splitlines():
-                try:
-                    self.known.append(json.loads(line))
-                except json.JSONDecodeError:
-                    break  # the line that was being written when the run was killed
-            path.write_text("".join(json.dumps(entry) + "\n" for entry in self.known), encoding="utf-8")
-        self.generation = 0
-        self.evaluations = 0
-        self.x, self.error = np.array([]), np.inf
-        self.trace: list[float] = []
-
-    def __call__(self, X: Array) -> Array:
-        """Values (m,) of a generation X (m, k)."""
-        X = np.atleast_2d(X)
-        digest = hashlib.sha256(np.ascontiguousarray(X).tobytes()).hexdigest()[:16]
-        if self.generation < len(self.known) and self.known[self.generation]["x"] == digest:
-            values = np.array(self.known[self.generation]["f"])
-        else:
-            del self.known[self.generation :]  # a journal of another run: what follows does not belong to this one
-            values = self.objective(X)
-            self.known.append({"x": digest, "f": values.tolist()})
-            if self.path is not None:
-                with self.path.open("a", encoding="utf-8") as file:
-                    file.write(json.dumps(self.known[-1]) + "\n")
-        self.generation += 1
-        self.evaluations += len(X)
-        best = int(np.argmin(values))
-        if values[best] < self.error:
-            self.x, self.error = X[best].copy(), float(values[best])
-        self.trace.append(self.error)
-        if self.progress is not None:
-            self.progress(self.error)
-        return values
 
 
 def pso(journal: Journal, bounds: Array, population: int, generations: int, seed: int, start: Array | None) -> None:
@@ -92,10 +42,10 @@ def pso(journal: Journal, bounds: Array, population: int, generations: int, seed
 
 def around(bounds: Array, population: int, seed: int, start: Array | None) -> Array:
     """A first generation (population, k), evenly random, with the start in it."""
-    found = np.random.default_rng(seed).uniform(bounds[:, 0], bounds[:, 1], (population, len(bounds)))
+    points = np.random.default_rng(seed).uniform(bounds[:, 0], bounds[:, 1], (population, len(bounds)))
     if start is not None:
-        found[0] = start
-    return found
+        points[0] = start
+    return points
 
 
 def cma_es(journal: Journal, bounds: Array, population: int, generations: int, seed: int, start: Array | None) -> None:

@@ -1,7 +1,7 @@
 """The intact damper from sines alone, where no quasi-static record tells friction and gas spring apart.
 
 Force = F-v curve + friction + gas spring is linear in all but the stroke over which the friction reverses: bounded least
-squares for the linear part inside a search over that one length (variable projection).
+squares for the linear part inside a search over that length (variable projection).
 """
 
 from collections.abc import Sequence
@@ -17,22 +17,22 @@ from twintube.core.kernel import stribeck
 from twintube.dampers import Damper
 from twintube.dampers.toml import continued
 from twintube.engine.simulate import InputError
-from twintube.identification.averaging import averaged
-from twintube.identification.objective import Harmonic
+from twintube.fitting.averaging import averaged
+from twintube.fitting.harmonic import Harmonic
 
 KNOTS = 8  # of each branch, spaced evenly in the logarithm
 SLOWEST = 0.05  # first knot as a share of the largest velocity
 REVERSAL = (1e-6, 5e-3)  # [m] length over which the friction reverses, F_FrS / sigma_0
 MOST = 4000  # samples of a record that the fit takes, evenly spread
-RISING = 1e-3  # smallest rise from knot to knot as a share of the largest force: velocities below it tell nothing
+RISING = 1e-3  # smallest rise from knot to knot as a share of the largest force: below it a velocity shows nothing
 
 
 @dataclass(frozen=True)
 class SineFit:
-    """What the sines tell, and the error of the fit."""
+    """The intact damper from sines, and the error of the fit."""
 
     damper: Damper
-    rmse: float  # over the fitted records, each with the same weight [N]
+    rmse: float  # over the fitted records, all with equal weight [N]
     offset: float  # constant force [N] that pulls the rod in, which no gas does: zero of the load cell, or signs
 
 
@@ -40,29 +40,29 @@ def saturation(stroke: Array, length: float) -> Array:
     """Dahl's friction (n,) relative to its saturated value: the exact solution of equation 2 for delta_D = 1."""
     way = np.diff(stroke)
     decay = np.exp(-np.abs(way) / length)
-    found = np.empty(len(stroke))
-    found[0] = 0.0
+    relative = np.empty(len(stroke))
+    relative[0] = 0.0
     state = 0.0
     for i, (share, direction) in enumerate(zip(decay.tolist(), np.sign(way).tolist(), strict=True)):
         state = direction + (state - direction) * share if direction else state
-        found[i + 1] = state
-    return found
+        relative[i + 1] = state
+    return relative
 
 
 def ramps(velocity: Array, knots: Array) -> Array:
-    """Rise (n, k) from knot to knot of a curve through the origin; the last one goes on."""
+    """Rise (n, k) from knot to knot of a curve through the origin; the last ramp goes on."""
     edges = np.concatenate([[0.0], knots])
     share = (velocity[:, None] - edges[:-1]) / np.diff(edges)
     share[:, :-1] = np.minimum(share[:, :-1], 1.0)
-    found: Array = np.maximum(share, 0.0)
-    return found
+    rises: Array = np.maximum(share, 0.0)
+    return rises
 
 
 def identify_sines(damper: Damper, records: Sequence[Harmonic]) -> SineFit:
     """The damper with F-v curve, friction and gas spring from harmonic records of the intact damper.
 
     The Stribeck scaling and delta_D = 1 are not determined by sines and stay. A force channel that was averaged is fitted
-    by a model averaged alike. Raises InputError without records.
+    by a model averaged in the way of the channel. Raises InputError without records.
     """
     if not records:
         raise InputError("no intact harmonic record to identify from")
@@ -96,10 +96,10 @@ def identify_sines(damper: Damper, records: Sequence[Harmonic]) -> SineFit:
     grid = np.log(np.geomspace(*REVERSAL, 16))
     errors = [solved(x)[0] for x in grid]
     best = int(np.argmin(errors))
-    found = minimize_scalar(
+    search = minimize_scalar(
         lambda x: solved(x)[0], bounds=(grid[max(0, best - 1)], grid[min(len(grid) - 1, best + 1)]), method="bounded"
     )
-    rmse, x = solved(float(found.x))
+    rmse, x = solved(float(search.x))
     F_0, c_gas, F_FrS = (float(value) for value in x[2 * KNOTS :])
     offset, F_0 = max(0.0, -F_0), max(0.0, F_0)
     forces = [np.cumsum(x[:KNOTS]).tolist(), np.cumsum(x[KNOTS : 2 * KNOTS]).tolist()]
@@ -108,7 +108,7 @@ def identify_sines(damper: Damper, records: Sequence[Harmonic]) -> SineFit:
         damper.with_(
             v_re=[a for a, _ in rebound], F_re=[b for _, b in rebound],
             v_co=[a for a, _ in compression], F_co=[b for _, b in compression],
-            F_0=F_0, c_gas=c_gas, F_FrS=F_FrS, delta_D=1.0, sigma_0=min(1e8, max(1.0, F_FrS / float(np.exp(found.x)))),
+            F_0=F_0, c_gas=c_gas, F_FrS=F_FrS, delta_D=1.0, sigma_0=min(1e8, max(1.0, F_FrS / float(np.exp(search.x)))),
         ),
         rmse,
         offset,

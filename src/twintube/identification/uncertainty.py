@@ -1,8 +1,8 @@
 """How well the records determine the parameters: a sample of all parameter sets that explain them about as well.
 
 The sample is drawn by emcee (affine-invariant ensemble) from the likelihood of the force errors, flat within the bounds.
-A residual that repeats in every oscillation is an error of the model or of the sampling and tells nothing new the
-second time, so it counts once per record, noise once per sample.
+A residual that repeats in every oscillation is an error of the model or of the sampling. It tells nothing new the second
+time, so it counts once per record; noise counts once per sample.
 """
 
 import itertools
@@ -11,28 +11,29 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.optimize import least_squares
 from scipy.stats import norm
 
 from twintube.arrays import Array
+from twintube.fitting.journal import Journal
+from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
 from twintube.identification.objective import Objective
-from twintube.identification.optimise import Journal
 
 LEVEL = 0.95  # for all parameters together (Bonferroni)
 BURN_IN = 0.4  # share of the chain that is dropped
 UNDETERMINED = 0.5  # an interval wider than this share of the allowed range says nothing
 AT_BOUND = 1e-3  # share of the allowed range
-SLOPE = 1e-3  # step of a derivative as a share of the allowed range: smaller ones meet the kinks of the model
+INSIDE = 1e-6  # share of the allowed range by which a least squares begins inside it
+WEAK = 12.0  # one over the variance of a parameter that is evenly spread over its range: what no residual tells
 POLISHING = 40  # most evaluations of the last least squares
 SHARP = 0.1  # share of the allowed range: an interval narrower than that needs no profile
 PROFILING = 6  # most evaluations of a least squares along a profile
-LEAST = 0.01  # half an interval's least width as a share of the allowed range: what the optimum can be found to
+LEAST = 0.01  # half an interval's least width as a share of the allowed range: to which the optimum can be located
 PHASES = 32  # phases of an oscillation at which its residuals are compared
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """One identified parameter: value, interval and what is to be said about it."""
+    """One identified parameter: value, interval and doubts."""
 
     name: str
     value: float
@@ -74,33 +75,29 @@ def variance(residual: Array, marks: Array) -> float:
 
 def weights(objective: Objective, x: Array) -> Array:
     """One over twice the variance (r,) of each record's samples at the parameters x (k,)."""
-    found = objective.residuals(x[None])[0]
-    edges = np.cumsum([0, *(len(r.time) - 1 - r.marks[0] for r in objective.records)])
+    errors, edges = objective.residuals(x[None])[0], objective.edges
     return np.array([
-        0.5 / variance(found[a:b], r.marks - r.marks[0])
+        0.5 / variance(errors[a:b], r.marks - r.marks[0])
         for r, a, b in zip(objective.records, edges[:-1], edges[1:], strict=True)
     ])  # fmt: skip
 
 
 def slopes(objective: Objective, x: Array) -> Array:
-    """Derivatives (n, k) of all residuals by the parameters in units of their ranges, one-sided, away from the bounds."""
-    low, high = objective.bounds.T
-    step = SLOPE * (high - low) * np.where(x + SLOPE * (high - low) <= high, 1.0, -1.0)
-    found = objective.residuals(np.vstack([x, x + np.diag(step)]))
-    rates: Array = ((found[1:] - found[0]) / (step / (high - low))[:, None]).T
-    return rates
+    """Derivatives (n, k) of all residuals by the parameters in units of their ranges."""
+    return derivatives(objective.residuals, x, *objective.bounds.T)
 
 
 def polished(objective: Objective, x: Array) -> Array:
     """The least-squares optimum of the force errors next to x (k,): the end of a search that a swarm leaves undone."""
     low, high = objective.bounds.T
     width = high - low
-    inside = np.clip((x - low) / width, 1e-6, 1 - 1e-6)
-    fit = least_squares(
+    u, _ = bounded(
         lambda u: objective.residuals((low + u * width)[None])[0],
-        inside, jac=lambda u: slopes(objective, low + u * width), bounds=(0, 1), max_nfev=POLISHING,
-    )  # fmt: skip
-    return np.asarray(low + fit.x * width)
+        lambda u: slopes(objective, low + u * width),
+        np.clip((x - low) / width, INSIDE, 1 - INSIDE),
+        POLISHING,
+    )
+    return np.asarray(low + u * width)
 
 
 def estimates(
@@ -136,31 +133,30 @@ def estimates(
         return values
 
     rng = np.random.default_rng(seed)
-    rows = np.repeat(np.sqrt(2 * weight), [len(r.time) - 1 - r.marks[0] for r in objective.records])
+    rows = np.repeat(np.sqrt(2 * weight), np.diff(objective.edges))
     J = slopes(objective, x) * rows[:, None]
-    # What no residual tells has the spread of its range.
-    spread = np.linalg.cholesky(np.linalg.inv(J.T @ J + 12 * np.eye(len(x))))
+    spread = np.linalg.cholesky(np.linalg.inv(J.T @ J + WEAK * np.eye(len(x))))
     start = reflected(x + rng.standard_normal((walkers, len(x))) @ spread.T * (high - low), low, high)
     sampler = emcee.EnsembleSampler(walkers, len(x), log_probability, vectorize=True)
     state = emcee.State(start, random_state=np.random.RandomState(seed).get_state())
     sampler.run_mcmc(state, steps)
     chain = sampler.get_chain(discard=int(BURN_IN * steps), flat=True)
     z = float(norm.ppf(1 - (1 - LEVEL) / 2 / len(x)))
-    pulls = z * scatter(objective, x, J, rows) * (high - low)
+    reach = z * scatter(objective, x, J, rows) * (high - low)
     q16, q50, q84 = np.quantile(chain, norm.cdf([-1, 0, 1]), axis=0)
-    pulls = np.maximum(pulls, LEAST * (high - low))
-    found = []
+    reach = np.maximum(reach, LEAST * (high - low))
+    results = []
     for i, name in enumerate(objective.names):
-        a = max(low[i], min(x[i] - pulls[i], q50[i] - z * (q50[i] - q16[i])) - moved[i])
-        b = min(high[i], max(x[i] + pulls[i], q50[i] + z * (q84[i] - q50[i])) + moved[i])
-        # The walkers may not have found the way: whether a bound itself explains the records as well.
+        a = max(low[i], min(x[i] - reach[i], q50[i] - z * (q50[i] - q16[i])) - moved[i])
+        b = min(high[i], max(x[i] + reach[i], q50[i] + z * (q84[i] - q50[i])) + moved[i])
+        # The walkers may not have come so far: whether a bound itself explains the records as well.
         if b - a > SHARP * (high[i] - low[i]):
             a = low[i] if profiled(objective, x, i, low[i], rows) <= z * z else a
             b = high[i] if profiled(objective, x, i, high[i], rows) <= z * z else b
-        found.append(Estimate(name, float(x[i]), float(a), float(b), (float(low[i]), float(high[i]))))
+        results.append(Estimate(name, float(x[i]), float(a), float(b), (float(low[i]), float(high[i]))))
     with np.errstate(invalid="ignore"):
         related: Array = np.nan_to_num(np.corrcoef(chain.T))
-    return found, related
+    return results, related
 
 
 def profiled(objective: Objective, x: Array, i: int, value: float, rows: Array) -> float:
@@ -170,35 +166,32 @@ def profiled(objective: Objective, x: Array, i: int, value: float, rows: Array) 
     others = np.flatnonzero(np.arange(len(x)) != i)
 
     def full(u: Array) -> Array:
-        found = x.copy()
-        found[others] = low[others] + u * width[others]
-        found[i] = value
-        return found
+        point = x.copy()
+        point[others] = low[others] + u * width[others]
+        point[i] = value
+        return point
 
     def errors(u: Array) -> Array:
         return np.asarray(objective.residuals(full(u)[None])[0] * rows)
 
-    start = np.clip((x[others] - low[others]) / width[others], 1e-6, 1 - 1e-6)
-    fit = least_squares(
-        errors, start, jac=lambda u: slopes(objective, full(u))[:, others] * rows[:, None], bounds=(0, 1), max_nfev=PROFILING
-    )
+    start = np.clip((x[others] - low[others]) / width[others], INSIDE, 1 - INSIDE)
+    _, least = bounded(errors, lambda u: slopes(objective, full(u))[:, others] * rows[:, None], start, PROFILING)
     base = objective.residuals(x[None])[0] * rows
-    return float(2 * fit.cost - base @ base)
+    return float(least - base @ base)
 
 
 def scatter(objective: Objective, x: Array, J: Array, rows: Array) -> Array:
     """Standard deviations (k,), as shares of the ranges, from how differently the records pull (sandwich estimate).
 
-    What a record's samples have in common, an error of model or sampling, is no noise; records tell it apart.
+    What the samples of a record share is an error of model or sampling, not noise; the scatter of the records shows it.
     """
-    errors = objective.residuals(x[None])[0] * rows
-    edges = np.cumsum([0, *(len(r.time) - 1 - r.marks[0] for r in objective.records)])
-    pulls = np.array([J[a:b].T @ errors[a:b] for a, b in itertools.pairwise(edges)])
-    pulls -= pulls.mean(axis=0)
-    inverse = np.linalg.inv(J.T @ J + 12 * np.eye(len(x)))
-    count = len(pulls)
-    found: Array = np.sqrt(np.diag(inverse @ (pulls.T @ pulls * count / max(1, count - 1)) @ inverse))
-    return found
+    own = pulls(J, objective.residuals(x[None])[0] * rows, objective.edges)
+    # The optimum of forces and works together is not that of the forces alone, so that the mean pull is not zero.
+    own -= own.mean(axis=0)
+    count = len(own)
+    inverse = np.linalg.inv(J.T @ J + WEAK * np.eye(len(x)))
+    spread: Array = np.sqrt(np.diag(sandwich(inverse, own.T @ own * count / max(1, count - 1))))
+    return spread
 
 
 def reflected(X: Array, low: Array, high: Array) -> Array:

@@ -1,4 +1,4 @@
-"""The paper's four-step parameterisation (Section 3.2) in one call, and what the records say about its result."""
+"""The paper's four-step parameterisation (Section 3.2) as one function, and the intervals of its result."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -10,11 +10,14 @@ from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
 from twintube.engine.simulate import InputError
+from twintube.fitting.harmonic import Harmonic
+from twintube.fitting.parameters import DEGRADATION, TABLE_6, TABLES_7_8
 from twintube.identification.intact import identify_intact, quasi_static
-from twintube.identification.objective import FINE, TABLE_6, TABLES_7_8, Harmonic, Objective
+from twintube.identification.objective import FINE, Objective
 from twintube.identification.optimise import Best, minimise
 from twintube.identification.sines import identify_sines
 from twintube.identification.uncertainty import Estimate, estimates, polished
+from twintube.provenance import fingerprint
 
 SLOW = 0.53  # Table 6 is fitted to records up to 0.5 m/s, which is the bench's 0.524 m/s
 # A few percent of cavitation per stroke empty a chamber within a block: the search looks more closely at small shares.
@@ -43,7 +46,7 @@ QUICK = Budget((24, 40), (40, 60), (32, 200), (40, 200))
 
 @dataclass(frozen=True)
 class Step:
-    """One search: what it changed and how far it came."""
+    """A search: the parameters that it changed and its best error."""
 
     title: str
     names: tuple[str, ...]
@@ -59,7 +62,7 @@ class Identification:
     steps: list[Step]
     estimates: list[Estimate]
     pairs: list[tuple[str, str, float]]  # parameters that the records hardly tell apart, with their correlation
-    offset: float  # zero of the load cell [N] found beside, only without a quasi-static record
+    offset: float  # zero of the load cell [N], sought only without a quasi-static record
     remarks: list[str]
 
 
@@ -109,14 +112,14 @@ def identify_damper(
         low, high = objective.bounds.T
 
         def natural(U: Array) -> Array:
-            found: Array = low + (high - low) * U**power
-            return found
+            values: Array = low + (high - low) * U**power
+            return values
 
         best = minimise(
             lambda U: objective(natural(U)), np.tile([0.0, 1.0], (len(low), 1)), method=how,
             population=size[0], generations=size[1], seed=seed,
             start=None if start is None else ((start - low) / (high - low)) ** (1 / power),
-            journal=path(journal, len(steps), objective),
+            journal=journal_file(journal, len(steps), objective),
             progress=None if progress is None else lambda error: progress(title, error),
         )  # fmt: skip
         steps.append(Step(title, objective.names, replace(best, x=natural(best.x)), "N + J" if objective.with_work else "N"))
@@ -129,10 +132,10 @@ def identify_damper(
     else:
         remarks.append(f"no degraded record up to {SLOW} m/s: Table 6 is fitted together with the others")
     full = Objective(damper, TABLES_7_8, degraded, with_work=True)
-    damper = full.damper(search("Tables 7 and 8", full, budget.tables_7_8, method))
-    # The third step leaves out foam, which its own records may hold: all parameters once more together, from what the
-    # four steps found and, as the error has many valleys, from the middle of the ranges.
-    names = (*TABLE_6, *TABLES_7_8)
+    damper = full.damper_at(search("Tables 7 and 8", full, budget.tables_7_8, method))
+    # The third step leaves out foam, which its own records may hold: all parameters once more together, from the result
+    # of the four steps and, as the error has many valleys, from the middle of the ranges.
+    names = DEGRADATION
     every = Objective(damper, names, degraded, with_work=True)
     reached = np.clip([getattr(damper.parameters, name) for name in names], *every.bounds.T)
     candidates = [
@@ -143,26 +146,29 @@ def identify_damper(
     fine = Objective(damper, names, degraded, with_work=True, samples=FINE)
     candidates += [polished(fine, candidate) for candidate in candidates[1:]]
     x = candidates[int(np.argmin(fine(np.array(candidates))))]
-    # How far the sampling alone moves the optimum: an error that no noise tells.
+    # How far the sampling alone moves the optimum: an error that the noise does not show.
     moved = np.abs(polished(every, x) - x)
     every = every.corrected(fine, x)
-    found, related = estimates(
+    intervals, related = estimates(
         every, x, moved, walkers=budget.intervals[0], steps=budget.intervals[1], seed=seed,
-        journal=path(journal, len(steps), every),
+        journal=journal_file(journal, len(steps), every),
         progress=None if progress is None else lambda error: progress("intervals", error),
     )  # fmt: skip
     pairs = [
         (names[i], names[j], float(related[i, j]))
         for i in range(len(names))
         for j in range(i)
-        if abs(related[i, j]) > 0.9 and found[i].determined and found[j].determined
+        if abs(related[i, j]) > 0.9 and intervals[i].determined and intervals[j].determined
     ]
-    return Identification(every.damper(x), steps, found, pairs, offset, remarks)
+    return Identification(every.damper_at(x), steps, intervals, pairs, offset, remarks)
 
 
-def path(folder: Path | None, number: int, objective: Objective) -> Path | None:
-    """The journal of a step, named after what its values depend on."""
-    return None if folder is None else folder / f"{number}_{objective.digest}.jsonl"
+def journal_file(folder: Path | None, number: int, objective: Objective) -> Path | None:
+    """The journal of a step, named after all that its values depend on: the objective's inputs and the program.
+
+    A run that is resumed after an upgrade computes anew instead of mixing the values of two programs.
+    """
+    return None if folder is None else folder / f"{number}_{objective.digest}_{fingerprint(__name__)}.jsonl"
 
 
 def first_step(
@@ -172,7 +178,7 @@ def first_step(
     slow_lost: Sequence[tuple[float, Slow]],
     remarks: list[str],
 ) -> tuple[Damper, float]:
-    """F-v curve, friction and gas spring, and the zero of the load cell [N] where sines alone had to tell."""
+    """F-v curve, friction and gas spring, and the zero of the load cell [N] where only sines show it."""
     offset = 0.0
     if slow is not None and len(intact) >= 2:
         damper = identify_intact(damper, slow, intact)
@@ -184,7 +190,7 @@ def first_step(
         )
     else:
         remarks.append("no intact harmonic record: F-v curve, friction and gas spring are those of the given parameter set")
-    if offset > 0.0:
+    if round(offset, 1) > 0.0:
         remarks.append(
             f"a constant {offset:.1f} N pulls the rod in, which no gas does: a zero of the load cell, or both signs turned "
             "(force_sign = -1 and stroke_sign = -1 in dataset.toml)"
@@ -197,4 +203,4 @@ def first_step(
             rises.append((q.F_FrS / damper.parameters.F_FrS - 1.0) / (1.0 - level))
     if rises:
         damper = damper.with_(oil_loss_gain=float(np.clip(np.mean(rises), 0.0, 5.0)))
-    return replace(damper, measured_levels=damper.measured_levels), offset
+    return damper, offset

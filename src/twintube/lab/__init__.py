@@ -1,1 +1,1 @@
-"""Truth that is not our model: a damper of other physics, and datasets in which something is hidden."""
+"""Test data independent of the model: a damper with other physics, and datasets with a hidden effect or fault."""

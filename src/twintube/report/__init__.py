@@ -1,5 +1,4 @@
-"""Reports: the paper's figures reproduced, as one HTML page with pictures and JSON."""
+"""Reports as HTML pages with pictures: the paper's figures reproduced, an identification, a diagnosis.
 
-from twintube.report.reproduce import Report, reproduce
-
-__all__ = ["Report", "reproduce"]
+Nothing is imported here: the reproduction needs the extras of identification and formats, the page of a diagnosis does not.
+"""

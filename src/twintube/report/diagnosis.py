@@ -1,5 +1,6 @@
 """The page of `twintube diagnose`: what is wrong with the damper or its measurement, how sure that is, what to do next."""
 
+import itertools
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -7,17 +8,19 @@ from typing import Any
 import numpy as np
 
 from twintube.core.effects import EFFECTS, Parameters
-from twintube.diagnosis.result import Cause, Diagnosis, Errors
-from twintube.diagnosis.where import FALSE_ALARM
+from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.result import Cause, Diagnosis, Errors, Estimate
+from twintube.diagnosis.rules import RULES
 from twintube.files import write_bytes, write_text
+from twintube.readable import MISSING, amount, digits, percent, unit_of, with_interval
 from twintube.report import style
 from twintube.report.diagnosis_pictures import MOST, pictures, shown_record
 from twintube.report.diagnosis_records import compared, models, name_of, noise, ranked
-from twintube.report.engineering import MISSING, amount, digits, is_share, meaning, percent, title_of, unit_of, with_interval
+from twintube.report.engineering import is_share, meaning, title_of
 from twintube.report.page import Headline, Picture, Section, Table, html
 
 BADGES = {  # verdict -> badge, class of the style sheet
-    "cause": ("cause found", "found"),
+    "cause": ("cause named", "found"),
     "none": ("nothing missing", "yes"),
     "recalibrate": ("recalibrate", "warn"),
     "ambiguous": ("cannot tell apart", "warn"),
@@ -27,8 +30,8 @@ BADGES = {  # verdict -> badge, class of the style sheet
 SPLITS = {"heldout": "held-out records", "fit": "fitted records"}
 ROWS = {"noise_floor": "noise floor"}
 AGREES = (
-    "The base model agrees with the measurement within the noise: no effect needs to be added and no parameter changed. "
-    "The pictures below show the agreement."
+    "The error of the base model is that of the noise and of the numerics: no effect needs to be added and no parameter "
+    "changed. The pictures below show the agreement."
 )
 RESIDUAL = "Residual: measured less simulated force, so that positive values are force that the model lacks."
 
@@ -45,57 +48,73 @@ def headline(d: Diagnosis) -> Headline:
     labels = ROWS | {m.name: m.label for m in models(d)}
     tiles = []
     for name in ("base", *(m.name for m in compared(d)[1:]), "noise_floor"):
-        found = error(d, split, name)
-        if found and np.isfinite(found.force_rmse_N):
+        errors = error(d, split, name)
+        if errors and np.isfinite(errors.force_rmse_N):
             label = labels[name]
-            tiles.append((amount(found.force_rmse_N, "N"), f"{label}, force error on {SPLITS[split]}"))
+            tiles.append((amount(errors.force_rmse_N, "N"), f"{label}, force error on {SPLITS[split]}"))
     if d.causes:
-        gain = d.causes[0].gain
-        which = "the largest cause explains" if len(d.causes) > 1 else "explained"
-        low, high = gain.heldout_interval
-        tiles.append((percent(gain.heldout), f"{which} on held-out records, 95 %: {percent(low)} to {percent(high)}"))
-        tiles.append((percent(gain.worst_record), "of it in the worst held-out record"))
+        first = d.causes[0]
+        which = "putting the fault right explains" if first.effect in PUT_RIGHT else "explained"
+        if first.effect not in PUT_RIGHT and len(d.causes) > 1:
+            which = "all causes together explain"
+        low, high = first.gain.heldout_interval
+        tiles.append((percent(first.gain.heldout), f"{which} on held-out records, 95 %: {percent(low)} to {percent(high)}"))
+        tiles.append((percent(first.gain.worst_record), "in the worst held-out record"))
     return Headline(d.sentence, badge, mark, tiles)
 
 
 def lead(d: Diagnosis) -> list[str]:
-    """What there is to say in words."""
-    found = []
+    """The paragraphs below the verdict."""
+    paragraphs = []
     for cause in d.causes:
         effect = EFFECTS.get(cause.effect)
         errs = f" What a model without it gets wrong: {effect.absence}" if effect else ""
-        found.append(f"{cause.title}: {cause.explanation}{errs}")
+        paragraphs.append(f"{cause.title}: {cause.explanation}{errs}")
     if d.verdict == "none":
-        found.append(AGREES)
+        paragraphs.append(AGREES)
     elif d.where:
-        found.append(f"Where the base model is wrong: {d.where}")
-    counts = ", ".join(f"in {len(d.structure[m.name])} for the {m.label}" for m in compared(d))
-    test = f"signs of neighbouring intervals, {percent(FALSE_ALARM)} false alarms"
-    found.append(f"Of {len(d.records)} records the residual is more than white noise {counts} ({test}).")
+        paragraphs.append(f"Where the base model is wrong: {d.where}")
+    counts = ", ".join(f"{len(d.structure[m.name])} for the {m.label}" for m in compared(d))
+    test = f"signs of neighbouring intervals, {percent(RULES.structure_alarm)} false alarms"
+    paragraphs.append(
+        f"Records of {len(d.records)} in which the residual, however small, is not white noise: {counts} ({test})."
+    )
     if d.signature:
-        found.append(f"What no candidate explains: {d.signature}")
-    return found
+        paragraphs.append(f"What no candidate explains: {d.signature}")
+    return paragraphs
+
+
+def doubt(f: Estimate, share: bool) -> str:
+    """Why a value is not to be relied on, with its range in the unit of the value."""
+    if not (f.at_bound and f.bounds):
+        return f.doubt
+    name, factor = unit_of(f.unit, f.value, share)
+    low, high = (f"{x * factor:.4g}" for x in f.bounds)
+    return f"at the end of its range, {low} to {high} {name}".rstrip()
 
 
 def cause_tables(causes: list[Cause]) -> list[Table]:
-    """Parameters and gains of what was found."""
+    """Values and gains of the causes."""
     parameters = []
     for cause in causes:
         for name, f in cause.parameters.items():
-            value, span = with_interval(f.value, f.low, f.high, f.unit, is_share(cause.effect, name))
-            parameters.append([cause.title, name, meaning(name), value, span, f.doubt])
+            share = is_share(cause.effect, name)
+            value, span = with_interval(f.value, f.low, f.high, f.unit, share)
+            parameters.append([cause.title, name, meaning(name), value, span, doubt(f, share)])
+    # Causes that act together have a gain in common.
     gains = [
-        [c.title, percent(c.gain.heldout), " to ".join(percent(x) for x in c.gain.heldout_interval),
-         percent(c.gain.worst_record), percent(c.gain.fit)]
-        for c in causes
+        [" and ".join(c.title for c in together), percent(g.heldout), " to ".join(percent(x) for x in g.heldout_interval),
+         percent(g.worst_record), percent(g.fit)]
+        for g, together in itertools.groupby(causes, key=lambda c: c.gain)
     ]  # fmt: skip
-    found = []
+    tables = []
     if parameters:
-        found.append(Table(["cause", "parameter", "", "value", "95 % interval", ""], parameters, "What was found", (3, 4)))
+        tables.append(Table(["cause", "parameter", "", "value", "95 % interval", ""], parameters, "Values", (3, 4)))
     if gains:
         head = ["cause", "held-out records", "95 % interval", "worst held-out record", "fitted records"]
-        found.append(Table(head, gains, "Share of the explainable squared force error that goes away", (1, 2, 3, 4)))
-    return found
+        title = "Share of the explainable squared force error of all records together that goes away"
+        tables.append(Table(head, gains, title, (1, 2, 3, 4)))
+    return tables
 
 
 def changes(d: Diagnosis) -> Table | None:
@@ -141,8 +160,8 @@ def record_table(d: Diagnosis) -> Table:
     """Every record with its errors."""
     shown = models(d)
     rows = [
-        [r.case.name, "held out" if r.split == "heldout" else "fitted", name_of(r),
-         *(amount(r.rms(m.force(r)), "N") for m in shown), amount(noise(r), "N"), amount(r.case.peak, "N")]
+        [r.record.name, "held out" if r.split == "heldout" else "fitted", name_of(r),
+         *(amount(r.rms(m.force(r)), "N") for m in shown), amount(noise(r), "N"), amount(r.record.peak, "N")]
         for r in ranked(d)
     ]  # fmt: skip
     head = ["record", "", "state", *(m.label for m in shown), "noise floor", "peak force"]
@@ -157,59 +176,61 @@ def tried_table(d: Diagnosis) -> Table | None:
         for t in sorted(d.tried, key=lambda t: (t.round, t.decision != "chosen", -t.heldout_gain))
     ]  # fmt: skip
     head = ["round", "candidate", "gain", "95 % interval", "", "reason"]
-    return Table(head, rows, "What was tried; gain on held-out records against the round before", (2, 3)) if rows else None
+    title = "What was tried; gain: share of the log-likelihood of held-out records, against the round before"
+    return Table(head, rows, title, (2, 3)) if rows else None
 
 
 def alternative_table(d: Diagnosis) -> Table | None:
     """What explains the data about as well."""
     rows = [[title_of(a.effect), percent(a.heldout_gain), a.separable_by] for a in d.alternatives]
-    return Table(["alternative", "gain", "what would tell it apart"], rows, "Alternatives", (1,)) if rows else None
+    title = "Alternatives; gain: share of the squared error of a typical held-out record"
+    return Table(["alternative", "gain", "what would tell it apart"], rows, title, (1,)) if rows else None
 
 
 def sections(d: Diagnosis, drawn: dict[str, Picture]) -> list[Section]:
     """The page below the verdict; what has nothing to show is left out."""
     best = compared(d)[1:]
     has = [drawn[name] for name in ("loops", "work") if name in drawn]
-    found = [Section("compared", "Force and work, measured and simulated", pictures=has)] if has else []
+    parts = [Section("compared", "Force and work, measured and simulated", pictures=has)] if has else []
     has = [drawn[name] for name in ("maps", "residual") if name in drawn]
     if has:
         title = "Residual before and after" if best else "Residual"
-        found.append(Section("residual", title, text=[RESIDUAL], pictures=has))
+        parts.append(Section("residual", title, text=[RESIDUAL], pictures=has))
     if d.records:
         tables = [t for t in (totals(d), changes(d) if d.verdict != "recalibrate" else None, record_table(d)) if t]
-        found.append(Section("records", "Errors of all records", pictures=[drawn["errors"]], tables=tables))
+        parts.append(Section("records", "Errors of all records", pictures=[drawn["errors"]], tables=tables))
     tables = [t for t in (alternative_table(d) if d.verdict != "ambiguous" else None, tried_table(d)) if t]
     if tables:
         has = [drawn["ranking"]] if "ranking" in drawn else []
-        found.append(Section("candidates", "Candidates", pictures=has, tables=tables))
+        parts.append(Section("candidates", "Candidates", pictures=has, tables=tables))
     if d.next_measurements:
-        found.append(Section("next", "What to measure next", items=d.next_measurements))
+        parts.append(Section("next", "What to measure next", items=d.next_measurements))
     if d.remarks:
-        found.append(Section("remarks", "Remarks", items=d.remarks))
-    return found
+        parts.append(Section("remarks", "Remarks", items=d.remarks))
+    return parts
 
 
 def captions(d: Diagnosis) -> dict[str, str]:
-    """What is said below each picture; also what a reader is told who cannot see it."""
-    shown = shown_record(d).case.name if d.records else ""
+    """The text below each picture, which is also its alternative text."""
+    record = shown_record(d).record.name if d.records else ""
     many = max((sum(r.split == split for r in d.records) for split in SPLITS), default=0) > MOST
     which = f"the {MOST} worst records of each kind" if many else "every record"
     return {
         "loops": "Mean force over stroke (left) and over velocity (right), first and last oscillation of the fastest block. "
                  "The records of the largest base error, held-out ones first.",
-        "work": "Work per oscillation of the same records.",
+        "work": "Work per oscillation of these records.",
         "maps": "Root mean square of the residual over each quantity; bars: mean residual of the base model with its sign.",
-        "residual": f"Residual over time, record {shown}.",
+        "residual": f"Residual over time, record {record}.",
         "errors": f"Error of {which}, held-out ones shaded.",
-        "ranking": "Gain: share of the explainable squared force error of the held-out records that a candidate takes away, "
-                   "with its 95 % interval. A triangle at the left edge: it makes things much worse.",
+        "ranking": "Gain: share of the log-likelihood of the held-out records that a candidate takes away, with its 95 % "
+                   "interval. A triangle at the left edge: it makes things much worse.",
     }  # fmt: skip
 
 
 def page(d: Diagnosis, images: dict[str, bytes]) -> str:
     """The page with its pictures."""
-    told = captions(d)
-    drawn = {name: Picture(data, told[name], told[name]) for name, data in images.items()}
+    texts = captions(d)
+    drawn = {name: Picture(data, texts[name], texts[name]) for name, data in images.items()}
     tables = cause_tables(d.causes)
     first = {"recalibrate": changes, "ambiguous": alternative_table}.get(d.verdict)
     carrying = first(d) if first else None

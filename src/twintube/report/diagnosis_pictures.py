@@ -2,6 +2,7 @@
 
 import itertools
 import textwrap
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from matplotlib.ticker import MaxNLocator
 
 from twintube.arrays import Array
 from twintube.diagnosis.result import Diagnosis, Map, RecordResult, Tried
+from twintube.diagnosis.rules import RULES
+from twintube.readable import unit_of
 from twintube.report import style
 from twintube.report.diagnosis_records import (
     Model,
@@ -24,19 +27,20 @@ from twintube.report.diagnosis_records import (
     parts,
     ranked,
     rests,
-    telling,
+    shown,
     work,
 )
-from twintube.report.engineering import title_of, unit_of
+from twintube.report.engineering import title_of
 
 MOST = 30  # records per split in the chart of errors
 FLOOR, CEILING = -0.5, 1.05  # of the explainable error: what the chart of gains shows
 BASE_MARK = "--o"
 FEW = 4  # bins of a map
+SEPARATE = ("oil level", "frequency")  # quantities whose values are states of their own: no line joins them
 DENSE = 300  # points of a curve that would hide one another
 LEAST = 6.5  # width of a picture [inch] that has room for its legend
 NAME = 32  # letters of a record's name
-DECISIONS = {"chosen": style.RED, "alternative": style.ORANGE, "rejected": style.GREY}
+DECISIONS = {"chosen": style.RED, "rejected": style.GREY}
 
 
 def small_title(ax: Axes, text: str) -> None:
@@ -55,52 +59,52 @@ def hidden(axes: Any, used: int, text: str = "") -> None:
 
 
 def loops(d: Diagnosis) -> Figure:
-    """Force over stroke and over velocity of the telling records, one row each."""
-    chosen = telling(d)
-    columns = 2 * max(len(parts(r.case)) for r in chosen)
+    """Force over stroke and over velocity of the shown records, a row each."""
+    chosen = shown(d)
+    columns = 2 * max(len(parts(r.record)) for r in chosen)
     figure, axes = style.canvas(len(chosen), columns, (11.0, 2.15 * len(chosen) + 0.7), sharey="row")
-    for row, record in zip(axes, chosen, strict=True):
-        case = record.case
-        some = list(itertools.product(((case.stroke, 1e3), (case.velocity, 1.0)), parts(case)))
+    for row, result in zip(axes, chosen, strict=True):
+        record = result.record
+        some = list(itertools.product(((record.stroke, 1e3), (record.velocity, 1.0)), parts(record)))
         for ax, ((signal, factor), (which, ends)) in zip(row, some, strict=False):
             at = middle(signal, ends) * factor
             thin = 1.0 if len(ends) < DENSE else 0.4
-            ax.plot(at, record.measured[ends], "o", color=style.INK, ms=2.5 * thin, mew=0, zorder=3, label="measured")
-            for model in drawn(record, compared(d)):
-                ax.plot(at, model.force(record)[ends], model.dash, color=model.colour, lw=1.2 * thin, label=model.label)
+            ax.plot(at, result.measured[ends], "o", color=style.INK, ms=2.5 * thin, mew=0, zorder=3, label="measured")
+            for model in drawn(result, compared(d)):
+                ax.plot(at, model.force(result)[ends], model.dash, color=model.colour, lw=1.2 * thin, label=model.label)
             small_title(ax, which)
-            ax.set_xlabel("stroke [mm]" if signal is case.stroke else "velocity [m/s]", fontsize=8)
+            ax.set_xlabel("stroke [mm]" if signal is record.stroke else "velocity [m/s]", fontsize=8)
         for ax in row[len(some) :]:
             ax.set_visible(False)
-        held = "held out" if record.split == "heldout" else "fitted"
-        row[0].set_ylabel("\n".join([*textwrap.wrap(name_of(record), 22), held, "force [N]"]), fontsize=8.5)
+        held = "held out" if result.split == "heldout" else "fitted"
+        row[0].set_ylabel("\n".join([*textwrap.wrap(name_of(result), 22), held, "force [N]"]), fontsize=8.5)
     style.legend_above(figure, *axes[:, 0])
     return figure
 
 
 def works(d: Diagnosis) -> Figure | None:
     """Work over the number of the oscillation; nothing where no record has three of them."""
-    chosen = [r for r in telling(d) if len(oscillations(r.case)) >= 3]
+    chosen = [r for r in shown(d) if len(oscillations(r.record)) >= 3]
     if not chosen:
         return None
     columns = min(3, len(chosen))
     rows = -(-len(chosen) // columns)
     figure, axes = style.canvas(rows, columns, (max(LEAST, 3.7 * columns), 2.5 * rows + 0.5))
-    for ax, record in zip(axes.flat, chosen, strict=False):
-        measured = work(record.case, record.measured)
+    for ax, result in zip(axes.flat, chosen, strict=False):
+        measured = work(result.record, result.measured)
         number = np.arange(1, len(measured) + 1)
         ax.plot(number, measured, "o", color=style.GREY, ms=5, label="measured")
-        for model in drawn(record, compared(d)):
+        for model in drawn(result, compared(d)):
             ax.plot(
-                number, work(record.case, model.force(record)), model.dash, color=model.colour, lw=1.5, label=model.label
+                number, work(result.record, model.force(result)), model.dash, color=model.colour, lw=1.5, label=model.label
             )
-        for i, rest in enumerate(rests(record.case)):
+        for i, rest in enumerate(rests(result.record)):
             ax.axvline(rest + 0.5, color=style.INK, lw=0.7, ls=":", label="rest" if i == 0 else None)
         low, high = ax.get_ylim()
         spread = 0.08 * float(np.abs(measured).mean())
         ax.set_ylim(min(low, measured.mean() - spread), max(high, measured.mean() + spread))
         ax.xaxis.set_major_locator(MaxNLocator(integer=True))
-        small_title(ax, f"{name_of(record)}{', held out' if record.split == 'heldout' else ''}")
+        small_title(ax, f"{name_of(result)}{', held out' if result.split == 'heldout' else ''}")
     style.label(axes, "", "work [J]")
     hidden(axes, len(chosen), "oscillation")
     style.legend_above(figure, *axes.flat)
@@ -109,71 +113,77 @@ def works(d: Diagnosis) -> Figure | None:
 
 def maps(d: Diagnosis) -> Figure:
     """Root mean square and sign of the residual over every quantity of the maps."""
-    found = [m for m in d.maps if np.isfinite(m.base).any()]
-    columns = min(3, len(found))
-    rows = -(-len(found) // columns)
+    several = [m for m in d.maps if np.isfinite(m.base).any()]
+    columns = min(3, len(several))
+    rows = -(-len(several) // columns)
     figure, axes = style.canvas(rows, columns, (max(LEAST, 3.7 * columns), 2.6 * rows + 0.6))
     best = compared(d)[1:]
-    for ax, one in zip(axes.flat, found, strict=False):
-        draw_map(ax, one, best)
-    hidden(axes, len(found))
+    for ax, m in zip(axes.flat, several, strict=False):
+        draw_map(ax, m, best)
+    hidden(axes, len(several))
     for ax in axes[:, 0]:
         ax.set_ylabel("residual [N]")
     style.legend_above(figure, axes[0, 0])
     return figure
 
 
-def draw_map(ax: Axes, one: Map, best: list[Model]) -> None:
-    """One panel of the maps; few bins, such as oil levels, stand side by side."""
-    name, factor = unit_of(one.unit, float(np.abs(one.centres).max()))
-    at = one.centres * factor
-    if len(at) <= FEW:
-        ax.set_xticks(range(len(at)), [f"{x:.4g}" for x in at])
+def draw_map(ax: Axes, m: Map, best: list[Model]) -> None:
+    """A panel of the maps; few bins, and those of states such as oil levels, stand side by side."""
+    separate = m.quantity in SEPARATE and len(m.centres) <= RULES.bins
+    if separate:  # without the empty bins
+        kept = np.isfinite(m.base)
+        m = replace(m, **{f: getattr(m, f)[kept] for f in ("centres", "base", "extended", "noise", "mean")})
+    name, factor = unit_of(m.unit, float(np.abs(m.centres).max()))
+    at = m.centres * factor
+    if len(at) <= FEW or separate:
+        many = len(at) > FEW
+        ax.set_xticks(range(len(at)), [f"{x:.3g}" for x in at], rotation=60 if many else 0, fontsize=7 if many else None)
         at = np.arange(len(at), dtype=float)
         ax.set_xlim(-0.7, len(at) - 0.3)
     between = (at[1:] + at[:-1]) / 2
     half = (at[1] - at[0]) / 2 if len(at) > 1 else 0.5
     edges = np.concatenate([[at[0] - half], between, [2 * at[-1] - between[-1] if len(at) > 1 else at[0] + half]])
     pairs = np.repeat(edges, 2)[1:-1]
-    ax.fill_between(pairs, 0.0, np.repeat(one.noise, 2), color=style.FAINT, alpha=0.6, lw=0, label="noise floor")
-    ax.bar(edges[:-1], np.nan_to_num(one.mean), 0.94 * np.diff(edges), align="edge", color=style.BLUE, alpha=0.28, lw=0,
+    ax.fill_between(pairs, 0.0, np.repeat(m.noise, 2), color=style.FAINT, alpha=0.6, lw=0, label="noise floor")
+    ax.bar(edges[:-1], np.nan_to_num(m.mean), 0.94 * np.diff(edges), align="edge", color=style.BLUE, alpha=0.28, lw=0,
            label="base model, mean with its sign")  # fmt: skip
-    ax.plot(at, one.base, BASE_MARK, color=style.BLUE, lw=1.3, ms=4, label="base model, root mean square")
+    base, line = (BASE_MARK, "-s") if not separate else ("o", "s")
+    ax.plot(at, m.base, base, color=style.BLUE, lw=1.3, ms=4, label="base model, root mean square")
     for model in best:
-        if not np.allclose(one.extended, one.base, rtol=1e-6, equal_nan=True):
-            ax.plot(at, one.extended, "-s", color=model.colour, lw=1.3, ms=3.5, label=f"{model.label}, root mean square")
+        if not np.allclose(m.extended, m.base, rtol=1e-6, equal_nan=True):
+            ax.plot(at, m.extended, line, color=model.colour, lw=1.3, ms=3.5, label=f"{model.label}, root mean square")
     ax.axhline(0.0, color=style.INK, lw=0.7)
-    ax.set_xlabel(f"{one.quantity} [{name}]" if name else one.quantity)
+    ax.set_xlabel(f"{m.quantity} [{name}]" if name else m.quantity)
 
 
 def residual(d: Diagnosis) -> Figure:
     """Residual over time of the record of the largest base error: all of it, and two oscillations near its ends."""
-    record = telling(d)[0]
-    case = record.case
-    block = oscillations(case)
+    result = shown_record(d)
+    record = result.record
+    block = oscillations(record)
     zoomed = len(block) >= 5
     figure, axes = style.canvas(2 if zoomed else 1, 2, (11.0, 5.0 if zoomed else 2.9), sharey=True)
     whole = axes[0, 0]
     whole.set_subplotspec(whole.get_gridspec()[0, :])
     axes[0, 1].remove()
-    rest = np.flatnonzero(np.diff(case.stretch) != 0) + 1
-    named = f"{name_of(record)}{', held out' if record.split == 'heldout' else ''}"
-    windows = [(whole, np.arange(1, len(case.time)), f"{named}: whole record")]
+    rest = np.flatnonzero(np.diff(record.stretch) != 0) + 1
+    named = f"{name_of(result)}{', held out' if result.split == 'heldout' else ''}"
+    windows = [(whole, np.arange(1, len(record.time)), f"{named}: whole record")]
     if zoomed:
         windows.append((axes[1, 0], np.concatenate(block[:2]), "oscillations 1 and 2"))
         windows.append((axes[1, 1], np.concatenate(block[-2:]), f"oscillations {len(block) - 1} and {len(block)}"))
     for ax, ends, text in windows:
         ax.fill_between(
-            case.time[ends], -2 * case.noise[ends], 2 * case.noise[ends], color=style.FAINT, alpha=0.6, lw=0,
+            record.time[ends], -2 * record.noise[ends], 2 * record.noise[ends], color=style.FAINT, alpha=0.6, lw=0,
             label="noise, ± 2 standard deviations",
         )  # fmt: skip
-        for model in drawn(record, compared(d)):
-            values = record.measured - model.force(record)
+        for model in drawn(result, compared(d)):
+            values = result.measured - model.force(result)
             values[rest] = np.nan
             dash = "-" if ax is whole else model.dash
             lw = 0.6 if ax is whole and zoomed else 1.2
-            ax.plot(case.time[ends], values[ends], dash, color=model.colour, lw=lw, label=model.label)
-        ax.set_xlim(float(case.time[ends[0]]), float(case.time[ends[-1]]))
+            ax.plot(record.time[ends], values[ends], dash, color=model.colour, lw=lw, label=model.label)
+        ax.set_xlim(float(record.time[ends[0]]), float(record.time[ends[-1]]))
         ax.set_xlabel("time [s]")
         small_title(ax, text)
     for ax in (whole, *([axes[1, 0]] if zoomed else [])):
@@ -183,7 +193,7 @@ def residual(d: Diagnosis) -> Figure:
 
 
 def errors(d: Diagnosis) -> Figure:
-    """Error of every record, base to best; the worst ones where there are many."""
+    """Error of every record, base to best; the worst where there are many."""
     ordered = ranked(d)
     kept = [
         r
@@ -212,7 +222,7 @@ def errors(d: Diagnosis) -> Figure:
         ax.set_xlim(left=0.0)
     ax.set_yticks(
         rows,
-        [f"{short(r.case.name)}  ({name_of(r)})" for r in kept],
+        [f"{style.plain(short(r.record.name))}  ({name_of(r)})" for r in kept],
         fontsize=8,
     )
     ax.set_ylim(len(kept) - 0.5, -0.5)
@@ -238,8 +248,8 @@ def ranking(d: Diagnosis) -> Figure:
     before: list[str] = []
     for ax, tried in zip(axes[0], rounds, strict=True):
         draw_ranking(ax, tried, rows, left)
-        told = f"Round {tried[0].round}" + (f", beside {' and '.join(before)}" if before else "")
-        small_title(ax, "\n".join(textwrap.wrap(told, 36)))
+        title = f"Round {tried[0].round}" + (f", with {' and '.join(before)}" if before else "")
+        small_title(ax, "\n".join(textwrap.wrap(title, 36)))
         before += [title_of(t.effect).lower() for t in tried if t.decision == "chosen"]
         ax.set_xlabel("gain [%]")
     axes[0, 0].set_yticks(range(len(rows)), [title_of(name) for name in rows], fontsize=8.5)
@@ -249,7 +259,7 @@ def ranking(d: Diagnosis) -> Figure:
 
 
 def draw_ranking(ax: Axes, tried: list[Tried], rows: list[str], left: float) -> None:
-    """One round."""
+    """A round."""
     ax.axvline(0.0, color=style.INK, lw=0.8)
     for decision, colour in DECISIONS.items():
         some = [t for t in tried if t.decision == decision]
@@ -273,18 +283,18 @@ def clipped(x: Array, left: float) -> Array:
 
 def pictures(d: Diagnosis) -> dict[str, Figure]:
     """All pictures that this diagnosis has something to show in, by name, in the order of the page."""
-    found: dict[str, Figure | None] = {}
+    figures: dict[str, Figure | None] = {}
     if d.records:
-        found |= {"loops": loops(d), "work": works(d)}
+        figures |= {"loops": loops(d), "work": works(d)}
     if any(np.isfinite(m.base).any() for m in d.maps):
-        found["maps"] = maps(d)
+        figures["maps"] = maps(d)
     if d.records:
-        found |= {"residual": residual(d), "errors": errors(d)}
+        figures |= {"residual": residual(d), "errors": errors(d)}
     if d.tried:
-        found["ranking"] = ranking(d)
-    return {name: figure for name, figure in found.items() if figure is not None}
+        figures["ranking"] = ranking(d)
+    return {name: figure for name, figure in figures.items() if figure is not None}
 
 
 def shown_record(d: Diagnosis) -> RecordResult:
     """The record whose residual is drawn over time."""
-    return telling(d)[0]
+    return shown(d)[0]

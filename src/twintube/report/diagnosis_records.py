@@ -1,17 +1,19 @@
-"""What the pictures of a diagnosis are made of: telling records, oscillations, work, and which simulations differ."""
+"""What the pictures of a diagnosis show: records of the largest errors, oscillations, work, simulations that differ."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
-from twintube.diagnosis.prepare import Case
+from twintube.data.condition import is_intact
+from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.prepare import PreparedRecord
 from twintube.diagnosis.result import Diagnosis, RecordResult
+from twintube.diagnosis.rules import RULES
 from twintube.report import style
 
 SHOWN = 6  # records of which curves are drawn
-FAST = 1.5  # of the shortest oscillation: longer ones belong to another block
 
 
 @dataclass(frozen=True)
@@ -23,9 +25,9 @@ class Model:
     colour: str
     dash: str
 
-    def force(self, record: RecordResult) -> Array:
+    def force(self, result: RecordResult) -> Array:
         """Its force (n,) [N] in a record."""
-        force: Array = getattr(record, self.name)
+        force: Array = getattr(result, self.name)
         return force
 
 
@@ -33,31 +35,32 @@ BASE = Model("base", "base model", style.BLUE, "--")
 RECALIBRATED = Model("recalibrated", "recalibrated model", style.GREEN, "-")
 
 
-def alike(record: RecordResult, a: Array, b: Array) -> bool:
-    """Whether two simulations of a record are one and the same curve."""
-    return bool(np.allclose(a, b, rtol=0.0, atol=1e-6 * record.case.peak))
+def equal(result: RecordResult, a: Array, b: Array) -> bool:
+    """Whether two simulations of a record are equal curves."""
+    return bool(np.allclose(a, b, rtol=0.0, atol=1e-6 * result.record.peak))
 
 
 def models(d: Diagnosis) -> list[Model]:
     """The simulations that differ from one another in any record: base, recalibrated, extended."""
-    told = "fault accounted for" if d.verdict == "measurement_fault" else "extended model"
-    extended = Model("extended", told, style.RED, "-")
-    found = [BASE]
+    repaired = any(cause.effect in PUT_RIGHT for cause in d.causes)
+    label = "fault accounted for" if d.verdict == "measurement_fault" and not repaired else "extended model"
+    extended = Model("extended", label, style.RED, "-")
+    different = [replace(BASE, label="base model, fault put right") if repaired else BASE]
     for model in (RECALIBRATED, extended):
-        if all(any(not alike(r, model.force(r), other.force(r)) for r in d.records) for other in found):
-            found.append(model)
-    return found
+        if all(any(not equal(r, model.force(r), other.force(r)) for r in d.records) for other in different):
+            different.append(model)
+    return different
 
 
 def compared(d: Diagnosis) -> list[Model]:
     """The base model and, where there is one, the best of the others."""
-    found = models(d)
-    return [found[0], *found[1:][-1:]]
+    base, *others = models(d)
+    return [base, *others[-1:]]
 
 
-def drawn(record: RecordResult, chosen: list[Model]) -> list[Model]:
+def drawn(result: RecordResult, chosen: list[Model]) -> list[Model]:
     """Those of `chosen` that differ in this record."""
-    return [m for i, m in enumerate(chosen) if not any(alike(record, m.force(record), n.force(record)) for n in chosen[:i])]
+    return [m for i, m in enumerate(chosen) if not any(equal(result, m.force(result), n.force(result)) for n in chosen[:i])]
 
 
 def ranked(d: Diagnosis) -> list[RecordResult]:
@@ -65,37 +68,37 @@ def ranked(d: Diagnosis) -> list[RecordResult]:
     return sorted(d.records, key=lambda r: (r.split != "heldout", -r.rms(r.base)))
 
 
-def telling(d: Diagnosis) -> list[RecordResult]:
-    """Those of the largest base error, preferably held out and with oscillations."""
-    return sorted(ranked(d), key=lambda r: not oscillations(r.case))[:SHOWN]
+def shown(d: Diagnosis) -> list[RecordResult]:
+    """The records of which curves are drawn: the largest base errors, preferably held out and with oscillations."""
+    return sorted(ranked(d), key=lambda r: not oscillations(r.record))[:SHOWN]
 
 
-def oscillations(case: Case) -> list[NDArray[np.int64]]:
+def oscillations(record: PreparedRecord) -> list[NDArray[np.int64]]:
     """The main block: for each oscillation the samples at which its intervals end."""
-    within = case.stretch[1:] == case.stretch[:-1]
-    found = []
-    for number in np.unique(case.cycle[case.cycle >= 0]):
-        ends = np.flatnonzero((case.cycle[:-1] == number) & within) + 1
+    within = record.stretch[1:] == record.stretch[:-1]
+    every = []
+    for number in np.unique(record.cycle[record.cycle >= 0]):
+        ends = np.flatnonzero((record.cycle[:-1] == number) & within) + 1
         if len(ends) >= 4:
-            found.append(ends)
-    spans = [float(case.time[ends[-1]] - case.time[ends[0] - 1]) for ends in found]
-    return [ends for ends, span in zip(found, spans, strict=True) if span < FAST * min(spans)]
+            every.append(ends)
+    spans = [float(record.time[ends[-1]] - record.time[ends[0] - 1]) for ends in every]
+    return [ends for ends, span in zip(every, spans, strict=True) if span < RULES.block_factor * min(spans)]
 
 
-def parts(case: Case) -> list[tuple[str, NDArray[np.int64]]]:
+def parts(record: PreparedRecord) -> list[tuple[str, NDArray[np.int64]]]:
     """What is drawn of a record: the first and the last oscillation of the main block, or all of it."""
-    block = oscillations(case)
+    block = oscillations(record)
     if not block:
-        return [("whole record", np.flatnonzero(case.stretch[1:] == case.stretch[:-1]) + 1)]
+        return [("whole record", np.flatnonzero(record.stretch[1:] == record.stretch[:-1]) + 1)]
     # In the first interval the rig comes from another velocity.
-    first = [("first oscillation", closed(case, block[0][1:]))]
-    return first if len(block) == 1 else [*first, (f"oscillation {len(block)}", closed(case, block[-1]))]
+    first = [("first oscillation", closed(record, block[0][1:]))]
+    return first if len(block) == 1 else [*first, (f"oscillation {len(block)}", closed(record, block[-1]))]
 
 
-def closed(case: Case, ends: NDArray[np.int64]) -> NDArray[np.int64]:
-    """An oscillation with the interval that follows, or else the one before, so that its loop closes."""
+def closed(record: PreparedRecord, ends: NDArray[np.int64]) -> NDArray[np.int64]:
+    """An oscillation with the interval that follows or else the interval before, so that its loop closes."""
     after = int(ends[-1]) + 1
-    if after < len(case.time) and case.stretch[after] == case.stretch[after - 1]:
+    if after < len(record.time) and record.stretch[after] == record.stretch[after - 1]:
         return np.append(ends, after)
     return np.insert(ends, 0, max(1, int(ends[0]) - 1))
 
@@ -105,25 +108,25 @@ def middle(values: Array, ends: NDArray[np.int64]) -> Array:
     return (values[ends] + values[ends - 1]) / 2
 
 
-def work(case: Case, force: Array) -> Array:
+def work(record: PreparedRecord, force: Array) -> Array:
     """Work [J] of every oscillation of the main block."""
-    return np.array([float(force[ends] @ (case.stroke[ends] - case.stroke[ends - 1])) for ends in oscillations(case)])
+    return np.array([float(force[e] @ (record.stroke[e] - record.stroke[e - 1])) for e in oscillations(record)])
 
 
-def rests(case: Case) -> list[int]:
+def rests(record: PreparedRecord) -> list[int]:
     """Numbers of the main block's oscillations before which the damper rested."""
-    stretches = [int(case.stretch[ends[0]]) for ends in oscillations(case)]
+    stretches = [int(record.stretch[ends[0]]) for ends in oscillations(record)]
     return [i for i in range(1, len(stretches)) if stretches[i] != stretches[i - 1]]
 
 
-def noise(record: RecordResult) -> float:
+def noise(result: RecordResult) -> float:
     """Root mean square [N] of the noise of a record's intervals, as an error of a simulation counts them."""
-    return float(np.sqrt(np.mean(np.square(record.case.noise[1:]))))
+    return float(np.sqrt(np.mean(np.square(result.record.noise[1:]))))
 
 
-def name_of(record: RecordResult) -> str:
+def name_of(result: RecordResult) -> str:
     """A record with its state."""
-    case = record.case
-    usual = bool(case.preload) == (case.oil_level >= 0.995)
-    preload = "" if usual else ", with preload" if case.preload else ", no preload"
-    return f"{case.oil_level * 100:.0f} % oil{preload}, {case.top_speed:.3g} m/s"
+    record = result.record
+    usual = bool(record.gas_preload) == is_intact(record.oil_level, gas_preload=True)
+    preload = "" if usual else ", with preload" if record.gas_preload else ", no preload"
+    return f"{record.oil_level * 100:.0f} % oil{preload}, {record.top_speed:.3g} m/s"

@@ -1,4 +1,4 @@
-"""The damper identified from records, as `twintube identify` does it; kept as a parameter file beside the report."""
+"""The damper identified from records as by `twintube identify`, stored as a parameter file in the report's folder."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -11,7 +11,7 @@ from twintube.identification import Harmonic
 from twintube.identification.workflow import PAPER, Budget, identify_damper
 
 HOW = "identified from the virtual rig's records in the paper's four steps and two searches over all parameters together"
-# Small swarms for eight dampers in minutes; the walkers make intervals, which a report of curves does not show.
+# Small swarms: eight dampers in minutes. The walkers compute intervals, which this report does not show.
 QUICK = Budget(table_6=(32, 60), tables_7_8=(64, 120), together=(24, 100), intervals=(32, 2))
 
 
@@ -21,24 +21,24 @@ def fit(
     intact: Sequence[Harmonic],
     degraded: Sequence[Harmonic],
     *,
-    kept: Path,
+    file: Path,
     quick: bool,
     progress: Callable[[str, float], None] | None = None,
 ) -> Damper:
-    """The identified damper, or that of the file `kept` where an earlier run left it.
+    """The identified damper, read from `file` if an earlier run wrote it.
 
-    `slow` is stroke [m] and force [N] of the quasi-static record. A run that was killed goes on where it was.
+    `slow` is stroke [m] and force [N] of the quasi-static record. An interrupted run continues from its journal.
     """
-    if not kept.exists():
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        journal = kept.with_suffix("")
+    if not file.exists():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        journal = file.with_suffix("")
         journal.mkdir(exist_ok=True)
         budget = QUICK if quick else PAPER
-        found = identify_damper(damper, slow, intact, degraded, budget=budget, journal=journal, progress=progress).damper
-        write_text(kept, dampers.to_toml(found.with_(oil_level=1.0, gas_preload=1)))
-    return dampers.load(kept)
+        result = identify_damper(damper, slow, intact, degraded, budget=budget, journal=journal, progress=progress)
+        write_text(file, dampers.to_toml(result.damper.with_(oil_level=1.0, gas_preload=1)))
+    return dampers.load(file)
 
 
 def generations(quick: bool) -> int:
-    """How often `progress` is called at most."""
+    """Largest number of calls of `progress`."""
     return (QUICK if quick else PAPER).generations

@@ -1,4 +1,4 @@
-"""The page of `twintube identify`: what was found, how sure it is, and how it does on the records."""
+"""The page of `twintube identify`: parameters, their intervals, and the errors on the records."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from twintube.core.kernel import fluid_force
 from twintube.files import write_bytes, write_text
 from twintube.identification import Harmonic, Result
-from twintube.identification.dataset import is_intact, totals
+from twintube.identification.dataset import totals
 from twintube.identification.intact import fv_points
 from twintube.identification.validation import Validated, predicted
 from twintube.report import style
@@ -24,8 +24,8 @@ def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> Figure:
     figure, axes = style.canvas(rows, min(4, len(chosen)), (11.0, 2.9 * rows + 0.4))
     damper, offset = result.identification.damper, result.identification.offset
     for ax, (record, split) in zip(axes.flat, chosen, strict=False):
-        found = predicted(damper, record, offset)
-        for colour, name, force in ((style.GREY, "measured", record.force), (style.RED, "simulated", found)):
+        simulated = predicted(damper, record, offset)
+        for colour, name, force in ((style.GREY, "measured", record.force), (style.RED, "simulated", simulated)):
             for dash, which, (a, b) in (
                 ("-", "first", (record.marks[0], record.marks[1])),
                 (":", "last", (record.marks[-2], record.marks[-1])),
@@ -57,10 +57,10 @@ def works(rows: Sequence[Validated]) -> Figure:
             ax.plot(v, [r.work_simulated[i] for r in here], "-", color=colour, lw=1.3, label=f"simulated, {name}")
             for fitted in (True, False):
                 some = [r for r in here if (r.split != "heldout") is fitted]
-                told = f"measured, {'fitted' if fitted else 'held out'}, {name}" if some else None
+                label = f"measured, {'fitted' if fitted else 'held out'}, {name}" if some else None
                 measured = [r.work_measured[i] for r in some]
                 fill = colour if fitted else "white"
-                ax.plot([r.top_speed for r in some], measured, "o", ms=5, color=colour, mfc=fill, label=told)
+                ax.plot([r.top_speed for r in some], measured, "o", ms=5, color=colour, mfc=fill, label=label)
         style.title(ax, text)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
     style.label(axes, "velocity [m/s]", "work [J]")
@@ -73,7 +73,7 @@ def curve(result: Result) -> Figure:
     figure, axes = style.canvas(1, 1, (7.0, 4.0))
     ax = axes[0, 0]
     damper = result.identification.damper
-    intact = [h for h, _ in result.harmonics if is_intact(h)]
+    intact = [h for h, _ in result.harmonics if h.intact]
     v = np.linspace(-1, 1, 401) * max(h.top_speed for h, _ in result.harmonics)
     ax.plot(v, [fluid_force(damper.parameters, float(x)) for x in v], color=style.INK, label="identified")
     before = result.dataset.damper.parameters
@@ -90,15 +90,15 @@ def curve(result: Result) -> Figure:
 
 def intervals(result: Result) -> Figure:
     """Every parameter with its interval within its allowed range."""
-    found = result.identification.estimates
-    figure, axes = style.canvas(1, 1, (8.0, 0.3 * len(found) + 1.0))
+    estimates = result.identification.estimates
+    figure, axes = style.canvas(1, 1, (8.0, 0.3 * len(estimates) + 1.0))
     ax = axes[0, 0]
-    for i, e in enumerate(found):
+    for i, e in enumerate(estimates):
         low, width = e.bounds[0], e.bounds[1] - e.bounds[0]
         colour = style.BLUE if e.determined else style.FAINT
         ax.plot([(e.low - low) / width, (e.high - low) / width], [i, i], "-", lw=6, color=colour, solid_capstyle="butt")
         ax.plot((e.value - low) / width, i, "|", ms=12, mew=2, color=style.INK)
-    ax.set_yticks(range(len(found)), [e.name for e in found])
+    ax.set_yticks(range(len(estimates)), [e.name for e in estimates])
     ax.set_xlim(-0.02, 1.02)
     ax.invert_yaxis()
     ax.set_xlabel("share of the allowed range; grey: not determined by these records")
@@ -124,7 +124,7 @@ def drives(rows: Sequence[Validated]) -> Figure:
     at = np.arange(len(rows))
     ax.barh(at - 0.2, [r.relative_measured or 0.0 for r in rows], 0.38, color=style.GREY, label="measured")
     ax.barh(at + 0.2, [r.relative_simulated or 0.0 for r in rows], 0.38, color=style.RED, label="simulated")
-    ax.set_yticks(at, [r.name for r in rows], fontsize=8)
+    ax.set_yticks(at, [style.plain(r.name) for r in rows], fontsize=8)
     ax.invert_yaxis()
     ax.set_xlabel("work relative to the intact damper")
     style.legend_above(figure, ax)
@@ -138,9 +138,9 @@ def percent(part: dict[str, float | None] | None, what: str) -> list[str]:
 
     def work(which: str) -> str:
         text = f"{part[f'work_error_{which}']:.1%} (worst {part[f'work_error_{which}_worst']:.1%})"
-        beside = part[f"work_error_{which}_of_intact"]
-        if beside is not None:
-            text += f"; of the intact work {beside:.1%} (worst {part[f'work_error_{which}_of_intact_worst']:.1%})"
+        of_intact = part[f"work_error_{which}_of_intact"]
+        if of_intact is not None:
+            text += f"; of the intact work {of_intact:.1%} (worst {part[f'work_error_{which}_of_intact_worst']:.1%})"
         return text
 
     force = f"{part['force_rmse_N']:.1f} N, {part['force_rmse_of_peak']:.1%} of the peak"
@@ -148,17 +148,17 @@ def percent(part: dict[str, float | None] | None, what: str) -> list[str]:
 
 
 def parameter_table(result: Result) -> Table:
-    """All identified parameters with what is to be said about them."""
+    """All identified parameters with their intervals and doubts."""
     rows = []
     for e in result.identification.estimates:
-        said = ([] if e.determined else ["not determined"]) + (["at its bound"] if e.at_bound else [])
+        doubts = ([] if e.determined else ["not determined"]) + (["at its bound"] if e.at_bound else [])
         rows.append(
             [
                 e.name,
                 f"{e.value:.3g}",
                 f"{e.low:.3g} to {e.high:.3g}",
                 f"{e.bounds[0]:g} to {e.bounds[1]:.3g}",
-                ", ".join(said),
+                ", ".join(doubts),
             ]
         )
     return Table(
@@ -168,10 +168,10 @@ def parameter_table(result: Result) -> Table:
 
 def write_report(result: Result, folder: Path) -> list[Path]:
     """Write report.html and its pictures; returns the files."""
-    found = result.identification
+    identified = result.identification
     harmonics = [row for row in result.validation if row.measurement == "harmonic"]
     ordered = sorted(result.harmonics, key=lambda pair: (pair[1] != "heldout", pair[0].top_speed))
-    judged = [pair for pair in ordered if not is_intact(pair[0])] or ordered
+    judged = [pair for pair in ordered if not pair[0].intact] or ordered
     chosen = [judged[i] for i in sorted({round(x) for x in np.linspace(0, len(judged) - 1, min(LOOPS, len(judged)))})]
     errors = Table(
         ["records", "number", "force, root mean square", "work, first oscillation", "work, last oscillation"],
@@ -184,21 +184,22 @@ def write_report(result: Result, folder: Path) -> list[Path]:
     pictures = {"works": works(harmonics), "loops": loops(result, chosen), "fv_curve": curve(result)}
     sections = [
         section("works", "Work per oscillation", pictures, "Filled: fitted, open: held out."),
-        section(
-            "loops", "Force over stroke", pictures, "First and last oscillation of some records, the held-out ones first."
-        ),
+        section("loops", "Force over stroke", pictures, "First and last oscillation of some records, those held out first."),
         section("fv_curve", "F-v curve", pictures, "The first step of the identification."),
     ]
-    if found.estimates:
+    if identified.estimates:
         pictures |= {"intervals": intervals(result), "convergence": convergence(result)}
-        told = [f"{a} and {b} act alike on these records (correlation {c:.2f})" for a, b, c in found.pairs]
+        alike = [f"{a} and {b} act alike on these records (correlation {c:.2f})" for a, b, c in identified.pairs]
         sections.insert(0, Section(
-            "parameters", "Parameters", text=told, pictures=[picture(pictures["intervals"], "intervals")],
+            "parameters", "Parameters", text=alike, pictures=[picture(pictures["intervals"], "intervals")],
             tables=[parameter_table(result)],
         ))  # fmt: skip
         steps = Table(
             ["step", "parameters", "error", "evaluations"],
-            [[s.title, ", ".join(s.names), f"{s.best.error:.3g} {s.unit}", f"{s.best.evaluations}"] for s in found.steps],
+            [
+                [s.title, ", ".join(s.names), f"{s.best.error:.3g} {s.unit}", f"{s.best.evaluations}"]
+                for s in identified.steps
+            ],
         )
         sections.append(Section(
             "search", "Search", pictures=[picture(pictures["convergence"], "convergence")], tables=[steps],
@@ -229,5 +230,5 @@ def picture(figure: Figure, alt: str) -> Picture:
 
 
 def section(name: str, title: str, pictures: dict[str, Figure], text: str) -> Section:
-    """A section of one picture."""
+    """A section of a single picture."""
     return Section(name, title, text=[text], pictures=[picture(pictures[name], title)])

@@ -1,4 +1,4 @@
-"""A self-contained HTML page of sections with pictures, verdicts and tables; it knows nothing of what it reports."""
+"""A self-contained HTML page of sections with pictures, verdicts and tables, independent of the content."""
 
 import base64
 import json
@@ -9,13 +9,13 @@ from typing import Any
 
 import jinja2
 
-BRIEF = 420  # characters of numbers that are shown unfolded
+BRIEF = 420  # characters: longer listings of numbers are folded
 MARKS = {"holds": "yes", "does not hold": "no", "not checkable": "open"}  # verdict -> class of the style sheet
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A PNG and what a reader who cannot see it is told."""
+    """A PNG with its alternative text and caption."""
 
     png: bytes
     alt: str
@@ -23,7 +23,7 @@ class Picture:
 
     @property
     def uri(self) -> str:
-        """The picture itself as address, so that the page needs no other file."""
+        """The picture as data URI, so that the page needs no other file."""
         return "data:image/png;base64," + base64.b64encode(self.png).decode("ascii")
 
 
@@ -34,17 +34,17 @@ class Table:
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
     caption: str = ""
-    numeric: Sequence[int] = ()  # columns that are set flush right
+    numeric: Sequence[int] = ()  # right-aligned columns
 
 
 @dataclass(frozen=True)
 class Finding:
-    """A statement with its verdict, one of `MARKS` or nothing."""
+    """A statement with its verdict, a key of `MARKS` or empty."""
 
     text: str
     verdict: str = ""
     facts: Sequence[tuple[str, str]] = ()  # name and text, short
-    numbers: Mapping[str, Any] = field(default_factory=dict)  # many are unfolded on demand, and left out in print
+    numbers: Mapping[str, Any] = field(default_factory=dict)  # long listings are folded, and not printed
 
     @property
     def mark(self) -> str:
@@ -53,28 +53,28 @@ class Finding:
 
     @property
     def listing(self) -> list[tuple[str, str]]:
-        """The numbers as name and text."""
+        """The numbers as pairs of name and text."""
         return [(name.replace("_", " "), readable(value)) for name, value in self.numbers.items()]
 
     @property
     def brief(self) -> bool:
-        """Whether the numbers are few enough to be shown at once."""
+        """Whether the listing is short enough to be shown unfolded."""
         return sum(len(name) + len(text) for name, text in self.listing) <= BRIEF
 
 
 @dataclass(frozen=True)
 class Headline:
-    """The answer in one sentence, large and above everything else."""
+    """The result in one sentence, in large type at the top."""
 
     text: str
     verdict: str = ""
     mark: str = "open"  # class of the style sheet: yes, no, open, warn or found
-    tiles: Sequence[tuple[str, str]] = ()  # a figure and what it is
+    tiles: Sequence[tuple[str, str]] = ()  # value and label
 
 
 @dataclass(frozen=True)
 class Section:
-    """One entry of the table of contents."""
+    """A section of the page, with an entry in the table of contents."""
 
     anchor: str
     title: str
@@ -94,7 +94,7 @@ class Section:
 
 
 def readable(value: Any) -> str:
-    """Numbers as text that wraps: `name: value` pairs, inner ones in brackets."""
+    """Numbers as text that wraps: `name: value` pairs, nested ones in brackets."""
     if isinstance(value, Mapping):
         names = [str(key).replace("_", " ") for key in value]
         return "; ".join(f"{n} ({readable(v)})" if isinstance(v, Mapping) else f"{n}: {readable(v)}"

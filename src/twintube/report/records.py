@@ -1,11 +1,10 @@
-"""Records of the virtual rig, which stand for the paper's unpublished measurements: from all cores, kept as Parquet."""
+"""Records of the virtual rig, stand-ins for the unpublished measurements: computed on all cores, stored as Parquet."""
 
 import os
 from collections.abc import Iterable
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from dataclasses import dataclass
 from functools import lru_cache
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -21,15 +20,16 @@ from twintube.files import replacing
 from twintube.identification import Harmonic
 from twintube.lab import virtual_rig
 from twintube.lab.virtual_rig.rig import check
+from twintube.processes import pool
 from twintube.provenance import fingerprint
-from twintube.rig.plan import amplitude, quasi_static, velocities
+from twintube.rig.plan import amplitude, oil_levels, quasi_static, velocities
 from twintube.rig.signals import Signal, harmonic_block
 from twintube.vehicle.maneuvers import MANEUVERS
 from twintube.vehicle.plan import drive_signal
 
 PER_OSCILLATION = 240  # samples of an oscillation
-KEPT_BEFORE = 10  # every so many samples of the preconditioning are kept
-FEW = 4  # jobs that are done sooner in this process than others start
+THINNING = 10  # one sample of so many is stored before the first oscillation
+FEW_JOBS = 4  # jobs that finish in this process before worker processes would start
 
 
 @dataclass(frozen=True, order=True)
@@ -39,23 +39,28 @@ class Job:
     damper: str
     kind: str  # harmonic | drive | slow
     value: float
-    level: float  # oil level; the gas preload is there at 1 only, as in the paper
+    level: float  # oil level
+
+    @property
+    def gas_preload(self) -> bool:
+        """Whether the gas preload exists: at 100 % oil only, as in the paper."""
+        return self.level >= 1.0
 
     @property
     def file(self) -> str:
-        """The name of its Parquet file."""
+        """Name of the Parquet file."""
         return f"{self.damper}_{self.kind}_{self.value:g}_{100 * self.level:.2f}.parquet"
 
 
 def levels(damper: str) -> tuple[float, ...]:
     """Intact and the two degraded states that the paper measured (Table 2)."""
-    return (1.0, *load(damper).measured_levels)
+    return oil_levels(load(damper))
 
 
 def harmonic_jobs(damper: str, at: Iterable[float] | None = None) -> list[Job]:
-    """All harmonic blocks of a damper in all states, or those `at` these velocities [m/s]."""
-    chosen = velocities(load(damper)) if at is None else at
-    return [Job(damper, "harmonic", v, level) for v in chosen for level in levels(damper)]
+    """The harmonic blocks of a damper in all states, all or those `at` these velocities [m/s]."""
+    speeds = velocities(load(damper)) if at is None else at
+    return [Job(damper, "harmonic", v, level) for v in speeds for level in levels(damper)]
 
 
 def slow_jobs(damper: str) -> list[Job]:
@@ -65,58 +70,59 @@ def slow_jobs(damper: str) -> list[Job]:
 
 def drive_jobs(damper: str, numbers: Iterable[int] | None = None) -> list[Job]:
     """The drives in all states, all ten or those with these numbers."""
-    chosen = [m.number for m in MANEUVERS] if numbers is None else numbers
-    return [Job(damper, "drive", float(n), level) for n in chosen for level in levels(damper)]
+    drive_numbers = [m.number for m in MANEUVERS] if numbers is None else numbers
+    return [Job(damper, "drive", float(n), level) for n in drive_numbers for level in levels(damper)]
 
 
 @lru_cache(maxsize=32)
 def excitation(damper: str, kind: str, value: float) -> Signal:
-    """The stroke of a job, the same at all oil levels."""
-    one = load(damper)
+    """The excitation of a job, the same at all oil levels."""
+    loaded = load(damper)
     if kind == "harmonic":
-        return harmonic_block(value, amplitude(one), 2 * np.pi * amplitude(one) / value / PER_OSCILLATION)
+        return harmonic_block(value, amplitude(loaded), 2 * np.pi * amplitude(loaded) / value / PER_OSCILLATION)
     if kind == "slow":
-        return quasi_static(one)
-    return drive_signal(one, next(m for m in MANEUVERS if m.number == int(value)))
+        return quasi_static(loaded)
+    return drive_signal(loaded, next(m for m in MANEUVERS if m.number == int(value)))
 
 
-def path(job: Job) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Time [s] and stroke [m] of a job as the rig takes them."""
+def rig_input(job: Job) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Time [s] and stroke [m] of a job."""
     signal = excitation(job.damper, job.kind, job.value)
     return np.asarray(signal.time, dtype=np.float64), np.asarray(signal.stroke, dtype=np.float64)
 
 
-def filled(job: Job) -> float:
-    """The oil level that the rig runs at: the job's, or in steps of 1 % the highest that leaves its reserve some gas."""
+def rig_oil_level(job: Job) -> float:
+    """The oil level [1] of the rig: the job's, lowered in steps of 1 % until the reserve also holds gas."""
     rig = virtual_rig.virtual_damper(job.damper)
-    time, stroke, constants = *path(job), rig.constants(job.level >= 1.0, 25.0)
-    for less in range(10):
+    time, stroke, constants = *rig_input(job), rig.constants(job.gas_preload, 25.0)
+    for percent in range(10):
         try:
-            check(rig, time, stroke, job.level - less / 100, constants)
+            check(rig, time, stroke, job.level - percent / 100, constants)
         except ValueError:
             continue
-        return job.level - less / 100
-    raise InputError(f"{job.damper}: the virtual rig has no room for {job.level:.0%} oil in {job.kind} {job.value:g}")
+        return job.level - percent / 100
+    raise InputError(f"{job.damper}: the virtual rig cannot hold {job.level:.0%} oil in {job.kind} {job.value:g}")
 
 
 def compute(job: Job, folder: Path) -> None:
-    """Run the rig and write time [s], stroke [m], velocity [m/s] and force [N], whole or not at all."""
+    """Run the rig and write time [s], stroke [m], velocity [m/s] and force [N] to a Parquet file."""
     signal = excitation(job.damper, job.kind, job.value)
-    record = virtual_rig.run(virtual_rig.virtual_damper(job.damper), *path(job), filled(job), gas_preload=job.level >= 1.0)
-    kept = np.arange(len(signal.time))
-    kept = kept[(kept >= signal.marks[0]) | (kept % KEPT_BEFORE == 0)]
+    rig = virtual_rig.virtual_damper(job.damper)
+    record = virtual_rig.run(rig, *rig_input(job), rig_oil_level(job), gas_preload=job.gas_preload)
+    samples = np.arange(len(signal.time))
+    samples = samples[(samples >= signal.marks[0]) | (samples % THINNING == 0)]
     names = ("time", "stroke", "velocity", "force")
-    # The excitation's velocity: the rig's is that of a spline, which is at odds with it at the block's first sample.
+    # The excitation's velocity: the rig uses the slope of a spline, which differs at the first sample of a block.
     columns = (record.time, record.stroke, signal.velocity, record.force)
-    table = pa.table({name: column[kept] for name, column in zip(names, columns, strict=True)})
-    marks = np.searchsorted(kept, signal.marks)
+    table = pa.table({name: column[samples] for name, column in zip(names, columns, strict=True)})
+    marks = np.searchsorted(samples, signal.marks)
     table = table.replace_schema_metadata({"marks": " ".join(str(m) for m in marks), "stand_in": "virtual rig"})
-    with replacing(folder / job.file) as part:
-        pq.write_table(table, part, compression="zstd")
+    with replacing(folder / job.file) as temporary:
+        pq.write_table(table, temporary, compression="zstd")
 
 
 class Records:
-    """The records of a run, in `folder`; those of another version of the rig are not taken."""
+    """The records of a report, in `folder`; records of another version of the rig are not used."""
 
     def __init__(self, folder: Path, processes: int | None = None, progress: bool = True) -> None:
         self.folder = folder / fingerprint(__name__)
@@ -124,24 +130,24 @@ class Records:
         self.progress = progress
 
     def prepare(self, jobs: Iterable[Job]) -> None:
-        """Compute what is missing, longest first, in processes of this machine."""
+        """Compute the missing records, longest first, in worker processes."""
         self.folder.mkdir(parents=True, exist_ok=True)
         missing = sorted({j for j in jobs if not (self.folder / j.file).exists()}, key=lambda j: (j.kind, j.value))
         with tqdm(total=len(missing), unit="record", desc="virtual rig", leave=False, disable=not self.progress) as bar:
-            if len(missing) <= FEW or self.processes == 1:
+            if len(missing) <= FEW_JOBS or self.processes == 1:
                 for job in missing:
                     compute(job, self.folder)
                     bar.update()
                 return
-            compute(missing.pop(), self.folder)  # compiles once, before the processes do so all at the same time
+            compute(missing.pop(), self.folder)  # compiles once, before all worker processes do so at the same time
             bar.update()
-            with ProcessPoolExecutor(min(self.processes, len(missing)), get_context("spawn")) as pool:
-                for done in as_completed([pool.submit(compute, job, self.folder) for job in missing]):
-                    done.result()
+            with pool(min(self.processes, len(missing))) as workers:
+                for future in as_completed([workers.submit(compute, job, self.folder) for job in missing]):
+                    future.result()
                     bar.update()
 
     def get(self, job: Job) -> Harmonic:
-        """A record; computed now if nobody did. A drive and the ramps count as one oscillation."""
+        """A record, computed if it is missing. A drive and the ramps count as one oscillation."""
         file = self.folder / job.file
         if not file.exists():
             self.folder.mkdir(parents=True, exist_ok=True)
@@ -149,7 +155,7 @@ class Records:
         table = pq.read_table(file)
         time, stroke, velocity, force = (table[n].to_numpy() for n in ("time", "stroke", "velocity", "force"))
         marks = np.array([int(m) for m in table.schema.metadata[b"marks"].split()])
-        return Harmonic(job.level, int(job.level >= 1.0), time, stroke, velocity, force, marks)
+        return Harmonic(job.level, int(job.gas_preload), time, stroke, velocity, force, marks)
 
     def works(self, jobs: Iterable[Job]) -> list[Array]:
         """Works [J] per oscillation of each record."""

@@ -1,4 +1,4 @@
-"""The reproduction report: the figures of the paper that a model can produce, and what became of its statements."""
+"""The reproduction report: the figures of the paper that a model can produce, and the verdicts on its statements."""
 
 import json
 from collections import Counter
@@ -26,26 +26,26 @@ PAPER = (
 )
 LEAD = (
     PAPER,
-    "Each figure that a model can produce is drawn as in the paper and stands beside what the paper says about it. Whether "
-    "that holds is computed, with the figures given; where the paper names no number, the criterion is stated.",
-    "The paper's measurements are unpublished. A virtual rig with other physics stands for them: where it appears, the "
-    "picture says so, and a statement that rests on it says how the method copes with such data, not how the paper's "
-    "dampers behave. F-v curves, friction, gas springs, maximum strokes, dead lengths and drives are assumed; "
-    "docs/open_choices.md gives the reasoning, and every picture names those that enter.",
+    "Each figure that a model can produce is drawn as in the paper, with the paper's statements about it. The report "
+    "computes whether they hold and gives the numbers; where the paper gives no number, the criterion is stated.",
+    "The paper's measurements are unpublished. A virtual rig with other physics replaces them. Its pictures are marked; a "
+    "statement checked against the rig shows how well the method handles such data, not how the paper's dampers behave. "
+    "F-v curves, friction, gas springs, maximum strokes, dead lengths and drives are assumed; docs/open_choices.md gives "
+    "the reasons, and every picture names the assumptions it uses.",
 )
 BASES = {
     "evidence": "published parameters of Table 9; the F-v curve is assumed or that of the stand-in",
-    "calibrated": "no evidence: it took part in the calibration of the dead lengths",
-    "by assumption": "no evidence: an assumed value decides",
+    "calibrated": "not evidence: the statement was used to calibrate the dead lengths",
+    "by assumption": "not evidence: the result follows from an assumed value",
     "stand-in": "against the virtual rig, not the paper's measurement",
-    "consistency": "the model does what its equations say",
+    "consistency": "the model follows its equations",
     "not checkable": "unpublished data would be needed",
 }
 
 
 @dataclass(frozen=True)
 class Report:
-    """Where the report is and what it says."""
+    """Files and verdicts of the report."""
 
     page: Path
     json: Path
@@ -53,21 +53,21 @@ class Report:
     verdicts: dict[int, str]
 
 
-def chosen(figures: Sequence[str | int] | None) -> list[int]:
+def figure_numbers(figures: Sequence[str | int] | None) -> list[int]:
     """The numbers of the figures, e.g. `["3", "19-26"]`; raises ParameterError."""
     if not figures:
         return sorted(FIGURES)
-    found: set[int] = set()
+    selected: set[int] = set()
     for text in figures:
         first, _, last = str(text).partition("-")
         if not first.isdigit() or (last and not last.isdigit()):
             raise ParameterError(f"figure {text!r}: must be a number or a range like 19-26")
         span = range(int(first), int(last or first) + 1)
-        hits = {n for n in span if n in FIGURES}
-        if not hits:
-            raise ParameterError(f"figure {text}: a model can produce {', '.join(str(n) for n in sorted(FIGURES))}")
-        found |= hits
-    return sorted(found)
+        available = {n for n in span if n in FIGURES}
+        if not available:
+            raise ParameterError(f"figure {text}: must be one of {', '.join(str(n) for n in sorted(FIGURES))}")
+        selected |= available
+    return sorted(selected)
 
 
 def reproduce(
@@ -82,7 +82,7 @@ def reproduce(
     """Draw the paper's figures and write `index.html`, a PNG per figure and `reproduce.json` into the folder `output`.
 
     Args:
-        output: the folder; records of the virtual rig and identified dampers stay in it and are used again.
+        output: the folder; it also stores records of the virtual rig and identified dampers for the next run.
         figures: numbers or ranges like `"19-26"`; all if None.
         quick: identify with the small budget instead of the paper's swarms.
         processes: for the virtual rig; all cores if None.
@@ -90,11 +90,11 @@ def reproduce(
         report: called with a line of text per figure.
 
     Raises:
-        ParameterError: there is no such figure.
-        InputError: a record cannot be simulated, or there is no process to do so.
+        ParameterError: a figure does not exist.
+        InputError: a record cannot be simulated, or `processes` is less than 1.
 
     """
-    numbers = chosen(figures)
+    numbers = figure_numbers(figures)
     if processes is not None and processes < 1:
         raise InputError(f"processes = {processes}: must be at least 1")
     output.mkdir(parents=True, exist_ok=True)
@@ -112,8 +112,8 @@ def reproduce(
         verdicts[number] = plot.verdict
         if report is not None:
             report(f"Figure {number:2}  {plot.verdict:14} {plot.tally}")
-    about: dict[str, Any] = {"paper": PAPER, "twintube": __version__, "bases": BASES, "figures": entries}
-    write_bytes(output / "reproduce.json", (json.dumps(about, indent=1) + "\n").encode())
+    content: dict[str, Any] = {"paper": PAPER, "twintube": __version__, "bases": BASES, "figures": entries}
+    write_bytes(output / "reproduce.json", (json.dumps(content, indent=1) + "\n").encode())
     page = html(TITLE, LEAD, sections, [summary(entries)], f"twintube {__version__}")
     write_bytes(output / "index.html", page.encode())
     return Report(output / "index.html", output / "reproduce.json", tuple(pictures), verdicts)
@@ -137,7 +137,7 @@ def section(plot: Plot, png: bytes) -> Section:
 
 
 def finding(statement: Statement) -> Finding:
-    """A statement as the page shows it."""
+    """The page's finding of a statement."""
     facts = [("Source", statement.source)]
     if statement.claim:
         facts.append(("Claim", f"{statement.claim} of twintube claims"))
@@ -150,15 +150,15 @@ def finding(statement: Statement) -> Finding:
 
 
 def summary(entries: Sequence[dict[str, Any]]) -> Table:
-    """How many distinct statements hold, by basis; one that several figures show counts once."""
-    seen: dict[str, dict[str, Any]] = {}
+    """Number of distinct statements that hold, by basis; a statement of several figures counts once."""
+    distinct: dict[str, dict[str, Any]] = {}
     for entry in entries:
         for s in entry["statements"]:
-            seen[s["claim"] or json.dumps([s["statement"], s["numbers"]])] = s
-    count = Counter((s["basis"], s["holds"]) for s in seen.values())
+            distinct[s["claim"] or json.dumps([s["statement"], s["numbers"]])] = s
+    count = Counter((s["basis"], s["holds"]) for s in distinct.values())
     rows = [
         [basis, meaning, str(count[basis, True]), str(count[basis, False]), str(count[basis, None])]
         for basis, meaning in BASES.items()
         if any(count[basis, holds] for holds in (True, False, None))
     ]
-    return Table(("basis", "meaning", "holds", "does not hold", "not checkable"), rows, "Statements by what they rest on")
+    return Table(("basis", "meaning", "holds", "does not hold", "not checkable"), rows, "Statements by basis")

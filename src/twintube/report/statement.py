@@ -1,4 +1,4 @@
-"""What the paper says at a figure and whether it holds here; a figure with its statements."""
+"""Statements of the paper with their verdicts, and figures with their statements."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,20 +12,20 @@ NOT_CHECKABLE = "not checkable"
 
 @dataclass(frozen=True)
 class Statement:
-    """One statement of the paper; `holds` is computed, None where nothing can be checked without unpublished data."""
+    """One statement of the paper; `holds` is computed, None if the check needs unpublished data."""
 
     text: str
     source: str  # section or figure of the paper
     holds: bool | None
     numbers: dict[str, Any]
     basis: str  # evidence | calibrated | by assumption | stand-in | consistency | not checkable
-    criterion: str = ""  # what decides: a claim's test, or ours where the paper names no number
+    criterion: str = ""  # of the verdict: a claim's test, or our own where the paper gives no number
     reason: str = ""  # why it does not hold, or why it cannot be checked
     claim: str = ""  # id in `twintube claims`
 
     def __post_init__(self) -> None:
         if self.holds is not None:
-            object.__setattr__(self, "holds", bool(self.holds))  # numpy's own bool is no JSON
+            object.__setattr__(self, "holds", bool(self.holds))  # numpy's bool cannot be written as JSON
 
     @property
     def verdict(self) -> str:
@@ -56,25 +56,25 @@ class Plot:
     title: str
     figure: Figure
     statements: tuple[Statement, ...]
-    stand_ins: tuple[str, ...] = ()  # what stands for unpublished measurements
-    assumed: tuple[str, ...] = ()  # unpublished values that enter
-    remarks: tuple[str, ...] = field(default=())  # where our form differs from the paper's, contradictions in the paper
+    stand_ins: tuple[str, ...] = ()  # replacements of unpublished measurements
+    assumed: tuple[str, ...] = ()  # unpublished values that are used
+    remarks: tuple[str, ...] = field(default=())  # differences from the paper's figure, contradictions in the paper
 
     @property
     def verdict(self) -> str:
-        """Of all statements that can be checked together: one that does not hold decides."""
+        """`holds` if all checkable statements hold."""
         checked = [s.holds for s in self.statements if s.holds is not None]
         return NOT_CHECKABLE if not checked else "holds" if all(checked) else "does not hold"
 
     @property
     def tally(self) -> str:
-        """`2 of 3`: how many of the checkable statements hold."""
+        """`2 of 3`: number of checkable statements that hold."""
         checked = [s.holds for s in self.statements if s.holds is not None]
         return f"{sum(checked)} of {len(checked)}" if checked else ""
 
 
 def plain(value: Any) -> Any:
-    """Numbers as JSON takes them: numpy's types to Python's, keys to text, four significant digits for floats."""
+    """Numbers for JSON: numpy types become Python types, keys text, floats have four significant digits."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):

@@ -1,4 +1,4 @@
-"""How pictures look: colours, panels, the small lines under a plot. Only this package imports a plotting library."""
+"""Style of the pictures: colours, panels, notes under a plot."""
 
 import textwrap
 from collections.abc import Iterable
@@ -17,7 +17,7 @@ PHASES = {"oil": "#c98b1f", "foam": "#f0d9a8", "gas": "#cfe0ee"}
 STAND_IN = "stand-in: virtual rig, not the paper's measurement"
 DPI = 130
 NOTE_SIZE = 7.5  # points
-RC: Any = {  # matplotlib's keys are a type of their own
+RC: Any = {  # matplotlib has a type of its own for the keys
     "axes.grid": True,
     "grid.alpha": 0.3,
     "axes.spines.top": False,
@@ -62,6 +62,11 @@ def title(ax: Axes, text: str) -> None:
     ax.set_title(text, loc="left", fontsize=10.5)
 
 
+def plain(text: str) -> str:
+    """A user's text, in which `$` does not begin a formula; for every name that a picture shows."""
+    return text.replace("$", r"\$")
+
+
 def label(axes: Any, x: str, y: str) -> None:
     """Labels at the outer axes only."""
     for row in axes:
@@ -71,7 +76,7 @@ def label(axes: Any, x: str, y: str) -> None:
 
 
 def legend_above(figure: Figure, *axes: Axes, columns: int = 6) -> None:
-    """One legend for the whole figure, above the axes so that it covers no curve."""
+    """One legend for the whole figure, above the axes."""
     unique: dict[str, Any] = {}
     for ax in axes:
         handles, labels = ax.get_legend_handles_labels()
@@ -81,9 +86,9 @@ def legend_above(figure: Figure, *axes: Axes, columns: int = 6) -> None:
 
 
 def notes(figure: Figure, lines: Iterable[str]) -> None:
-    """Small lines under the plot: stand-ins and assumed values."""
+    """Notes under the plot: stand-ins and assumed values."""
     width, height = figure.get_size_inches()
-    wrapped = [part for line in lines for part in textwrap.wrap(line, int(width * 17))]
+    wrapped = [text for line in lines for text in textwrap.wrap(line, int(width * 17))]
     if not wrapped:
         return
     inch = NOTE_SIZE / 72 * 1.35

@@ -8,6 +8,7 @@ import numpy as np
 from twintube.dampers import Damper
 from twintube.rig.signals import (
     BLOCKS,
+    ONE_METRE,
     OSCILLATIONS,
     PRECONDITIONING,
     STARTS,
@@ -21,6 +22,7 @@ from twintube.rig.signals import (
 )
 
 V_QUASI_STATIC = 1e-3  # [m/s]
+STROKE_SHARE = 0.9  # amplitude of the harmonic blocks over the maximum stroke (Section 2)
 REST = 180.0  # seconds between measurements, at stroke 0
 RAMPS = 2  # full cycles of the quasi-static measurement
 # SA7, SA8 were measured at 17 velocities; which ones is assumed: the eight of the others and those between.
@@ -28,12 +30,12 @@ BLOCKS_17 = (0.05, 0.08, 0.131, 0.196, 0.262, 0.327, 0.393, 0.458, 0.524, 0.655,
              1.572)  # fmt: skip
 
 
-# The measurement that would decide what becomes of the gas that cavitation frees (docs/open_choices.md).
+# Measurements to decide between the closures for the gas that cavitation frees (docs/open_choices.md).
 RECOVERY_SECONDS = 60.0
 RECOVERY_RESTS = (10.0, 30.0, REST)  # [s]
-RECOVERY_LEVELS = (1.0, 0.9)  # oil levels, without preload, beside the measured ones
-ABOVE = (1.2, 1.5)  # velocities of its blocks over v_cav: well above it, no hotter than needed, two to hold one out
-V_RECOVERY = BLOCKS[-2] / ABOVE[0]  # [m/s] v_cav that they are made for at least
+RECOVERY_LEVELS = (1.0, 0.9)  # oil levels without preload, in addition to the measured ones
+ABOVE = (1.2, 1.5)  # velocities of its blocks over v_cav: above it without needless heating; two, to hold one out
+V_RECOVERY = ONE_METRE / ABOVE[0]  # [m/s] smallest v_cav that the blocks are made for
 
 
 @dataclass(frozen=True)
@@ -47,8 +49,18 @@ class Measurement:
 
 
 def amplitude(damper: Damper) -> float:
-    """Amplitude [m] of the harmonic blocks: 90 % of the maximum stroke, or what the parameter set says (Section 2)."""
-    return damper.measured_amplitude or 0.9 * damper.parameters.stroke_max
+    """Amplitude [m] of the harmonic blocks: 90 % of the maximum stroke (Section 2), or the value of the parameter set."""
+    return damper.measured_amplitude or STROKE_SHARE * damper.parameters.stroke_max
+
+
+def oil_levels(damper: Damper) -> tuple[float, ...]:
+    """Oil levels [1] of the measured states: intact and the two degraded ones of Table 2."""
+    return (1.0, *damper.measured_levels)
+
+
+def at_oil_level(damper: Damper, oil_level: float) -> Damper:
+    """The damper at an oil level [1]; below 100 % the gas preload is lost, as in the paper's measurements."""
+    return damper.with_(oil_level=oil_level, gas_preload=int(oil_level >= 1.0))
 
 
 def velocities(damper: Damper) -> tuple[float, ...]:
@@ -63,10 +75,11 @@ def quasi_static(damper: Damper) -> Signal:
     """
     reach = amplitude(damper)
     corners = np.concatenate([[0.0], np.tile([reach, -reach], RAMPS), [0.0]])
-    at = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(corners)))]) / V_QUASI_STATIC
-    time = np.arange(0.0, at[-1], 0.01)
-    stroke = np.interp(time, at, corners)
-    direction = np.sign(np.diff(corners))[np.clip(np.searchsorted(at, time, side="right") - 1, 0, len(corners) - 2)]
+    corner_times = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(corners)))]) / V_QUASI_STATIC
+    time = np.arange(0.0, corner_times[-1], 0.01)
+    stroke = np.interp(time, corner_times, corners)
+    ramp = np.clip(np.searchsorted(corner_times, time, side="right") - 1, 0, len(corners) - 2)
+    direction = np.sign(np.diff(corners))[ramp]
     return Signal(time, stroke, V_QUASI_STATIC * direction, np.array([0, len(time) - 1]))
 
 
@@ -85,31 +98,31 @@ def recovery_velocities(damper: Damper) -> tuple[float, ...]:
 def recovery_signal(damper: Damper, v: float, rest: float, slow: bool) -> Signal:
     """Preconditioning, a minute at the maximum velocity `v` [m/s], a rest [s], `slow` strokes or none, then 19 oscillations.
 
-    A closure in which the gas dissolves heals at rest, one in which oil is displaced by slow strokes. The marks are those of
-    both blocks' oscillations; the rest lies between two of them.
+    If the freed gas dissolves, the damper recovers at rest; if it displaces oil, it recovers in slow strokes. The marks are
+    the oscillations of both blocks; the rest lies between two marks.
     """
     reach, dt = amplitude(damper), 1e-3
     count = round(RECOVERY_SECONDS * v / (2 * np.pi * reach))
     conditioning = oscillations(V_PRECONDITIONING, reach, PRECONDITIONING, 2e-3)
     lead = run_up(v, reach, dt, STARTS["rebound"])
-    way = approach(0.0, float(lead[1][0]), 2e-3)
+    transfer = approach(0.0, float(lead[1][0]), 2e-3)
     step = float(lead[0][1] - lead[0][0])
-    long, short = (oscillations(v, reach, n, dt) for n in (count, OSCILLATIONS))
-    again = [conditioning, way] if slow else [way]
-    parts = [conditioning, way, lead, long, *again, lead, short]
-    pauses = [2e-3, 2e-3, step, rest, *[2e-3] * (len(again) - 1), 2e-3, step]
-    time, stroke, speed = joined(parts, pauses)
-    starts = np.cumsum([0, *(len(part[0]) for part in parts)])
-    per = (len(long[0]) - 1) // count
-    marks = [starts[i] + per * np.arange(n + 1) for i, n in ((3, count), (len(parts) - 1, OSCILLATIONS))]
+    long_block, short_block = (oscillations(v, reach, n, dt) for n in (count, OSCILLATIONS))
+    after_rest = [conditioning, transfer] if slow else [transfer]
+    segments = [conditioning, transfer, lead, long_block, *after_rest, lead, short_block]
+    pauses = [2e-3, 2e-3, step, rest, *[2e-3] * (len(after_rest) - 1), 2e-3, step]
+    time, stroke, speed = joined(segments, pauses)
+    starts = np.cumsum([0, *(len(segment[0]) for segment in segments)])
+    samples = (len(long_block[0]) - 1) // count
+    marks = [starts[i] + samples * np.arange(n + 1) for i, n in ((3, count), (len(segments) - 1, OSCILLATIONS))]
     return Signal(time, stroke, speed, np.concatenate(marks))
 
 
 def recovery_plan(damper: Damper) -> Iterator[Measurement]:
-    """The measurements that would decide between the closures, each at RECOVERY_LEVELS and the measured levels."""
+    """The measurements to decide between the closures, each at RECOVERY_LEVELS and the measured levels."""
     for v in recovery_velocities(damper):
         for slow in (False, True):
             for rest in RECOVERY_RESTS:
-                how = "slow strokes" if slow else "nothing moved"
-                name = f"recovery {v:.3g} m/s {rest:g} s {how}"
+                motion = "slow strokes" if slow else "nothing moved"
+                name = f"recovery {v:.3g} m/s {rest:g} s {motion}"
                 yield Measurement(13, name, "harmonic", recovery_signal(damper, v, rest, slow))

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
+from twintube.arrays import Array, freeze_arrays
 
 OSCILLATIONS = 19
 PRECONDITIONING = 6
@@ -14,8 +14,9 @@ V_PRECONDITIONING = 0.05  # [m/s]
 AMPLITUDE = 0.045  # [m]: given for SA7, SA8; for the others Figure 14 (assumed)
 
 # Maximum velocities of the blocks [m/s]. The paper names 0.05, 0.08, 0.5, 1 and 1.572; the rest is assumed: the usual test
-# velocities of a damper bench, of which 1.572 is one, so that "0.5" is 0.524 and "1" is 1.048.
+# velocities of a damper bench. 1.572 belongs to them, so that "0.5" is 0.524 and "1" is 1.048.
 BLOCKS = (0.05, 0.131, 0.262, 0.393, 0.524, 0.786, 1.048, 1.572)
+SLOWEST, ONE_METRE, FASTEST = BLOCKS[0], BLOCKS[-2], BLOCKS[-1]  # the paper's "0.05 m/s", "1 m/s" and "1.6 m/s"
 
 # Where the first oscillation of a block begins, as a share of a cycle from the middle into rebound; the paper does not say.
 STARTS = {"rebound": 0.0, "top": 0.25, "compression": 0.5, "bottom": 0.75}
@@ -25,18 +26,22 @@ RUN_UP = 0.05  # cycles over which the rig takes up full velocity in 0.1 of a pe
 
 @dataclass(frozen=True)
 class Signal:
-    """An excitation: arrays (n,) in SI units; `marks` are the samples where the measured oscillations begin and end."""
+    """An excitation: read-only arrays (n,), SI units; `marks` are the bounds of the measured oscillations as samples."""
 
     time: Array
     stroke: Array
     velocity: Array
     marks: NDArray[np.int64]
 
+    def __post_init__(self) -> None:
+        """Freeze the arrays: blocks are cached and shared."""
+        freeze_arrays(self)
+
 
 def oscillations(velocity: float, amplitude: float, count: int, dt: float, phase: float = 0.0) -> tuple[Array, Array, Array]:
-    """Time [s], stroke [m] and velocity [m/s] of `count` oscillations, a whole number of samples each.
+    """Time [s], stroke [m] and velocity [m/s] of `count` oscillations, each a whole number of samples.
 
-    `phase` [cycles] is where they begin: 0 in the middle into rebound, 0.25 at the largest stroke.
+    `phase` [cycles] is the start: 0 in the middle into rebound, 0.25 at the largest stroke.
     """
     omega = velocity / amplitude
     samples = max(32, round(2 * np.pi / omega / dt))
@@ -46,9 +51,9 @@ def oscillations(velocity: float, amplitude: float, count: int, dt: float, phase
 
 
 def run_up(velocity: float, amplitude: float, dt: float, phase: float) -> tuple[Array, Array, Array]:
-    """What brings the piston to an oscillation that begins at `phase` [cycles], as `oscillations`; its end is left out.
+    """Run-up to an oscillation that begins at `phase` [cycles]; arrays as in `oscillations`, without the last sample.
 
-    From rest the speed of the phase rises evenly, over RUN_UP cycles; at the ends of the stroke none is needed.
+    From rest the speed of the phase rises linearly over RUN_UP cycles. At the ends of the stroke no run-up is needed.
     """
     if phase in (0.25, 0.75):
         return (np.zeros(0),) * 3
@@ -60,21 +65,21 @@ def run_up(velocity: float, amplitude: float, dt: float, phase: float) -> tuple[
 
 
 def approach(begin: float, end: float, dt: float) -> tuple[Array, Array, Array]:
-    """A slow way from the stroke `begin` to `end` [m], half a cosine of at most V_PRECONDITIONING, as `oscillations`."""
-    way = end - begin
-    duration = 0.5 * np.pi * abs(way) / V_PRECONDITIONING
+    """Slow motion from the stroke `begin` to `end` [m], half a cosine of at most V_PRECONDITIONING, as `oscillations`."""
+    distance = end - begin
+    duration = 0.5 * np.pi * abs(distance) / V_PRECONDITIONING
     time = np.linspace(0.0, duration, max(2, round(duration / dt) + 1))
     angle = np.pi * time / max(duration, dt)
-    speed = 0.5 * np.pi * way / max(duration, dt)
-    return time, begin + 0.5 * way * (1 - np.cos(angle)), speed * np.sin(angle)
+    speed = 0.5 * np.pi * distance / max(duration, dt)
+    return time, begin + 0.5 * distance * (1 - np.cos(angle)), speed * np.sin(angle)
 
 
-def joined(parts: list[tuple[Array, Array, Array]], pauses: list[float]) -> tuple[Array, Array, Array]:
-    """Time [s], stroke [m] and velocity [m/s] of parts one after another, with a pause [s] before each but the first."""
-    time = parts[0][0]
-    for (t, _, _), pause in zip(parts[1:], pauses, strict=True):
+def joined(segments: list[tuple[Array, Array, Array]], pauses: list[float]) -> tuple[Array, Array, Array]:
+    """Time [s], stroke [m] and velocity [m/s] of consecutive segments, with a pause [s] before each except the first."""
+    time = segments[0][0]
+    for (t, _, _), pause in zip(segments[1:], pauses, strict=True):
         time = np.concatenate([time, time[-1] + pause + t])
-    return time, np.concatenate([part[1] for part in parts]), np.concatenate([part[2] for part in parts])
+    return time, np.concatenate([segment[1] for segment in segments]), np.concatenate([segment[2] for segment in segments])
 
 
 @lru_cache(maxsize=64)
@@ -88,18 +93,18 @@ def harmonic_block(
 ) -> Signal:
     """Six preconditioning oscillations and 19 of the maximum `velocity` [m/s] with steps of at most about `dt` [s].
 
-    Between the two the damper rests for one step of `rest` [s], by default `dt`: in the paper's model nothing happens
-    at rest, effects such as the decay of foam ask for its length. `start` is one of STARTS: no rig jumps to full velocity,
-    so that a block from the middle begins with a run-up. `position` [m] is the middle of all strokes, the ride position.
+    Between the two the damper rests for one step of `rest` [s], by default `dt`: the paper's model does not change at
+    rest, but effects such as the decay of foam depend on its length. `start` is one of STARTS. A rig cannot jump to full
+    velocity, so a block that starts in the middle begins with a run-up. `position` [m] is the middle of all strokes.
     """
     pause, slow, phase = rest if rest > 0.0 else dt, max(dt, 2e-3), STARTS[start]
     conditioning = oscillations(V_PRECONDITIONING, amplitude, PRECONDITIONING, slow, phase)
     block = oscillations(velocity, amplitude, OSCILLATIONS, dt, phase)
     lead = run_up(velocity, amplitude, dt, phase)
-    parts, pauses = [conditioning, block], [pause]
+    segments, pauses = [conditioning, block], [pause]
     if len(lead[0]):
-        way = approach(float(conditioning[1][-1]), float(lead[1][0]), slow)
-        parts, pauses = [conditioning, way, lead, block], [slow, pause, float(lead[0][1])]
-    time, stroke, speed = joined(parts, pauses)
-    first, per = len(time) - len(block[0]), (len(block[0]) - 1) // OSCILLATIONS
-    return Signal(time, stroke + position, speed, first + per * np.arange(OSCILLATIONS + 1))
+        transfer = approach(float(conditioning[1][-1]), float(lead[1][0]), slow)
+        segments, pauses = [conditioning, transfer, lead, block], [slow, pause, float(lead[0][1])]
+    time, stroke, speed = joined(segments, pauses)
+    first, samples = len(time) - len(block[0]), (len(block[0]) - 1) // OSCILLATIONS
+    return Signal(time, stroke + position, speed, first + samples * np.arange(OSCILLATIONS + 1))

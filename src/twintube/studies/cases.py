@@ -16,25 +16,26 @@ from twintube.engine import compiled
 from twintube.engine.simulate import InputError, simulate
 from twintube.provenance import fingerprint
 from twintube.rig.signals import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, harmonic_block, oscillations
-from twintube.studies.definition import FIELDS, Case, Signal, Study, StudyError
+from twintube.studies.definition import FIELDS, Signal, Study, StudyCase, StudyError
 
 RESULTS = ("work_J", "work_relative", "peak_rebound_N", "peak_compression_N")
 COMPILING = Lock()  # the threads of a Dask worker start together
 
 
 def version_mark() -> str:
-    """What the results depend on beside the study: version and sources."""
+    """Version and fingerprint of the sources: the results depend on them and on the study only."""
     return f"{__version__} {fingerprint(__name__)}"
 
 
 def chunk(study: Study, start: int, stop: int, expected: str) -> Array:
     """Results of the cases from `start` to before `stop`, one row per case and oscillation; columns as in `RESULTS`.
 
-    Raises StudyError where a case fails, or where this process has another twintube than the one with the
-    mark `expected`.
+    Raises StudyError if a case fails, or if the version mark of this process is not `expected`.
     """
     if version_mark() != expected:
-        raise StudyError(f"a worker has twintube {version_mark()}, this is twintube {expected}: install the same on both")
+        raise StudyError(
+            f"a worker has twintube {version_mark()}, this is twintube {expected}: install the same version on both"
+        )
     with COMPILING:
         compiled.module()
     return np.concatenate([results(study, number) for number in range(start, stop)])
@@ -45,7 +46,7 @@ def results(study: Study, number: int) -> Array:
     case = study.case(number)
     try:
         intact = reference(study, case.damper, case.signal, case.values)
-        table = driven(study, state(study, case), study.signals[case.signal], study.rows(case))
+        table = oscillation_results(study, state(study, case), study.signals[case.signal], study.rows(case))
     except (InputError, ValueError) as error:
         raise StudyError(f"case {number} ({study.dampers[case.damper].name}, {case}): {error}") from error
     relative = table[:, :1] / intact if intact > 0.0 else np.full((len(table), 1), np.nan)
@@ -55,12 +56,12 @@ def results(study: Study, number: int) -> Array:
 @lru_cache(maxsize=4096)
 def reference(study: Study, damper: int, signal: int, values: tuple[float, ...]) -> float:
     """Work [J] of the first oscillation of the intact damper with the same parameters."""
-    intact = state(study, Case(damper, signal, values, oil_level=1.0, gas_preload=1, variant=4))
-    return float(driven(study, intact, study.signals[signal], (1,))[0, 0])
+    intact = state(study, StudyCase(damper, signal, values, oil_level=1.0, gas_preload=1, variant=4))
+    return float(oscillation_results(study, intact, study.signals[signal], (1,))[0, 0])
 
 
-def state(study: Study, case: Case) -> Damper:
-    """The damper of a case, after the model variants of Section 3.4 of the paper.
+def state(study: Study, case: StudyCase) -> Damper:
+    """The damper of a case, with the model variants of Section 3.4 of the paper.
 
     1. A scalar factor: the oil level times the fluid force of the intact damper; friction and gas force are those of
        the degraded state.
@@ -68,7 +69,7 @@ def state(study: Study, case: Case) -> Damper:
     3. With foam.
     4. The complete model.
 
-    What a variant switches off stays off when the study varies the parameter.
+    Parameters that a variant sets to 0 stay 0 if the study varies them.
     """
     changes = {FIELDS[name].name: value for name, value in zip(study.parameters, case.values, strict=True)}
     if case.variant == 1:
@@ -97,7 +98,7 @@ def scaled(damper: Damper, factor: float, gas_preload: int) -> Damper:
 
 
 def excitation(study: Study, signal: Signal) -> tuple[Array, Array, Array, NDArray[np.int64]]:
-    """Time [s], stroke [m], velocity [m/s] and the samples where oscillations begin and end; a record is one oscillation."""
+    """Time [s], stroke [m], velocity [m/s] and the samples of the oscillations' bounds; a record is one oscillation."""
     if not signal.stroke.size:
         block = harmonic_block(signal.velocity, signal.amplitude, study.time_step)
         return block.time, block.stroke, block.velocity, block.marks
@@ -107,7 +108,7 @@ def excitation(study: Study, signal: Signal) -> tuple[Array, Array, Array, NDArr
     return time, stroke, velocity, np.array([len(z), len(stroke) - 1])
 
 
-def driven(study: Study, damper: Damper, signal: Signal, counted: tuple[int, ...]) -> Array:
+def oscillation_results(study: Study, damper: Damper, signal: Signal, counted: tuple[int, ...]) -> Array:
     """Work [J], peak force in rebound and in compression [N] (negative) of the oscillations `counted` from 1."""
     time, stroke, velocity, marks = excitation(study, signal)
     end = int(marks[counted[-1]]) + 1
@@ -124,5 +125,5 @@ def driven(study: Study, damper: Damper, signal: Signal, counted: tuple[int, ...
             )
         )
     table = np.array(rows)
-    table[np.isinf(table)] = np.nan  # a record that goes one way only
+    table[np.isinf(table)] = np.nan  # a record that moves in one direction only
     return table

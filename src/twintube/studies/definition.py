@@ -35,7 +35,7 @@ class Signal:
         return self.stroke.size or OSCILLATIONS * 2 * math.pi * self.amplitude / self.velocity / time_step
 
 
-class Case(NamedTuple):
+class StudyCase(NamedTuple):
     """One point of the grid."""
 
     damper: int
@@ -75,12 +75,12 @@ class Study:
         """About how many samples all cases have together."""
         return len(self) / len(self.signals) * sum(signal.samples(self.time_step) for signal in self.signals)
 
-    def case(self, number: int) -> Case:
+    def case(self, number: int) -> StudyCase:
         """The case `number`, counted from 0."""
         places = [int(i) for i in np.unravel_index(number, self.shape)]
         level = self.oil_levels[places[-3]]
         full = 1 if level >= 1.0 else 0
-        return Case(
+        return StudyCase(
             damper=places[0],
             signal=places[1],
             values=tuple(axis[i] for axis, i in zip(self.parameters.values(), places[2:-3], strict=True)),
@@ -89,6 +89,6 @@ class Study:
             variant=self.variants[places[-1]],
         )
 
-    def rows(self, case: Case) -> tuple[int, ...]:
+    def rows(self, case: StudyCase) -> tuple[int, ...]:
         """The oscillations that have a row; a record counts as one."""
         return (1,) if self.signals[case.signal].stroke.size else self.oscillations

@@ -5,14 +5,14 @@ what: equal versions on equal machines give equal bytes.
 """
 
 from collections.abc import Generator
-from concurrent.futures import CancelledError, ProcessPoolExecutor
+from concurrent.futures import CancelledError
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing
 from importlib import import_module
 from itertools import islice
-from multiprocessing import get_context
 from os import cpu_count
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from tqdm import tqdm
 from twintube import __version__
 from twintube.arrays import Array
 from twintube.files import replacing
+from twintube.processes import MOST, pool
 from twintube.studies.cases import RESULTS, chunk, version_mark
 from twintube.studies.definition import FIELDS, Study, StudyError
 
@@ -70,11 +71,11 @@ def run(
         tqdm(total=len(study), unit="case", leave=False, disable=None if progress else True) as bar,
     ):
         waiting: list[pa.Table] = []
-        for span, found in zip(spans, parts, strict=True):
-            waiting.append(table(study, span, found))
+        for span, values in zip(spans, parts, strict=True):
+            waiting.append(table(study, span, values))
             rows += waiting[-1].num_rows
             bar.update(span[1] - span[0])
-            if sum(one.num_rows for one in waiting) >= ROW_GROUP:
+            if sum(part_table.num_rows for part_table in waiting) >= ROW_GROUP:
                 joined = pa.concat_tables(waiting)
                 writer.write_table(joined.slice(0, ROW_GROUP).combine_chunks(), row_group_size=ROW_GROUP)
                 waiting = [joined.slice(ROW_GROUP)]
@@ -90,19 +91,19 @@ def locally(study: Study, spans: list[Span], processes: int) -> Generator[Array,
         yield from (chunk(study, start, stop, mark) for start, stop in spans)
         return
     chunk(study, 0, 1, mark)  # compiles once, before the processes do so all at the same time
-    count = min(processes, len(spans), 61)  # Windows has no more handles
-    with ProcessPoolExecutor(count, get_context("spawn"), initializer=keep, initargs=(study, mark)) as pool:
+    count = min(processes, len(spans), MOST)
+    with pool(count, keep, (study, mark)) as workers:
         try:
-            # Not `pool.map`: it would keep all results of a large study in memory.
+            # Not `map`: it would keep all results of a large study in memory.
             todo = iter(spans)
-            running = [pool.submit(kept_chunk, *span) for span in islice(todo, AHEAD * count)]
+            running = [workers.submit(kept_chunk, *span) for span in islice(todo, AHEAD * count)]
             while running:
                 yield running.pop(0).result()
-                running += [pool.submit(kept_chunk, *span) for span in islice(todo, 1)]
+                running += [workers.submit(kept_chunk, *span) for span in islice(todo, 1)]
         except BrokenProcessPool as error:
             raise StudyError("a process of this machine was killed (out of memory?): nothing is written") from error
         finally:
-            pool.shutdown(wait=True, cancel_futures=True)
+            workers.shutdown(wait=True, cancel_futures=True)
 
 
 KEPT: dict[str, tuple[Study, str]] = {}
@@ -119,7 +120,7 @@ def kept_chunk(start: int, stop: int) -> Array:
     return chunk(study, start, stop, mark)
 
 
-def same(study: Study) -> Study:
+def unchanged(study: Study) -> Study:
     """The study itself: a task, and no scattered datum, because a lost task's result is computed again."""
     return study
 
@@ -130,16 +131,12 @@ def on_cluster(study: Study, spans: list[Span], address: str) -> Generator[Array
         dask: Any = import_module("distributed")
     except ImportError as error:
         raise StudyError(f"a cluster needs Dask ({error}): pip install 'twintube[cluster]'") from error
-    try:
-        client = dask.Client(address, timeout=CONNECTING, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise StudyError(f"no Dask scheduler at {address}: {' '.join(str(error).split())}") from error
-    with client:
+    with connected(dask, address) as client:
         try:
             client.wait_for_workers(1, timeout=CONNECTING)
         except TimeoutError as error:
             raise StudyError(f"the Dask scheduler at {address} has no workers after {CONNECTING} s") from error
-        shared = client.submit(same, study, pure=True)
+        shared = client.submit(unchanged, study, pure=True)
         starts, stops = zip(*spans, strict=True)
         options = {"expected": version_mark(), "pure": True, "retries": RETRIES}
         futures = client.map(chunk, [shared] * len(spans), starts, stops, **options)
@@ -151,6 +148,29 @@ def on_cluster(study: Study, spans: list[Span], address: str) -> Generator[Array
             raise StudyError(f"a chunk of cases went down with every worker that tried it: {error}") from error
         except (CancelledError, ImportError, OSError, RuntimeError) as error:
             raise StudyError(f"the cluster at {address} failed: {' '.join(str(error).split())}") from error
+
+
+def connected(dask: Any, address: str) -> Any:
+    """A client of the scheduler; raises StudyError after CONNECTING seconds.
+
+    In a thread, because Dask waits without limit for a server that accepts the connection and says nothing.
+    """
+    outcome: list[Any] = []
+
+    def connect() -> None:
+        try:
+            outcome.append(dask.Client(address, timeout=CONNECTING, set_as_default=False))
+        except Exception as error:
+            outcome.append(error)
+
+    thread = Thread(target=connect, daemon=True)
+    thread.start()
+    thread.join(CONNECTING + 1)
+    if not outcome:
+        raise StudyError(f"no Dask scheduler at {address}: it accepts the connection and does not answer for {CONNECTING} s")
+    if isinstance(outcome[0], Exception):
+        raise StudyError(f"no Dask scheduler at {address}: {' '.join(str(outcome[0]).split())}") from outcome[0]
+    return outcome[0]
 
 
 def schema(study: Study) -> pa.Schema:
@@ -180,7 +200,7 @@ def column(name: str, kind: pa.DataType, unit: str) -> pa.Field:
     return pa.field(name, kind, metadata={"unit": unit})
 
 
-def table(study: Study, span: Span, found: Array) -> pa.Table:
+def table(study: Study, span: Span, values: Array) -> pa.Table:
     """The rows of a chunk: what each case was, and what came out."""
     cases = [(number, study.case(number)) for number in range(*span)]
     each = [(number, case, oscillation) for number, case in cases for oscillation in study.rows(case)]
@@ -196,7 +216,7 @@ def table(study: Study, span: Span, found: Array) -> pa.Table:
         [case.gas_preload for _, case, _ in each],
         [case.variant for _, case, _ in each],
         [oscillation for _, _, oscillation in each],
-        *found.T,
+        *values.T,
     ]
     described = schema(study)
     arrays = [pa.array(values, kind) for values, kind in zip(columns, described.types, strict=True)]

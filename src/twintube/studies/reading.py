@@ -8,7 +8,7 @@ gas_preload = [0]                       # left out: lost in every state below 10
 variant = [2, 3, 4]                     # left out: the complete model
 velocity = ["50 mm/s", 1.572]           # harmonic blocks; left out: those of the paper
 amplitude = ["45 mm"]                   # of the blocks
-records = ["drive.csv"]                 # instead of blocks or beside them: measured strokes
+records = ["drive.csv"]                 # instead of blocks, or with a velocity in addition
 oscillations = [1, 19]                  # rows per block; "all" for 1 to 19
 time_step = "0.5 ms"
 [parameters]
@@ -22,26 +22,28 @@ import hashlib
 import itertools
 import json
 import math
-import tomllib
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from twintube import dampers
-from twintube.core.checks import outside, problems, tube_limit
-from twintube.dampers import Damper, ParameterError
-from twintube.dampers.damper import suggestion
-from twintube.dampers.quantity import quantity
-from twintube.dampers.toml import line_of
-from twintube.data.record import read_csv
+from twintube.core.checks import VELOCITY, outside, problems, tube_limit
+from twintube.dampers import Damper
+from twintube.dampers.damper import joined, suggestion
+from twintube.dampers.toml import FEW_UNKNOWN, line_of
+from twintube.data.motion import read_motion
 from twintube.engine.simulate import InputError, checked
+from twintube.reading import ReadError, read_toml
 from twintube.rig.signals import AMPLITUDE, BLOCKS, OSCILLATIONS, V_PRECONDITIONING
 from twintube.studies.definition import FIELDS, Signal, Study, StudyError
+from twintube.studies.values import bounded, flattened, strings
+from twintube.words import short, shown
 
 MAX_CASES = 1_000_000
+LONGEST_TITLE = 200  # characters
+MAX_GEOMETRIES = 10_000  # products of dampers and geometries, each of which is checked
 MAX_SAMPLES = 4_000_000  # of a block, 0.5 GB of results
 TIME_STEP = 5e-4  # [s]
 VARIABLE = {name for name, item in FIELDS.items() if item.metadata["group"] and item.metadata["size"] == 1}
@@ -50,7 +52,7 @@ AXES: dict[str, tuple[str, float, float]] = {
     "oil_level": ("1", 0.0, 1.0),
     "gas_preload": ("1", 0, 1),
     "variant": ("1", 1, 4),
-    "velocity": ("m/s", 0.001, 20.0),
+    "velocity": ("m/s", 0.001, VELOCITY["upper"]),
     "amplitude": ("m", 1e-4, 0.5),
     "oscillations": ("1", 1, OSCILLATIONS),
     "time_step": ("s", 1e-5, 1e-2),
@@ -79,84 +81,31 @@ def load(study: str | Path) -> Study:
     if str(study) in NAMED:
         return from_content(NAMED[str(study)](), "", str(study), Path())
     path = Path(study)
-    if not path.is_file():
-        raise StudyError(
-            f"unknown study {study}: neither a file nor one of {', '.join(NAMED)}{suggestion(str(study), NAMED)}"
-        )
     try:
-        text = path.read_text(encoding="utf-8")
-        content = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise StudyError(f"{path.name}: {error}") from error
+        content, text = read_toml(path)
+    except (FileNotFoundError, NotADirectoryError) as error:
+        known = f"{', '.join(NAMED)}{suggestion(str(study), NAMED)}"
+        raise StudyError(f"unknown study {short(str(study))}: neither a file nor one of {known}") from error
+    except (ReadError, OSError) as error:
+        raise StudyError(f"{short(path.name)}: {getattr(error, 'strerror', None) or error}") from error
     return from_content(content, text, path.name, path.parent)
-
-
-def numbers(raw: Any, unit: str) -> list[float]:
-    """The SI values of a list, a single value or `{from, to, count}`; raises ValueError."""
-    if isinstance(raw, dict):
-        if set(raw) != {"from", "to", "count"}:
-            raise ValueError(f"a range has the keys from, to and count, not {', '.join(raw) or 'none'}")
-        count = raw["count"]
-        if type(count) is not int or not 1 <= count <= MAX_CASES:
-            raise ValueError(f"count = {count!r}: must be an integer from 1 to {MAX_CASES}")
-        low, high = quantity(raw["from"], unit), quantity(raw["to"], unit)
-        found = [float(f"{x:.15g}") for x in np.linspace(low, high, count)]  # 0.3, not 0.30000000000000004
-    else:
-        found = [quantity(value, unit) for value in (raw if isinstance(raw, list) else [raw])]
-    if not found:
-        raise ValueError("the list is empty, so there would be no case")
-    repeated = [x for x in found if found.count(x) > 1] if len(found) <= 1000 else []
-    if repeated or len(set(found)) < len(found):
-        raise ValueError(f"a value stands in the list twice{f': {repeated[0]:g}' if repeated else ''}")
-    return found
-
-
-def strings(raw: Any) -> list[str]:
-    """A list of names without repetition; raises ValueError."""
-    found = [raw] if isinstance(raw, str) else raw
-    if not isinstance(found, list) or not found or not all(isinstance(name, str) for name in found):
-        raise ValueError("must be a list of at least one string")
-    for name in found:
-        if found.count(name) > 1:
-            raise ValueError(f"{name} stands in the list twice")
-    return found
-
-
-def bounded(name: str, raw: Any, unit: str, lower: float | None, upper: float | None, integer: bool) -> list[float]:
-    """The values of an axis within their bounds; raises ValueError."""
-    try:
-        found = numbers(raw, unit)
-    except (ValueError, TypeError) as error:
-        raise ValueError(f"{name}: {error}") from error
-    for value in found:
-        message = outside(name, value, lower, upper, unit)
-        if message:
-            raise ValueError(message)
-        if integer and value != int(value):
-            raise ValueError(f"{name} = {value:g}: must be an integer")
-    return [int(value) for value in found] if integer else found
-
-
-def flattened(table: dict[str, Any], prefix: str = "") -> dict[str, Any]:
-    """`{"foam": {"B": x}}`, which TOML makes of an unquoted `foam.B`, as `{"foam.B": x}`."""
-    flat: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, dict) and set(value) != {"from", "to", "count"} and prefix + key not in FIELDS:
-            flat |= flattened(value, f"{prefix}{key}.")
-        else:
-            flat[prefix + key] = value
-    return flat
 
 
 def from_content(content: dict[str, Any], text: str, file: str, folder: Path) -> Study:
     """A study from parsed TOML; `text` and `file` serve the messages only, `folder` is where its files are."""
-    found = [f"{line_of(text, '', key)}unknown {key}{suggestion(key, KEYS)}" for key in content if key not in KEYS]
+    unknown = [key for key in content if key not in KEYS]
+    messages = [f"{line_of(text, '', key)}unknown {key}{suggestion(key, KEYS)}" for key in unknown[:FEW_UNKNOWN]]
+    messages += [f"{len(unknown) - FEW_UNKNOWN} more unknown keys"] * (len(unknown) > FEW_UNKNOWN)
     content = {"variant": [4], "oil_level": [1.0], "amplitude": [AMPLITUDE], "oscillations": [1, 19]} | content
     content = {"title": Path(file).stem, "time_step": TIME_STEP} | content
     if "velocity" not in content and "records" not in content:
         content["velocity"] = list(BLOCKS)
     if content["oscillations"] == "all":
         content["oscillations"] = {"from": 1, "to": OSCILLATIONS, "count": OSCILLATIONS}
+    title: Any = content["title"]
+    if not isinstance(title, str) or len(title) > LONGEST_TITLE or "\n" in title:
+        limit = f"a text of one line and at most {LONGEST_TITLE} characters"
+        messages.append(f"{line_of(text, '', 'title')}title = {shown(title)}: must be {limit}")
 
     axes: dict[str, list[Any]] = {"gas_preload": [], "velocity": []}
     for key, (unit, lower, upper) in AXES.items():
@@ -164,24 +113,29 @@ def from_content(content: dict[str, Any], text: str, file: str, folder: Path) ->
             try:
                 axes[key] = bounded(key, content[key], unit, lower, upper, key in INTEGER)
             except ValueError as error:
-                found.append(line_of(text, "", key) + str(error))
+                messages.append(line_of(text, "", key) + str(error))
     if len(axes.get("time_step", [0])) != 1:
-        found.append(line_of(text, "", "time_step") + "time_step: must be one value")
-    dampers = read_dampers(content, text, folder, found)
-    records = read_records(content, text, folder, found)
-    varied = read_parameters(content, text, found)
-    refuse(file, found)
+        messages.append(line_of(text, "", "time_step") + "time_step: must be a single value")
+    dampers = read_dampers(content, text, folder, messages)
+    records = read_records(content, text, folder, messages)
+    varied = read_parameters(content, text, messages)
+    refuse(file, messages)
 
+    lengths = [len(axes[key] or [0]) for key in ("oil_level", "gas_preload", "variant")] + [len(v) for v in varied.values()]
+    signals = len(axes["velocity"]) * len(axes["amplitude"]) + len(records)
+    total = len(dampers) * signals * math.prod(lengths)
+    if total > MAX_CASES:
+        raise StudyError(f"{file}: the grid has {total} cases, at most {MAX_CASES} are possible; shorten a list or split it")
     blocks = [Signal(f"harmonic {v:g} m/s {z * 1e3:g} mm", v, z) for v in axes["velocity"] for z in axes["amplitude"]]
     definition = {
-        "title": str(content["title"]),
+        "title": title,
         "dampers": {damper.name: asdict(damper.parameters) for damper in dampers},
         "records": {record.name: digest(record) for record in records},
         "parameters": varied,
         **axes,
     }
     study = Study(
-        title=str(content["title"]),
+        title=title,
         dampers=dampers,
         signals=(*blocks, *records),
         parameters=varied,
@@ -192,9 +146,6 @@ def from_content(content: dict[str, Any], text: str, file: str, folder: Path) ->
         time_step=axes["time_step"][0],
         text=json.dumps(definition),
     )
-    total = math.prod(study.shape)
-    if total > MAX_CASES:
-        raise StudyError(f"{file}: the grid has {total} cases, at most {MAX_CASES} are possible; shorten a list or split it")
     refuse(file, misfits(study))
     return study
 
@@ -204,67 +155,69 @@ def digest(record: Signal) -> str:
     return hashlib.sha256(record.time.tobytes() + record.stroke.tobytes() + record.speed.tobytes()).hexdigest()
 
 
-def refuse(file: str, found: list[str]) -> None:
-    """Raise StudyError with all messages, if there are any."""
-    if found:
-        raise StudyError(f"{file}: " + "; ".join(found))
+def refuse(file: str, messages: list[str]) -> None:
+    """Raise StudyError with the messages, if there are any."""
+    if messages:
+        raise StudyError(f"{file}: {joined(messages)}")
 
 
-def read_dampers(content: dict[str, Any], text: str, folder: Path, found: list[str]) -> tuple[Damper, ...]:
-    """The dampers without their sources, which no worker needs; messages go to `found`."""
+def read_dampers(content: dict[str, Any], text: str, folder: Path, messages: list[str]) -> tuple[Damper, ...]:
+    """The dampers without their sources, which no worker needs; messages go to `messages`."""
     line = line_of(text, "", "dampers")
     if "dampers" not in content:
-        found.append("dampers is missing")
+        messages.append("dampers is missing")
         return ()
     read: list[Damper] = []
     try:
         for name in strings(content["dampers"]):
-            one = dampers.load(name if name in dampers.names() else folder / name)
-            read.append(replace(one, sources={}, assumed={}))
-    except ParameterError as error:
-        found.append(f"{line}dampers: {error}")
+            damper = dampers.load(name if name in dampers.names() else folder / name)
+            read.append(replace(damper, sources={}, assumed={}))
     except (ValueError, OSError) as error:
-        found.append(f"{line}dampers: {error}")
-    names = [damper.name for damper in read]
-    if len(set(names)) < len(names):
-        found.append(f"{line}dampers: two of them have one name among {', '.join(names)}")
+        messages.append(f"{line}dampers: {error}")
+    for name, count in Counter(damper.name for damper in read).items():
+        if count > 1:
+            hint = "give each file its own `name`, which the rows of the result carry"
+            messages.append(f"{line}dampers: {count} of them are named {name}: {hint}")
     return tuple(read)
 
 
-def read_records(content: dict[str, Any], text: str, folder: Path, found: list[str]) -> tuple[Signal, ...]:
-    """The measured strokes; messages go to `found`."""
+def read_records(content: dict[str, Any], text: str, folder: Path, messages: list[str]) -> tuple[Signal, ...]:
+    """The measured strokes; messages go to `messages`."""
     line = line_of(text, "", "records")
     read: list[Signal] = []
     try:
         for name in strings(content["records"]) if "records" in content else []:
-            time, stroke, speed = read_csv(folder / name)
+            time, stroke, speed = read_motion(folder / name)
             read.append(Signal(name, time=time, stroke=stroke, speed=speed))
     except (ValueError, OSError) as error:
-        found.append(f"{line}records: {error}")
+        messages.append(f"{line}records: {error}")
     return tuple(read)
 
 
-def read_parameters(content: dict[str, Any], text: str, found: list[str]) -> dict[str, tuple[float, ...]]:
-    """The lists of the table `parameters`; messages go to `found`."""
+def read_parameters(content: dict[str, Any], text: str, messages: list[str]) -> dict[str, tuple[float, ...]]:
+    """The lists of the table `parameters`; messages go to `messages`."""
     table = content.get("parameters", {})
     if not isinstance(table, dict):
-        found.append(f"{line_of(text, '', 'parameters')}parameters: must be a table")
+        messages.append(f"{line_of(text, '', 'parameters')}parameters: must be a table")
         return {}
     varied: dict[str, tuple[float, ...]] = {}
-    for name, raw in flattened(table).items():
+    for number, (name, raw) in enumerate(flattened(table).items()):
+        if number > len(FIELDS):
+            messages.append("parameters: more entries than there are parameters")
+            break
         line = line_of(text, "parameters", name)
         if name in ("oil_level", "gas_preload"):
-            found.append(f"{line}parameters.{name}: belongs to the top of the file, not to parameters")
+            messages.append(f"{line}parameters.{name}: belongs to the top of the file, not to parameters")
         elif name not in VARIABLE:
             curve = name in FIELDS
-            hint = ", a curve and not one number" if curve else suggestion(name, VARIABLE)
-            found.append(f"{line}{'' if curve else 'unknown '}parameters.{name}{hint}")
+            hint = ", a curve and not a number" if curve else suggestion(name, VARIABLE)
+            messages.append(f"{line}{'' if curve else 'unknown '}parameters.{name}{hint}")
         else:
             meta = FIELDS[name].metadata
             try:
                 varied[name] = tuple(bounded(name, raw, meta["unit"], meta["lower"], meta["upper"], meta["integer"]))
             except ValueError as error:
-                found.append(f"{line}parameters.{error}")
+                messages.append(f"{line}parameters.{error}")
     return varied
 
 
@@ -273,28 +226,32 @@ def misfits(study: Study) -> list[str]:
 
     Only the geometry's parameters depend on each other, so only their product is tried.
     """
+    for signal in study.signals:
+        samples = signal.samples(study.time_step)
+        if samples > MAX_SAMPLES:
+            return [f"{signal.name}: {samples:.0f} samples, at most {MAX_SAMPLES} are possible; raise time_step"]
     names = [name for name in study.parameters if FIELDS[name].metadata["group"] == "geometry"]
-    amplitudes = [signal.amplitude for signal in study.signals if not signal.stroke.size]
+    count = len(study.dampers) * math.prod(len(study.parameters[name]) for name in names)
+    if count > MAX_GEOMETRIES:
+        return [f"{count} geometries, at most {MAX_GEOMETRIES} are possible; shorten the list of a geometry's parameter"]
+    limit, where = math.inf, ""
     for damper, values in itertools.product(study.dampers, itertools.product(*(study.parameters[n] for n in names))):
         changes: dict[str, Any] = {FIELDS[n].name: x for n, x in zip(names, values, strict=True)}
         p = replace(damper.parameters, **changes)
-        where = damper.name + "".join(f", {n} = {x:g}" for n, x in zip(names, values, strict=True))
-        found = problems(p)
-        if found:
-            return [f"{where}: {found[0]}"]
-        limit = tube_limit(p)
-        for amplitude in amplitudes:
-            message = outside("amplitude", amplitude, 0.0, limit, "m")
-            if message:
-                return [f"{where}: {message}"]
-        for signal in study.signals:
-            samples = signal.samples(study.time_step)
-            if samples > MAX_SAMPLES:
-                return [f"{signal.name}: {samples:.0f} samples, at most {MAX_SAMPLES} are possible; raise time_step"]
+        here = damper.name + "".join(f", {n} = {x:g}" for n, x in zip(names, values, strict=True))
+        messages = problems(p)
+        if messages:
+            return [f"{here}: {messages[0]}"]
+        if tube_limit(p) < limit:
+            limit, where = tube_limit(p), here
+    for signal in study.signals:
+        try:
             if signal.stroke.size:
-                try:
-                    checked(signal.stroke, signal.speed, limit)
-                    checked([AMPLITUDE], [V_PRECONDITIONING], limit)
-                except InputError as error:
-                    return [f"{where}: {signal.name}: {error}"]
+                checked(signal.stroke, signal.speed, limit)
+                checked([AMPLITUDE], [V_PRECONDITIONING], limit)
+        except InputError as error:
+            return [f"{where}: {signal.name}: {error}"]
+        message = "" if signal.stroke.size else outside("amplitude", signal.amplitude, 0.0, limit, "m")
+        if message:
+            return [f"{where}: {message}"]
     return []

@@ -1,1 +1,1 @@
-"""The car around the damper: road, quarter car, manoeuvres, rides."""
+"""Vehicle: road, quarter car, manoeuvres of Table 3, rides."""

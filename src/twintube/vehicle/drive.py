@@ -1,11 +1,11 @@
-"""The quarter car with the damper of this process, coupled in every step."""
+"""The quarter car with the compiled damper, coupled in every step."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.core.checks import stroke_limit
+from twintube.core.frame import stroke_limit
 from twintube.core.variables import blank
 from twintube.dampers import Damper
 from twintube.engine import compiled
@@ -16,7 +16,7 @@ from twintube.vehicle.quarter_car import Car, Motion
 
 @dataclass(frozen=True)
 class Drive:
-    """What the damper and the road got; arrays (n,), one value per step."""
+    """Results of a drive; arrays (n,), one value per step."""
 
     time: Array  # [s]
     stroke: Array  # [m] of the damper
@@ -24,19 +24,19 @@ class Drive:
     force: Array  # [N] of the damper
     wheel_load: Array  # [N]
     work: Array  # [J] dissipated by the damper since the start
-    oil: Array  # [m3] of oil in the damper, that in foam included
+    oil: Array  # [m3] of oil in the damper, including that in the foam
 
 
 CONDITIONING_STEP = 5e-3  # [s]
 
 
 def conditioning() -> Array:
-    """Strokes [m] of the paper's preconditioning, six times at 0.05 m/s, one every CONDITIONING_STEP; it ends at 0."""
+    """Strokes [m] of the paper's preconditioning, one every CONDITIONING_STEP; the last one is 0."""
     return oscillations(V_PRECONDITIONING, AMPLITUDE, PRECONDITIONING, CONDITIONING_STEP)[1]
 
 
 def slopes(heights: Array, dt: float) -> Array:
-    """Rates [m/s] of the heights [m] (n,) one every `dt` [s]: central differences, 0 at both ends."""
+    """Rates [m/s] of heights [m] (n,) with the time step `dt` [s]: central differences, 0 at both ends."""
     rates = np.zeros(len(heights))
     rates[1:-1] = 0.5 * (heights[2:] - heights[:-2]) / dt
     return rates
@@ -52,16 +52,16 @@ def drive(
     *,
     preconditioned: bool = False,
 ) -> Drive:
-    """Drive over the road `heights` [m] (n,), one every `dt` [s], rising at `rates` [m/s], with the damper in the loop.
+    """Drive over the road `heights` [m] (n,) with the time step `dt` [s] and the `rates` [m/s], with the damper in the loop.
 
-    `push` [N] (n,) presses the body down, as braking does at the front. `preconditioned` moves the damper before as the
-    paper does, six times at 0.05 m/s. Raises InputError where the piston would leave the tube.
+    `push` [N] (n,) presses the body down, as braking does at the front. `preconditioned` applies the paper's
+    preconditioning first, six oscillations at 0.05 m/s. Raises InputError if the piston would leave the tube.
     """
     p, d, s, f = rows(at_rest(damper, 0.0))
     limit = stroke_limit(at_rest(damper, 0.0)[1])
     module = compiled.module()
     if preconditioned:
-        # An FMU begins with a step of no length, in which it computes its outputs.
+        # An FMU computes its outputs in a first step of length 0.
         module.run_held(p, d, s, f, np.zeros(2), 0.0)
         module.run_held(p, d, s, f, conditioning(), CONDITIONING_STEP)
     if push is None:
@@ -69,7 +69,7 @@ def drive(
     if rates is None:
         rates = slopes(heights, dt)
     out = np.empty((len(heights), 6))
-    done: int = module.run_drive(p, d, s, f, *rows([car, blank(Motion)]), heights, rates, push, dt, limit, out)
-    if done < len(heights):
-        raise InputError(f"time {done * dt:g} s: stroke must be from {-limit:g} to {limit:g} m")
+    steps: int = module.run_drive(p, d, s, f, *rows([car, blank(Motion)]), heights, rates, push, dt, limit, out)
+    if steps < len(heights):
+        raise InputError(f"time {steps * dt:g} s: stroke must be from {-limit:g} to {limit:g} m")
     return Drive(np.arange(len(heights)) * dt, *np.ascontiguousarray(out.T))

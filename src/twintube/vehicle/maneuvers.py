@@ -1,4 +1,4 @@
-"""The ten drives of Table 3 as road heights under a wheel. Obstacles, speeds' courses and braking are assumed."""
+"""The ten drives of Table 3 as road heights under a wheel. Obstacles, speed over time and braking are assumed."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -38,20 +38,20 @@ def bump(position: Array, _: int) -> Array:
 
 
 def cleats(position: Array, _: int) -> Array:
-    """Five cleats; the tyre averages each over its contact length."""
+    """Five cleats, averaged over the tyre's contact length."""
     height = np.zeros_like(position)
     reach = (CLEAT_LENGTH + road.CONTACT_LENGTH) / 2
     for i in range(CLEATS):
-        away = np.abs(position - 2.0 - i * CLEAT_SPACING)
-        overlap = np.clip(reach - away, 0.0, min(CLEAT_LENGTH, road.CONTACT_LENGTH))
+        distance = np.abs(position - 2.0 - i * CLEAT_SPACING)
+        overlap = np.clip(reach - distance, 0.0, min(CLEAT_LENGTH, road.CONTACT_LENGTH))
         height += CLEAT_HEIGHT * overlap / road.CONTACT_LENGTH
     return height
 
 
 def washboard(position: Array, _: int) -> Array:
-    """Sinusoidal waves, averaged over the contact length."""
-    felt = WASH_AMPLITUDE * np.sinc(road.CONTACT_LENGTH / WASH_LENGTH)
-    height: Array = felt * np.sin(2 * np.pi * position / WASH_LENGTH)
+    """Sinusoidal waves, averaged over the tyre's contact length."""
+    amplitude = WASH_AMPLITUDE * np.sinc(road.CONTACT_LENGTH / WASH_LENGTH)
+    height: Array = amplitude * np.sin(2 * np.pi * position / WASH_LENGTH)
     return height
 
 
@@ -82,14 +82,14 @@ MANEUVERS = (
 )
 
 
-def ridden(maneuver: Maneuver, axle: str, seed: int = 1) -> tuple[Array, Array]:
-    """Heights under the wheel [m] and load moved onto the corner by braking [N], both (n,), one every `DT` seconds."""
+def wheel_input(maneuver: Maneuver, axle: str, seed: int = 1) -> tuple[Array, Array]:
+    """Heights under the wheel [m] and load moved to the corner by braking [N], both (n,) with the time step `DT`."""
     time = np.arange(0.0, maneuver.seconds, DT)
     speed = np.full_like(time, maneuver.speed_kmh / 3.6)
     push = np.zeros_like(time)
     if maneuver.braked:
         speed = np.clip(speed - BRAKING * np.clip(time - APPROACH, 0.0, None), 0.0, None)
-        # The pressure builds up within 0.2 s and ends with the standstill.
+        # The brake pressure builds up within 0.2 s and is released at standstill.
         share = np.clip((time - APPROACH) / 0.2, 0.0, 1.0) * (speed > 0)
         push = SHIFT * share * (1.0 if axle == "front" else -1.0)
     position = np.concatenate([[0.0], np.cumsum(speed[1:] * DT)])

@@ -1,4 +1,4 @@
-"""The whole measurement plan of Table 3: the bench's, and the drives as a damper's strokes in a quarter car."""
+"""The whole measurement plan of Table 3: bench measurements, and drives as damper strokes in a quarter car."""
 
 from collections.abc import Iterator
 
@@ -9,15 +9,15 @@ from twintube.rig.plan import Measurement, amplitude, bench_plan
 from twintube.rig.signals import PRECONDITIONING, V_PRECONDITIONING, Signal, oscillations
 from twintube.vehicle.cars import axle, load_car
 from twintube.vehicle.drive import drive
-from twintube.vehicle.maneuvers import DT, MANEUVERS, Maneuver, ridden
+from twintube.vehicle.maneuvers import DT, MANEUVERS, Maneuver, wheel_input
 
 
 def drive_signal(damper: Damper, maneuver: Maneuver, seed: int = 1) -> Signal:
     """Strokes of the intact damper in a quarter car during a drive, after the preconditioning.
 
-    The car's corner is the damper's; the paper measured these strokes, here they are simulated.
+    The corner of the car follows from the damper. The paper measured these strokes; here they are simulated.
     """
-    height, push = ridden(maneuver, axle(damper), seed)
+    height, push = wheel_input(maneuver, axle(damper), seed)
     run = drive(damper.with_(oil_level=1.0, gas_preload=1), load_car().corner(damper), height, DT, push)
     t0, z0, v0 = oscillations(V_PRECONDITIONING, amplitude(damper), PRECONDITIONING, 2e-3)
     return Signal(
@@ -29,7 +29,7 @@ def drive_signal(damper: Damper, maneuver: Maneuver, seed: int = 1) -> Signal:
 
 
 def plan(damper: Damper, seed: int = 1) -> Iterator[Measurement]:
-    """All measurements of Table 3; raises InputError where a drive takes the piston out of the tube."""
+    """All measurements of Table 3; raises InputError if the piston would leave the tube in a drive."""
     yield from bench_plan(damper)
     for maneuver in MANEUVERS:
         yield Measurement(maneuver.number, maneuver.name, "stochastic", drive_signal(damper, maneuver, seed))

@@ -1,7 +1,7 @@
-"""A quarter car: body, wheel, spring, tyre that can leave the road, bump and rebound stop; the damper comes from outside.
+"""A quarter car: body, wheel, spring, tyre that can leave the road, bump and rebound stop; the damper force is an input.
 
-Heights count from the rest position on a flat road with an intact damper; forces are those beyond the weight. All is at the
-wheel; the damper moves `ratio` times as far and its force acts there `ratio` times.
+Heights are relative to the rest position on a flat road with an intact damper; forces are those in addition to the weight.
+All values are at the wheel: the damper's stroke is `ratio` times the wheel's, and `ratio` times its force acts at the wheel.
 """
 
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ class Car:
     c_body: float = var("car", "c_b", "N/m", "spring rate at the wheel", lower=1e3, upper=1e6)
     d_links: float = var("car", "d_b", "N.s/m", "damping of bushings and links at the wheel", lower=0, upper=5000)
     c_tyre: float = var("car", "c_t", "N/m", "tyre stiffness", lower=1e4, upper=5e6)
-    d_tyre: float = var("car", "d_t", "N.s/m", "tyre damping while it touches the road", lower=0, upper=5000)
+    d_tyre: float = var("car", "d_t", "N.s/m", "tyre damping while the tyre touches the road", lower=0, upper=5000)
     ratio: float = var("car", "i", "1", "motion ratio, stroke of the damper per stroke of the wheel", lower=0.2, upper=1.5)
     travel: float = var(
         "car", "", "m", "stroke of the wheel to each side at which the rubber stop touches", lower=0.005, upper=1
@@ -29,7 +29,7 @@ class Car:
         "car", "", "N/m3", "stiffness of the rubber stops, over the cube of their compression", lower=0, upper=1e13
     )
     d_stop: float = var("car", "", "s/m", "damping of the stops relative to their stiffness", lower=0, upper=100)
-    F_rest: float = var("car", "", "N", "damper force at rest for which the spring is set", default=0.0)
+    F_rest: float = var("car", "", "N", "damper force at rest that the spring preload compensates", default=0.0)
 
 
 @dataclass(slots=True)
@@ -49,21 +49,20 @@ def static_load(car: Car) -> float:
     return (car.m_body + car.m_wheel) * GRAVITY
 
 
-def stop_force(car: Car, over: float, velocity: float) -> float:
-    """Force of a rubber stop [N] pressed by `over` [m] at `velocity` [m/s]; it pushes only (Hunt and Crossley)."""
-    if over <= 0.0:
+def stop_force(car: Car, compression: float, velocity: float) -> float:
+    """Force [N] of a rubber stop under `compression` [m] at `velocity` [m/s], never a pull (Hunt and Crossley)."""
+    if compression <= 0.0:
         return 0.0
-    return max(0.0, car.c_stop * over * over * over * (1.0 + car.d_stop * velocity))
+    return max(0.0, car.c_stop * compression * compression * compression * (1.0 + car.d_stop * velocity))
 
 
-def kick(car: Car, m: Motion, road: float, road_velocity: float, force: float, push: float, dt: float) -> float:
-    """One leapfrog step of `dt` [s] with the damper `force` [N] of this moment; returns the wheel load [N].
+def leapfrog_step(car: Car, m: Motion, road: float, road_velocity: float, force: float, push: float, dt: float) -> float:
+    """One leapfrog step of `dt` [s] with the damper `force` [N] at its start; returns the wheel load [N].
 
-    `push` [N] presses the body down: the load that braking moves to the front axle.
-
-    The wheel load is never negative: the tyre does not pull on the road (`road` [m], rising at `road_velocity` [m/s]).
+    `push` [N] presses the body down: the load that braking moves to the front axle. The wheel load is never negative: the
+    tyre does not pull on the road (height `road` [m], rate `road_velocity` [m/s]).
     """
-    # Velocities of this moment: half a step on from the stored ones.
+    # Velocities at the start of the step: half a step after the stored ones.
     v_body = m.v_body + 0.5 * m.dv_body
     v_wheel = m.v_wheel + 0.5 * m.dv_wheel
     weight = (car.m_body + car.m_wheel) * GRAVITY
@@ -90,5 +89,5 @@ def damper_stroke(car: Car, m: Motion) -> float:
 
 
 def damper_velocity(car: Car, m: Motion) -> float:
-    """Mean velocity of the damper [m/s] over the step that `kick` has made."""
+    """Mean velocity of the damper [m/s] over the last `leapfrog_step`."""
     return car.ratio * (m.v_body - m.v_wheel)

@@ -15,28 +15,27 @@ TITLE = "Bump or rebound stop engaged"
 CAUSE = "The stroke reaches a rubber stop inside the damper, which adds a springy force near the end of the stroke."
 ABSENCE = "The residual is zero over most of the stroke and rises steeply at one end, nearly alike in both directions."
 DECIDES = "the same velocity with half the amplitude"
-STRENGTH = ("F_stop_re", "F_stop_co")
 NEEDS_TIME = False
 REFERENCE = 0.01  # [m]
 TURN = 0.01  # [m/s] over which the hysteresis turns
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Force and onset of each side."""
 
     F_stop_re: float = var("end_stop", "", "N", "force of the rebound stop 10 mm beyond its onset", lower=0, upper=2e4,
-                           source="power law of the depth", default=0.0)  # fmt: skip
+                           source="power law of the depth", default=0.0, role="strength")  # fmt: skip
     onset_re: float = var("end_stop", "", "m", "stroke at which the rebound stop touches", lower=0, upper=0.4,
-                          source="", default=0.04)  # fmt: skip
+                          source="", default=0.04, role="place")  # fmt: skip
     F_stop_co: float = var("end_stop", "", "N", "force of the compression stop 10 mm beyond its onset", lower=0,
-                           upper=2e4, source="power law of the depth", default=0.0)  # fmt: skip
+                           upper=2e4, source="power law of the depth", default=0.0, role="strength")  # fmt: skip
     onset_co: float = var("end_stop", "", "m", "stroke (magnitude) at which the compression stop touches", lower=0,
-                          upper=0.4, source="", default=0.04)  # fmt: skip
+                          upper=0.4, source="", default=0.04, role="place")  # fmt: skip
     power_stop: float = var("end_stop", "", "1", "power of the depth beyond the onset, both stops", lower=1, upper=3,
-                            source="1 spring, 1.5 Hertz", default=1.5)  # fmt: skip
+                            source="1 spring, 1.5 Hertz", default=1.5, role="law")  # fmt: skip
     loss_stop: float = var("end_stop", "", "1", "share of the stops' force that is friction", lower=0, upper=0.4,
-                           source="filled rubber loses 10 to 25 %", default=0.15)  # fmt: skip
+                           source="filled rubber loses 10 to 25 %", default=0.15, role="law")  # fmt: skip
 
 
 def end_stop_press(p: Parameters, force: float, over: float) -> float:

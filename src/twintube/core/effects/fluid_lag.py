@@ -22,26 +22,25 @@ TITLE = "Compressible oil and late check valves"
 CAUSE = "Oil, dissolved gas and walls give under pressure and check valves close late, so the fluid force lags the velocity."
 ABSENCE = "The measured F-v curve opens to a loop that the model does not have, widest where the acceleration is largest."
 DECIDES = "small amplitudes at the same velocity: a lag grows with the frequency, a mount with the force"
-STRENGTH = ("C_fluid", "C_fluid_co", "V_air", "tau_fluid")
 NEEDS_TIME = True
 P_ATM = 1e5  # [Pa]
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Compliance of the oil column."""
 
     C_fluid: float = var("fluid_lag", "", "m/N", "compliance of the oil in series with the valves, rebound", lower=0,
                          upper=2e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
-                         default=0.0)  # fmt: skip
+                         default=0.0, role="strength")  # fmt: skip
     C_fluid_co: float = var("fluid_lag", "", "m/N", "the same in compression, which presses on the rod's area", lower=0,
                             upper=5e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
-                            default=0.0)  # fmt: skip
+                            default=0.0, role="strength")  # fmt: skip
     V_air: float = var("fluid_lag", "", "m3", "air trapped in the oil, at ambient pressure", lower=0, upper=5e-6,
                        source="ideal gas at constant temperature; Manring, Hydraulic Control Systems",
-                       default=0.0)  # fmt: skip
+                       default=0.0, role="strength")  # fmt: skip
     tau_fluid: float = var("fluid_lag", "", "s", "time constant with which late valves change the fluid force", lower=0,
-                           upper=0.02, source="first-order lag", default=0.0)  # fmt: skip
+                           upper=0.02, source="first-order lag", default=0.0, role="strength")  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -85,7 +84,7 @@ def fluid_lag_felt(p: Parameters, s: State, F: float, dt: float) -> float:
 
 
 def fluid_lag_inverse(
-    p: Parameters, w: float, k: float, side: float, velocities: list[float], forces: list[float], dt: float
+    p: Parameters, w: float, k: float, side: float, velocities: tuple[float, ...], forces: tuple[float, ...], dt: float
 ) -> float:
     """The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
 

@@ -11,16 +11,15 @@ TITLE = "Foam separates with time"
 CAUSE = "Drainage and bursting bubbles separate foam into oil and gas at a rate of its own, at rest too."
 ABSENCE = "After a rest or in slow motion the measured force is higher than the model's, whose foam stays."
 DECIDES = "rests of 5, 20 and 60 s between blocks below the cavitation threshold"
-STRENGTH = ("foam_decay_rate",)
 NEEDS_TIME = True
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Rate of the decay."""
 
     foam_decay_rate: float = var("foam_decay", "", "1/s", "share of the foam that separates per second", lower=0, upper=2,
-                                 source="first-order foam decay; Bikerman, Foams", default=0.0)  # fmt: skip
+                                 source="first-order foam decay; Bikerman, Foams", default=0.0, role="strength")  # fmt: skip
 
 
 def foam_decay_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:

@@ -15,17 +15,16 @@ TITLE = "The oil runs out of dissolved gas"
 CAUSE = "Oil holds a limited volume of gas; once it is freed, a cavitating valve frees no more."
 ABSENCE = "In a long block above the threshold the model goes on losing force where the measured damper settles."
 DECIDES = "a block of 60 s above the cavitation threshold, and a rest before it is repeated"
-STRENGTH = ("exhaustion",)
 NEEDS_TIME = False
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """The limit."""
 
     exhaustion: float = var("gas_exhaustion", "", "1", "oil volume over the largest volume of freed gas", lower=0, upper=10,
                             source="Section 3.2: 9.3 to 11.3 % of the oil's volume at ambient pressure",
-                            default=0.0)  # fmt: skip
+                            default=0.0, role="strength")  # fmt: skip
 
 
 def gas_exhaustion_motion(p: Parameters, d: Derived, s: Frame, z: float, v0: float, v1: float, dt: float) -> None:

@@ -15,17 +15,16 @@ TITLE = "Gas goes back into the oil"
 CAUSE = "Bubbles freed by cavitation collapse and dissolve again under pressure, which the paper's model does not give back."
 ABSENCE = "The model loses force from oscillation to oscillation where the measured damper recovers, at rest above all."
 DECIDES = "rests of 5, 20 and 60 s between blocks above the cavitation threshold"
-STRENGTH = ("redissolution_rate",)
 NEEDS_TIME = True
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Rate of the return."""
 
     redissolution_rate: float = var("gas_redissolution", "", "1/s", "share of the freed gas that dissolves per second",
                                     lower=0, upper=2, source="first-order mass transfer (Henry's law)",
-                                    default=0.0)  # fmt: skip
+                                    default=0.0, role="strength")  # fmt: skip
 
 
 def gas_redissolution_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:

@@ -12,18 +12,18 @@ TITLE = "Residual or wrong gas preload"
 CAUSE = "Gas pressure is left where it is taken as lost, or the preload differs from the one of the parameter set."
 ABSENCE = "The residual is a straight line over the stroke, the same in both directions and at every velocity."
 DECIDES = "a quasi-static record of the degraded damper over the whole stroke"
-STRENGTH = ("c_residual", "F_residual")
 NEEDS_TIME = False
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Stiffness and force."""
 
     c_residual: float = var("gas_spring", "", "N/m", "gas spring stiffness beyond c_gas", lower=-2e4, upper=2e4,
-                            source="linearised polytropic compression", default=0.0)  # fmt: skip
+                            source="linearised polytropic compression", default=0.0, role="strength")  # fmt: skip
     F_residual: float = var("gas_spring", "", "N", "gas force at stroke 0 beyond F_0 (pushes the rod out)", lower=-2000,
-                            upper=2000, source="pressure times the rod's cross-section", default=0.0)  # fmt: skip
+                            upper=2000, source="pressure times the rod's cross-section", default=0.0,
+                            role="strength")  # fmt: skip
 
 
 def gas_spring_elastic(p: Parameters, z: float) -> float:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from twintube.core import variables
 from twintube.core.effects import effects_elastic, effects_felt, effects_rub, effects_scale_friction, effects_series
-from twintube.core.frame import Frame, parts_of, valve_force
+from twintube.core.frame import Frame, parts_of, stroke_limit, valve_force
 from twintube.core.kernel.forces import dahl, stribeck
 from twintube.core.variables import Derived, var
 
@@ -17,20 +17,21 @@ TITLE = "Rubber mount in series"
 CAUSE = "A rubber mount between rig or body and piston rod deflects under the force, so that the piston moves less."
 ABSENCE = "The measured force lags behind the model's after every reversal, and small strokes do much less work."
 DECIDES = "small amplitudes at the same velocity: a mount takes its deflection from every stroke"
-STRENGTH = ("C_mount",)
 NEEDS_TIME = True
+FASTEST = 50.0  # [m/s] beyond every damper
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Compliance and damping of the rubber."""
 
     C_mount: float = var("mount_compliance", "", "m/N", "compliance of the mount, 1 / stiffness", lower=0, upper=2e-5,
-                         source="Kelvin-Voigt element; Dixon, The Shock Absorber Handbook", default=0.0)  # fmt: skip
+                         source="Kelvin-Voigt element; Dixon, The Shock Absorber Handbook", default=0.0,
+                         role="strength")  # fmt: skip
     tau_mount: float = var("mount_compliance", "", "s", "damping of the mount over its stiffness", lower=0, upper=0.02,
-                           source="loss factor of rubber about 0.1 to 0.2 at 10 Hz", default=1e-3)  # fmt: skip
+                           source="loss factor of rubber about 0.1 to 0.2 at 10 Hz", default=1e-3, role="scale")  # fmt: skip
     m_rod: float = var("mount_compliance", "", "kg", "mass of rod and piston behind the mount", lower=0, upper=5,
-                       source="weighed; 1 to 3 kg in a passenger car", default=0.0)  # fmt: skip
+                       source="weighed; 1 to 3 kg in a passenger car", default=0.0, role="scale")  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -98,7 +99,8 @@ def mount_compliance_speed(p: Parameters, d: Derived, s: State, z: float, v: flo
         high = u
         r_high = r
         n += 1
-    return high
+    # An undamped mount on late valves, whose force cannot follow, would have to move in no time.
+    return max(-FASTEST, min(FASTEST, high))
 
 
 def mount_compliance_motion(p: Parameters, d: Derived, s: State, z: float, v0: float, v1: float, dt: float) -> None:
@@ -116,7 +118,7 @@ def mount_compliance_motion(p: Parameters, d: Derived, s: State, z: float, v0: f
         s.x_mount += (v1 - s.goal_v1) * dt
         s.F_rod = p.m_rod * (s.goal_v1 - s.v_piston) / dt
     # An elastic mount cannot push the piston out of the tube.
-    s.goal_z = max(1e-6 - d.half_length, min(d.half_length - 1e-6, z - s.x_mount))
+    s.goal_z = max(-stroke_limit(d), min(stroke_limit(d), z - s.x_mount))
 
 
 def mount_compliance_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:

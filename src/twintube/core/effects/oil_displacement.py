@@ -14,16 +14,16 @@ TITLE = "Freed gas displaces oil"
 CAUSE = "Gas that cavitation frees takes the place of oil, which stays in the reserve instead of being lost."
 ABSENCE = "The model loses force over a long block above the threshold without end, where the measured damper settles."
 DECIDES = "a block of 60 s above the cavitation threshold: it settles, and a rest changes nothing"
-STRENGTH = ("displaced_share",)
 NEEDS_TIME = False
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """How much of the oil is kept."""
 
     displaced_share: float = var("oil_displacement", "", "1", "share of the oil that freed gas pushes into the reserve",
-                                 lower=0, upper=1, source="mass balance of the oil", default=0.0)  # fmt: skip
+                                 lower=0, upper=1, source="mass balance of the oil", default=0.0,
+                                 role="strength")  # fmt: skip
 
 
 def oil_displacement_derive(p: Parameters, d: Derived) -> None:

@@ -16,16 +16,15 @@ ABSENCE = (
     "In every degraded state the model's force rises at another stroke than the measured one, from the first oscillation."
 )
 DECIDES = "the oil weighed"
-STRENGTH = ("level_error",)
 NEEDS_TIME = False
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Error of the level."""
 
     level_error: float = var("oil_level_error", "", "1", "true oil level beyond the recorded one", lower=-0.3, upper=0.3,
-                             source="", default=0.0)  # fmt: skip
+                             source="", default=0.0, role="strength")  # fmt: skip
 
 
 def oil_level_error_level(p: Parameters, level: float) -> float:

@@ -17,20 +17,21 @@ TITLE = "Self-heating of the oil"
 CAUSE = "The dissipated work heats the oil, whose viscosity falls exponentially with temperature and recovers at rest."
 ABSENCE = "The measured fluid force falls from oscillation to oscillation below the model's and comes back after a rest."
 DECIDES = "a rest of ten minutes within a record: heat goes, lost oil does not come back"
-STRENGTH = ("fade_heat",)
 NEEDS_TIME = True
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Fade and cooling."""
 
     fade_heat: float = var("oil_temperature", "", "1/J", "relative loss of fluid force per retained heat", lower=0,
-                           upper=1e-3, source="Reynolds 1886 (viscosity), lumped heat capacity", default=0.0)  # fmt: skip
+                           upper=1e-3, source="Reynolds 1886 (viscosity), lumped heat capacity", default=0.0,
+                           role="strength")  # fmt: skip
     cooling_time: float = var("oil_temperature", "", "s", "time constant of the cooling", lower=5, upper=2000,
-                              source="Newton's law of cooling, lumped", default=300.0)  # fmt: skip
+                              source="Newton's law of cooling, lumped", default=300.0, role="scale")  # fmt: skip
     H_start: float = var("oil_temperature", "", "J", "heat at the start beyond that of the F-v curve's temperature",
-                         lower=-2000, upper=2000, source="some kelvins of a rig's room", default=0.0)  # fmt: skip
+                         lower=-2000, upper=2000, source="some kelvins of a rig's room", default=0.0,
+                         role="scale")  # fmt: skip
 
 
 @dataclass(slots=True)

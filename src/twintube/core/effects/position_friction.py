@@ -13,18 +13,19 @@ TITLE = "Friction that depends on the position"
 CAUSE = "A side force with its lever, or a tube worn in the middle: rod and piston rub more at some strokes than at others."
 ABSENCE = "The residual has the sign of the velocity and grows with the stroke, the same at every velocity and oil level."
 DECIDES = "slow records about other middles of the stroke"
-STRENGTH = ("friction_slope", "friction_bow")
 NEEDS_TIME = False
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Relative change of the friction with the stroke."""
 
     friction_slope: float = var("position_friction", "", "1/m", "relative rise of the friction with the stroke (extension)",
-                                lower=-60, upper=60, source="lever of guide and piston", default=0.0)  # fmt: skip
+                                lower=-60, upper=60, source="lever of guide and piston", default=0.0,
+                                role="strength")  # fmt: skip
     friction_bow: float = var("position_friction", "", "1/m2", "relative rise of the friction to both ends of the stroke",
-                              lower=0, upper=4000, source="tube worn in the middle", default=0.0)  # fmt: skip
+                              lower=0, upper=4000, source="tube worn in the middle", default=0.0,
+                              role="strength")  # fmt: skip
 
 
 def position_friction_scale_friction(p: Parameters, z: float, v: float) -> float:

@@ -18,18 +18,18 @@ TITLE = "Oil leaks past the rod seal"
 CAUSE = "A worn seal lets a film of oil out with every stroke, so that the oil level falls during the measurement."
 ABSENCE = "The measured damper loses force over the whole measurement, also at low velocity, and does not recover at rest."
 DECIDES = "a rest of ten minutes within a record, and the oil weighed afterwards"
-STRENGTH = ("leak_film",)
 NEEDS_TIME = True
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """The film's cross-section and what it depends on."""
 
     leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled, at 0.1 m/s", lower=0, upper=1e-5,
-                           source="film on the rod; Mueller and Nau, Fluid Sealing Technology", default=0.0)  # fmt: skip
+                           source="film on the rod; Mueller and Nau, Fluid Sealing Technology", default=0.0,
+                           role="strength")  # fmt: skip
     leak_power: float = var("seal_leak", "", "1", "oil lost per time goes with the speed to this power", lower=0, upper=2,
-                            source="1: constant film", default=1.0)  # fmt: skip
+                            source="1: constant film", default=1.0, role="law")  # fmt: skip
 
 
 @dataclass(slots=True)

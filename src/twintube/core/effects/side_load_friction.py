@@ -14,18 +14,17 @@ TITLE = "Friction above the quasi-static value"
 CAUSE = "A side load or a bent rod presses guide and piston to the wall, which multiplies the friction."
 ABSENCE = "The residual is a constant force with the sign of the velocity, at every velocity and oil level."
 DECIDES = "a quasi-static record with and without side load"
-STRENGTH = ("side_load",)
 NEEDS_TIME = False
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Relative rise of the friction and where it begins."""
 
     side_load: float = var("side_load_friction", "", "1", "relative rise of the friction by side load", lower=0, upper=10,
-                           source="Coulomb", default=0.0)  # fmt: skip
+                           source="Coulomb", default=0.0, role="strength")  # fmt: skip
     v_side: float = var("side_load_friction", "", "m/s", "speed from which the side load shows", lower=1e-3, upper=0.1,
-                        source="rigs align themselves in slow ramps", default=0.02)  # fmt: skip
+                        source="rigs align themselves in slow ramps", default=0.02, role="scale")  # fmt: skip
 
 
 def side_load_friction_scale_friction(p: Parameters, z: float, v: float) -> float:

@@ -17,24 +17,23 @@ TITLE = "Gradual build-up of the force"
 CAUSE = "Oil and gas are mixed near the level between them, so that the force builds up over a stroke instead of at once."
 ABSENCE = "The model's force steps where the measured one rises gradually: a residual of both signs around the rise."
 DECIDES = "the same velocity with half the amplitude: the build-up is a length of stroke, not a time"
-STRENGTH = ("build_up", "tau_build")
 NEEDS_TIME = False
 FAR = 1e3
 STILL = 1e-9  # [m] length of a step's build-up below which there is none
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Length of the transition."""
 
     build_up: float = var("smooth_transition", "", "m", "stroke over which k_degr builds up", lower=0, upper=0.03,
-                          source="first-order relaxation over the stroke", default=0.0)  # fmt: skip
+                          source="first-order relaxation over the stroke", default=0.0, role="strength")  # fmt: skip
     early_share: float = var("smooth_transition", "", "1", "share of the rise before the gas has run out", lower=0, upper=1,
-                       source="mixing layer about the level", default=0.0)  # fmt: skip
+                       source="mixing layer about the level", default=0.0, role="law")  # fmt: skip
     tau_build: float = var("smooth_transition", "", "s", "time over which k_degr builds up", lower=0, upper=0.05,
-                           source="first-order relaxation over the time", default=0.0)  # fmt: skip
+                           source="first-order relaxation over the time", default=0.0, role="strength")  # fmt: skip
     carry_over: float = var("smooth_transition", "", "1", "gradual share of other changes of k_degr", lower=0, upper=1,
-                            source="first-order relaxation", default=0.0)  # fmt: skip
+                            source="first-order relaxation", default=0.0, role="law")  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -114,11 +113,12 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
         else:
             s.k_full_co = k
     way = abs(dz) / length
-    s.k_carried += p.carry_over * (known - target)
+    # What is left of the past is at most the intact damper's: else every return of the gas would add another step to it.
+    s.k_carried = min(s.k_carried + p.carry_over * (known - target), 1.0 - target)
     s.k_target = target
-    f.k_mean = max(0.0, f.k_mean + s.k_carried * smooth_transition_fade(way))
+    f.k_mean = max(0.0, min(1.0, f.k_mean + s.k_carried * smooth_transition_fade(way)))
     s.k_carried *= math.exp(-way)
-    f.k_degr = max(0.0, f.k_degr + s.k_carried)
+    f.k_degr = max(0.0, min(1.0, f.k_degr + s.k_carried))
     s.k_last = f.k_degr
     s.k_degr = f.k_mean if dz != 0.0 else f.k_degr
     turned = 1.0 if v > 0.0 else -1.0 if v < 0.0 else s.k_side

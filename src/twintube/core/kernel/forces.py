@@ -4,8 +4,11 @@ import math
 
 from twintube.core.variables import FV_POINTS, Derived, Parameters, State
 
+# Friction [N] that is none: the force of before over a smaller one has no room in a number.
+FRICTIONLESS = 1e-9
 
-def branch(v: float, velocities: list[float], forces: list[float]) -> float:
+
+def branch(v: float, velocities: tuple[float, ...], forces: tuple[float, ...]) -> float:
     """Force [N] of one branch of the F-v curve at the speed `v` >= 0 [m/s]; the last segment goes on beyond it."""
     i = 0
     while i < FV_POINTS - 1 and velocities[i] < v:
@@ -31,7 +34,7 @@ def stribeck(p: Parameters, v: float) -> float:
 
 def dahl(p: Parameters, d: Derived, F_D: float, dz: float) -> float:
     """Dahl friction force [N] after the stroke `dz` [m]: the exact solution of equation 2 over the stroke."""
-    if d.F_FrS <= 0.0:
+    if d.F_FrS <= FRICTIONLESS:
         return 0.0
     direction = 1.0 if dz > 0.0 else -1.0
     gap = 1.0 - direction * F_D / d.F_FrS

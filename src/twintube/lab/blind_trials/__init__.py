@@ -1,4 +1,4 @@
-"""Measured datasets in which an effect, a fault or nothing is hidden, made by equations of their own.
+"""Measured datasets with a hidden effect, a hidden fault or neither, computed with independent equations.
 
-Nothing here uses the kernel or the effects of `twintube`: only a damper's numbers come from there.
+Nothing here uses the kernel or the effects of `twintube`; only the parameters of a damper come from there.
 """

@@ -1,26 +1,26 @@
-"""Constants of a damper of `twintube` in one condition, and runs of it."""
+"""Constants of a damper in one condition, and simulation of a run."""
 
 from math import pi
 
 import numpy as np
 
 from twintube.dampers import Damper, load
-from twintube.lab.blind_trials.excitation import Drive
+from twintube.lab.blind_trials.excitation import Excitation
 from twintube.lab.blind_trials.model import COLUMNS, P_ATM, STATES, run
 from twintube.lab.blind_trials.quantities import Array, Hidden, Tube
 
-DZ, DT = 40e-6, 1e-3  # [m], [s] longest step of the march
-DT_SWINGS = 2e-4  # [s] the same where the rod's mass or the rig swings
+DZ, DT = 40e-6, 1e-3  # [m], [s] largest step
+DT_VIBRATION = 2e-4  # [s] largest step if the rod's mass or the rig can vibrate
 
 
 def tube(damper: str | Damper, level: float, preload: bool, changes: dict[str, float] | None = None) -> Tube:
-    """The damper with `level` [1] of its oil, with gas preload or without; `changes` are parameters that differ."""
-    given = load(damper) if isinstance(damper, str) else damper
-    p = (given.with_(**changes) if changes else given).parameters
+    """The damper at the oil `level` [1], with or without gas preload; `changes` are changed parameters."""
+    loaded = load(damper) if isinstance(damper, str) else damper
+    p = (loaded.with_(**changes) if changes else loaded).parameters
     A_rod, A_2 = pi / 4 * p.D_PR**2, pi / 4 * p.D_li**2
     rod = A_rod / A_2
-    full_from = p.cavitation_loss  # oil loss; below it in proportion
-    cavitates = 0.0 if preload else 1.0 if 1.0 - level >= full_from else (1.0 - level) / full_from
+    full_loss = p.cavitation_loss  # oil loss of the full effect; proportional below it
+    cavitates = 0.0 if preload else 1.0 if 1.0 - level >= full_loss else (1.0 - level) / full_loss
     return Tube(
         A_1=A_2 - A_rod,
         A_2=A_2,
@@ -40,7 +40,7 @@ def tube(damper: str | Damper, level: float, preload: bool, changes: dict[str, f
         S_PVoil=p.S_PVoil,
         B=p.B,
         E=p.E,
-        # A block whose largest velocity is the threshold itself stays below it whatever the rounding.
+        # A block whose maximum velocity equals the threshold stays below it, independent of rounding.
         v_foam=p.v_foam * (1 + 1e-9),
         v_cav=p.v_cav * (1 + 1e-9),
         Y_Co=cavitates * p.Y_Co_cav,
@@ -61,9 +61,9 @@ def tube(damper: str | Damper, level: float, preload: bool, changes: dict[str, f
     )
 
 
-def march(c: Tube, h: Hidden, drive: Drive, times: Array, dz: float = DZ) -> Array:
-    """What the damper does at the rising `times` (n,) [s]: (n, COLUMNS), columns as in model.py."""
+def march(c: Tube, h: Hidden, excitation: Excitation, times: Array, dz: float = DZ) -> Array:
+    """Simulate a run; results (n, COLUMNS) at the rising `times` (n,) [s], columns as in model.py."""
     out = np.empty((len(times), COLUMNS))
-    dt = DT_SWINGS if h.mount + h.mode > 0.0 else DT
-    run(c, h, drive.pieces, np.ascontiguousarray(times, float), np.zeros(STATES), dz, dt, out)
+    dt = DT_VIBRATION if h.mount + h.mode > 0.0 else DT
+    run(c, h, excitation.pieces, np.ascontiguousarray(times, float), np.zeros(STATES), dz, dt, out)
     return out

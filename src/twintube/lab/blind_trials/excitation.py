@@ -1,23 +1,23 @@
-"""Drives of the rig as pieces of sines, ramps and rests."""
+"""Excitations of the rig, composed of sines, ramps and rests."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.lab.blind_trials.model import path
+from twintube.lab.blind_trials.model import sample
 from twintube.lab.blind_trials.quantities import Array
-from twintube.rig.signals import AMPLITUDE, BLOCKS, OSCILLATIONS, PRECONDITIONING, V_PRECONDITIONING
+from twintube.rig.plan import V_QUASI_STATIC
+from twintube.rig.signals import AMPLITUDE, BLOCKS, ONE_METRE, OSCILLATIONS, PRECONDITIONING, V_PRECONDITIONING
 
 VELOCITIES = BLOCKS  # [m/s]
 PAUSE = 2.0  # [s] between preconditioning and block
 LONG_PAUSE = 60.0  # [s]
-V_REST = 1.048  # [m/s] of the blocks about the long pause
-V_QUASI_STATIC = 1e-3  # [m/s]
-RAMP = 0.1  # of a period, in which a sine starts and ends: no rig jumps to full velocity
+V_REST = ONE_METRE  # [m/s] of the blocks before and after the long pause
+RAMP = 0.1  # of a period, in which a sine starts and ends: a rig cannot jump to full velocity
 
 
 @dataclass(frozen=True)
-class Drive:
+class Excitation:
     """Pieces (n, 7): from [s], to [s], angular frequency [1/s], amplitude [m], ramp [s], first stroke [m], slope [m/s]."""
 
     pieces: Array
@@ -31,48 +31,50 @@ class Drive:
     def sampled(self, times: Array) -> tuple[Array, Array]:
         """Stroke [m] and velocity [m/s] at the `times` (n,) [s]."""
         z, v = np.empty(len(times)), np.empty(len(times))
-        path(self.pieces, times, z, v)
+        sample(self.pieces, times, z, v)
         return z, v
 
 
-def joined(parts: list[tuple[float, float, float, float, float, float]]) -> Array:
-    """Pieces from their durations [s] and what follows in a piece, one after another."""
-    ends = np.cumsum([part[0] for part in parts])
-    return np.array([(end - part[0], end, *part[1:]) for end, part in zip(ends, parts, strict=True)])
+def joined(segments: list[tuple[float, float, float, float, float, float]]) -> Array:
+    """Pieces from consecutive segments: duration [s], then the columns of a piece from the angular frequency on."""
+    ends = np.cumsum([segment[0] for segment in segments])
+    return np.array([(end - segment[0], end, *segment[1:]) for end, segment in zip(ends, segments, strict=True)])
 
 
 def sine(velocity: float, count: int, amplitude: float = AMPLITUDE) -> tuple[float, float, float, float, float, float]:
-    """A piece of `count` oscillations of the maximum `velocity` [m/s]."""
+    """A segment of `count` oscillations with the maximum `velocity` [m/s]."""
     omega = velocity / amplitude
     period = 2 * np.pi / omega
     return (count * period + RAMP * period, omega, amplitude, RAMP * period, 0.0, 0.0)
 
 
-def harmonic(velocity: float, pause: float = 0.0) -> Drive:
-    """Preconditioning, a short rest, 19 oscillations; with a `pause` [s] these once more after it."""
-    rest = (PAUSE, 0.0, 0.0, 0.0, 0.0, 0.0)
-    parts = [sine(V_PRECONDITIONING, PRECONDITIONING), rest, sine(velocity, OSCILLATIONS)]
+def harmonic(velocity: float, pause: float = 0.0) -> Excitation:
+    """Preconditioning, a short rest, 19 oscillations; with a `pause` [s] another 19 oscillations after it."""
+    pause_segment = (PAUSE, 0.0, 0.0, 0.0, 0.0, 0.0)
+    segments = [sine(V_PRECONDITIONING, PRECONDITIONING), pause_segment, sine(velocity, OSCILLATIONS)]
     if pause > 0.0:
-        parts += [(pause, *rest[1:]), sine(velocity, OSCILLATIONS)]
-    pieces = joined(parts)
-    return Drive(pieces, tuple((float(row[0]), float(row[1])) for row in pieces[2:] if row[2] > 0.0))
+        segments += [(pause, *pause_segment[1:]), sine(velocity, OSCILLATIONS)]
+    pieces = joined(segments)
+    return Excitation(pieces, tuple((float(row[0]), float(row[1])) for row in pieces[2:] if row[2] > 0.0))
 
 
-def recovery(velocity: float, seconds: float, pause: float, slow: bool) -> Drive:
+def recovery(velocity: float, seconds: float, pause: float, slow: bool) -> Excitation:
     """Preconditioning, a block of about `seconds`, a `pause` [s], slow strokes or none, and 19 oscillations.
 
-    The blocks are the long one and the 19.
+    `blocks` are the long block and the 19 oscillations.
     """
-    slowly, rest = sine(V_PRECONDITIONING, PRECONDITIONING), (PAUSE, 0.0, 0.0, 0.0, 0.0, 0.0)
-    long = sine(velocity, round(seconds * velocity / (2 * np.pi * AMPLITUDE)))
-    parts = [slowly, rest, long, (pause, *rest[1:]), *([slowly, rest] if slow else []), sine(velocity, OSCILLATIONS)]
-    pieces = joined(parts)
-    return Drive(pieces, tuple((float(pieces[i, 0]), float(pieces[i, 1])) for i in (2, -1)))
+    slow_segment, pause_segment = sine(V_PRECONDITIONING, PRECONDITIONING), (PAUSE, 0.0, 0.0, 0.0, 0.0, 0.0)
+    long_block = sine(velocity, round(seconds * velocity / (2 * np.pi * AMPLITUDE)))
+    segments = [slow_segment, pause_segment, long_block, (pause, *pause_segment[1:])]
+    segments += [slow_segment, pause_segment] if slow else []
+    segments.append(sine(velocity, OSCILLATIONS))
+    pieces = joined(segments)
+    return Excitation(pieces, tuple((float(pieces[i, 0]), float(pieces[i, 1])) for i in (2, -1)))
 
 
-def quasi_static(amplitude: float = AMPLITUDE) -> Drive:
-    """Out, in and back to the middle at 1 mm/s."""
+def quasi_static(amplitude: float = AMPLITUDE) -> Excitation:
+    """Ramps out, in and back to the middle at 1 mm/s."""
     quarter = amplitude / V_QUASI_STATIC
-    ways = ((quarter, 0.0, 1.0), (2 * quarter, amplitude, -1.0), (quarter, -amplitude, 1.0))
-    pieces = joined([(time, 0.0, 0.0, 0.0, start, sign * V_QUASI_STATIC) for time, start, sign in ways])
-    return Drive(pieces, ())
+    ramps = ((quarter, 0.0, 1.0), (2 * quarter, amplitude, -1.0), (quarter, -amplitude, 1.0))
+    pieces = joined([(time, 0.0, 0.0, 0.0, start, sign * V_QUASI_STATIC) for time, start, sign in ramps])
+    return Excitation(pieces, ())

@@ -1,8 +1,8 @@
-"""A twin-tube damper marched in fine fixed steps: phases as volumes that are clipped where they run out.
+"""A twin-tube damper integrated in small fixed steps: phase volumes that are clipped at 0.
 
-The gas of the working chambers is what oil and foam leave free; oil and foam are limited by what is there and by the room
-they go to. With nothing hidden this is the paper's model, otherwise `Hidden` switches further physics on. All compiled
-functions stay in this one file, because numba's cache does not notice a change in another one.
+The gas of a working chamber is the volume without oil and foam. Flows of oil and foam are limited by the source volume and
+by the free volume at the destination. Without hidden physics this is the paper's model; `Hidden` adds further physics. All
+compiled functions are in this file, because numba's cache does not detect a change in another file.
 """
 
 import math
@@ -16,41 +16,41 @@ from twintube.lab.blind_trials.quantities import Array, Hidden, Tube
 F = TypeVar("F", bound=Callable[..., Any])
 
 P_ATM = 1e5  # [Pa]
-TINY = 1e-14  # [m3] below it a volume is rounding
+TINY = 1e-14  # [m3] smaller volumes are rounding errors
 
 # State: free oil, foam, oil held by the foam and the fast-draining part of the foam [m3], each in the rebound chamber, the
 # compression chamber and the reserve; oil freed as gas, returned, leaked [m3]; friction [N]; oil temperature [K]; piston
-# stroke [m] and velocity [m/s]; valve forces of chambers that yield [N]; structural mode [N, N/s]; path since the gas of a
-# working chamber was used up, negative: depth of gas left [m].
+# stroke [m] and velocity [m/s]; valve forces of compliant chambers [N]; structural mode [N, N/s]; travel since the gas of a
+# working chamber was consumed, negative: depth of the remaining gas [m].
 O1, FOAM, HELD, FAST = 0, 3, 6, 9
 O2, O3 = O1 + 1, O1 + 2
 F1, F2, F3 = FOAM, FOAM + 1, FOAM + 2
 CAV, RETURNED, LEAKED, DAHL, TEMPERATURE, PISTON, PISTON_V, P_RE, P_CO, MODE, MODE_V, D1, D2, STATES = range(12, 26)
 # Columns of a run: measured force [N], k_degr [1], oil free and in foam [m3], freed gas not returned [m3], leaked [m3],
-# temperature [K], foam [m3], stroke of the piston [m], mean force since the row before [N].
+# temperature [K], foam [m3], stroke of the piston [m], mean force since the previous row [N].
 FORCE, K_DEGR, OIL, FREED, LOST, WARM, FOAMED, PLACE, CELL, COLUMNS = range(10)
 
 
 def compiled(function: F) -> F:
-    """Compiled by numba, with its type kept."""
+    """Compile with numba; for type checkers the signature is unchanged."""
     return cast(F, numba.njit(cache=True, error_model="numpy", nogil=True)(function))
 
 
 @compiled
-def drive(pieces: Array, i: int, t: float) -> tuple[float, float]:
+def motion(pieces: Array, i: int, t: float) -> tuple[float, float]:
     """Stroke [m] and velocity [m/s] at t [s] in piece i: from, to, omega, amplitude, ramp, stroke at its begin, slope.
 
-    A sine starts and ends with `ramp` seconds in which its phase speeds up smoothly and slows down again.
+    A sine starts and ends with a ramp of `ramp` seconds, in which the rate of its phase rises and falls smoothly.
     """
     begin, end, omega, amplitude, ramp, z, slope = pieces[i]
     if omega == 0.0:
         return z + slope * (t - begin), slope
-    since, left = t - begin, end - t
+    since, remaining = t - begin, end - t
     if since < ramp:
         x = since / ramp
         phase, speed = ramp * x**3 * (1.0 - 0.5 * x), x * x * (3.0 - 2.0 * x)
-    elif left < ramp:
-        x = left / ramp
+    elif remaining < ramp:
+        x = remaining / ramp
         phase, speed = end - begin - ramp - ramp * x**3 * (1.0 - 0.5 * x), x * x * (3.0 - 2.0 * x)
     else:
         phase, speed = since - 0.5 * ramp, 1.0
@@ -58,18 +58,18 @@ def drive(pieces: Array, i: int, t: float) -> tuple[float, float]:
 
 
 @compiled
-def path(pieces: Array, times: Array, z: Array, v: Array) -> None:
+def sample(pieces: Array, times: Array, z: Array, v: Array) -> None:
     """Stroke [m] and velocity [m/s] at the rising `times` (n,) [s]."""
     piece = 0
     for row in range(len(times)):
         while piece < len(pieces) - 1 and pieces[piece, 1] <= times[row]:
             piece += 1
-        z[row], v[row] = drive(pieces, piece, times[row])
+        z[row], v[row] = motion(pieces, piece, times[row])
 
 
 @compiled
 def curve(u: float, v: Array, f: Array) -> float:
-    """Force [N] of one branch at the speed u >= 0 [m/s]; the last segment goes on."""
+    """Force [N] of one branch at the speed u >= 0 [m/s]; the last segment is extrapolated."""
     if u <= v[0]:
         return float(f[0] * u / v[0])
     i = 1
@@ -89,7 +89,7 @@ def steepness(c: Tube, v: float) -> float:
 
 @compiled
 def squeezed(speed: float, before: float, give: float, scale: float, v: Array, f: Array) -> float:
-    """Valve force [N] at the end of a step in a chamber that yields: u + give (scale f(u) - before) = speed, for u >= 0.
+    """Valve force [N] of a compliant chamber at the end of a step: u + give (scale f(u) - before) = speed, for u >= 0.
 
     `give` [m/(s N)] is the chamber's compliance over the step; f is piecewise linear, so that u is exact in its segment.
     """
@@ -116,20 +116,20 @@ def foam_force(c: Tube, y: Array, i: int) -> float:
 
 @compiled
 def carry(y: Array, i: int, j: int, foam: float) -> None:
-    """Move foam [m3] with the oil it holds and its fast class from chamber i to j; j = -1: the caller takes the oil."""
+    """Move foam [m3] with its oil and its fast class from chamber i to j; with j = -1 the caller moves the oil."""
     if foam <= 0.0:
         return
     share = min(foam / y[FOAM + i], 1.0)
-    for what in (FOAM, HELD, FAST):
-        moved = share * y[what + i]
-        y[what + i] -= moved
+    for state in (FOAM, HELD, FAST):
+        moved = share * y[state + i]
+        y[state + i] -= moved
         if j >= 0:
-            y[what + j] += moved
+            y[state + j] += moved
 
 
 @compiled
 def froth(y: Array, i: int, gas: float, ratio: float, c: Tube) -> None:
-    """Foam from gas [m3] and `ratio` [1] times as much oil of chamber i, as far as the oil goes."""
+    """Form foam of gas [m3] and `ratio` [1] times as much oil of chamber i, limited by the oil."""
     drawn = ratio * gas
     if drawn > y[O1 + i]:
         gas *= y[O1 + i] / drawn
@@ -142,7 +142,7 @@ def froth(y: Array, i: int, gas: float, ratio: float, c: Tube) -> None:
 
 @compiled
 def blend(low: float, high: float, depth: float, width: float) -> float:
-    """From `low` to `high` about depth 0 [m]; over `width` [m] if there is one, else at once."""
+    """Transition from `low` to `high` at the depth 0 [m], over `width` [m]; a step if the width is 0."""
     if width <= 0.0:
         return low if depth < 0.0 else high
     return low + (high - low) * 0.5 * (1.0 + math.tanh(depth / width))
@@ -150,7 +150,7 @@ def blend(low: float, high: float, depth: float, width: float) -> float:
 
 @compiled
 def force_of(base: float, foam: float, oil: float, liquid: float, c: Tube, y: Array, i: int, phi: float) -> float:
-    """k_degr of a liquid flow [m3] made of foam and oil of chamber i; what is missing in it is gas."""
+    """k_degr of a liquid flow [m3] of foam and oil from chamber i; the rest of the flow is gas."""
     if liquid > 0.0:
         return base * (foam * phi + oil) / liquid
     if foam > 0.0 or y[FOAM + i] > 0.0:
@@ -160,19 +160,19 @@ def force_of(base: float, foam: float, oil: float, liquid: float, c: Tube, y: Ar
 
 @compiled
 def freed(c: Tube, h: Hidden, y: Array, gas: float) -> float:
-    """Book the gas [m3] that a valve would free; returns the oil [m3] that does not arrive behind the valve.
+    """Record the gas [m3] that a valve would free; returns the oil [m3] that does not arrive downstream.
 
-    The oil holds a limited gas, so that less comes out the more is free already. What gives way to gas and has room in the
-    reserve is there, as the rod draws so much less from it or the foot valve passes so much more; the rest is gone.
+    With `scarce` the released gas decreases with the gas that is already free. With `give_way` a share of the displaced oil
+    stays in the reserve, as far as it fits, because the rod draws less from it or the foot valve passes more.
     """
     if h.scarce > 0.0:
         gas *= max(1.0 - h.scarce * (y[CAV] - y[RETURNED]) / c.oil, 0.0)
     if h.give_way > 0.0:
-        kept = min(h.give_way * gas, max(c.V_res - y[O3] - y[F3], 0.0))
-        y[O3] += kept
-        gone = (1.0 - h.give_way) * gas
-        y[CAV] += gone
-        return float(kept + gone)
+        displaced = min(h.give_way * gas, max(c.V_res - y[O3] - y[F3], 0.0))
+        y[O3] += displaced
+        missing = (1.0 - h.give_way) * gas
+        y[CAV] += missing
+        return float(displaced + missing)
     y[CAV] += gas
     return gas
 
@@ -192,7 +192,7 @@ def rebound(c: Tube, h: Hidden, y: Array, z: float, dz: float, speed: float) -> 
     y[O1] -= oil
     lost = freed(c, h, y, c.Y_Re * oil) if speed > c.v_cav else 0.0
     y[O2] += oil - lost
-    if y[O1] > 0.0 and foam > 0.0:  # beside oil the foam separates in the valve
+    if y[O1] > 0.0 and foam > 0.0:  # together with oil the foam separates in the valve
         y[O2] += y[HELD] * min(foam / y[F1], 1.0)
         carry(y, 0, -1, foam)
     else:
@@ -218,7 +218,7 @@ def compression(c: Tube, h: Hidden, y: Array, z: float, dz: float, speed: float)
     grown = c.A_1 * dz
     mixed = gas > TINY
     y[D2] = -gas / c.A_2 if mixed else max(y[D2], 0.0) + dz
-    surplus = (1.0 - c.W_BV2) * want - grown  # what the piston valve drives beyond the room that opens
+    surplus = (1.0 - c.W_BV2) * want - grown  # flow of the piston valve beyond the volume that opens
     if mixed:
         bottom = c.W_BV1 * want if y[O2] + y[F2] > 0.0 else 0.0
         out = min(gas, want - bottom)
@@ -243,24 +243,24 @@ def compression(c: Tube, h: Hidden, y: Array, z: float, dz: float, speed: float)
     y[O3] += (1.0 - up) * oil
     if out > 0.0 and speed > c.v_foam and y[O1] > 0.0:
         froth(y, 0, min(c.S_PV * out, max(c.A_1 * (c.half - z + dz) - y[O1] - y[F1], 0.0)), c.S_PVoil, c)
-    if y[F3] > c.V_res - y[O3]:  # foam that does not fit into the reserve loses gas
-        kept = max(c.V_res - y[O3], y[HELD + 2])
-        y[FAST + 2] *= kept / y[F3]
-        y[F3] = kept
+    if y[F3] > c.V_res - y[O3]:  # foam beyond the volume of the reserve loses gas
+        remaining = max(c.V_res - y[O3], y[HELD + 2])
+        y[FAST + 2] *= remaining / y[F3]
+        y[F3] = remaining
     return k
 
 
 @compiled
 def ageing(c: Tube, h: Hidden, y: Array, z: float, v: float, dt: float) -> None:
-    """What time does to the phases: foam drains, freed gas dissolves, the rod's film carries oil out."""
+    """Changes of the phases with time: foam drains, freed gas dissolves, the film on the rod carries oil out."""
     if h.drain_fast > 0.0:
         for i in range(3):
             if y[FOAM + i] > 0.0:
-                quick = y[FAST + i] * h.drain_fast * dt
-                gone = min(quick + (y[FOAM + i] - y[FAST + i]) * h.drain_slow * dt, y[FOAM + i])
-                oil = y[HELD + i] * gone / y[FOAM + i]
-                y[FAST + i] -= quick
-                y[FOAM + i] -= gone
+                fast_drained = y[FAST + i] * h.drain_fast * dt
+                drained = min(fast_drained + (y[FOAM + i] - y[FAST + i]) * h.drain_slow * dt, y[FOAM + i])
+                oil = y[HELD + i] * drained / y[FOAM + i]
+                y[FAST + i] -= fast_drained
+                y[FOAM + i] -= drained
                 y[HELD + i] -= oil
                 y[O1 + i] += oil
     if h.dissolve > 0.0:
@@ -273,29 +273,29 @@ def ageing(c: Tube, h: Hidden, y: Array, z: float, v: float, dt: float) -> None:
             y[O1 + i] += back
             y[RETURNED] += back
     if h.leak > 0.0:
-        left = h.leak * math.sqrt(abs(v)) * dt
-        for i in (2, 1, 0):  # the rod guide drains into the reserve; V1, under pressure, passes its loss on to V2
-            part = min(y[O1 + i], left)
-            y[O1 + i] -= part
-            y[LEAKED] += part
-            left -= part
+        leaving = h.leak * math.sqrt(abs(v)) * dt
+        for i in (2, 1, 0):  # the rod guide drains into the reserve; the pressurised V1 passes its loss on to V2
+            taken_out = min(y[O1 + i], leaving)
+            y[O1 + i] -= taken_out
+            y[LEAKED] += taken_out
+            leaving -= taken_out
 
 
 @compiled
 def friction(c: Tube, h: Hidden, y: Array, dz: float, v: float) -> float:
-    """Friction [N] after the stroke dz [m], Dahl's equation by the midpoint rule, and that of a side load."""
+    """Friction [N] after the stroke dz [m]: Dahl's equation by the midpoint rule, and the friction of a side load."""
     if c.F_sat > 0.0 and dz != 0.0:
-        parts = int(abs(dz) * c.sigma / c.F_sat * 4.0) + 1
-        way, sign = dz / parts, 1.0 if dz > 0.0 else -1.0
-        for _ in range(parts):
+        steps = int(abs(dz) * c.sigma / c.F_sat * 4.0) + 1
+        step, sign = dz / steps, 1.0 if dz > 0.0 else -1.0
+        for _ in range(steps):
             gap = 1.0 - sign * y[DAHL] / c.F_sat
-            middle = y[DAHL] + 0.5 * way * c.sigma * math.copysign(abs(gap) ** c.delta, gap)
+            middle = y[DAHL] + 0.5 * step * c.sigma * math.copysign(abs(gap) ** c.delta, gap)
             gap = 1.0 - sign * middle / c.F_sat
-            y[DAHL] += way * c.sigma * math.copysign(abs(gap) ** c.delta, gap)
+            y[DAHL] += step * c.sigma * math.copysign(abs(gap) ** c.delta, gap)
     scale = c.k_high + (1.0 - c.k_high) * math.exp(-abs(v) / c.v_S)
     side = h.side * math.tanh(v / h.side_v) if h.side > 0.0 else 0.0
     if h.lever > 0.0:
-        # Guide and piston carry the pull times (overhang + span) / span and overhang / span.
+        # The reactions at guide and piston are the side force times (overhang + span) / span and overhang / span.
         z = y[PISTON]
         pressed = 1.0 + 2.0 * (h.overhang + z) / (h.span - z)
         scale *= 1.0 + h.lever * (pressed / (1.0 + 2.0 * h.overhang / h.span) - 1.0)
@@ -310,7 +310,7 @@ def thinned(h: Hidden, T: float) -> float:
 
 @compiled
 def fluid(c: Tube, h: Hidden, y: Array, k: float, v: float, dt: float) -> float:
-    """Fluid force [N] with the worn valves, the warm oil and, where the oil yields, the pressure it has built up."""
+    """Fluid force [N] with worn valves, warm oil and, for compressible oil, the pressure built up so far."""
     out = thinned(h, y[TEMPERATURE]) if h.thinning > 0.0 else 1.0
     into = out
     if h.wear_re != 0.0:
@@ -319,7 +319,7 @@ def fluid(c: Tube, h: Hidden, y: Array, k: float, v: float, dt: float) -> float:
         into *= 1.0 + h.wear_co_slow + (h.wear_co - h.wear_co_slow) * fast
     if h.give <= 0.0:
         return k * out * curve(v, c.v_re, c.F_re) if v >= 0.0 else -k * into * curve(-v, c.v_co, c.F_co)
-    # The annulus carries the rebound force, the rod's area the compression force, on the oil of both chambers.
+    # The rebound force acts on the annulus, the compression force on the rod's area and the oil of both chambers.
     V_1, V_2 = c.A_1 * (c.half - y[PISTON]), c.A_2 * (c.half + y[PISTON])
     for p, area, volume in ((P_RE, c.A_1, V_1), (P_CO, c.A_rod, V_1 + V_2)):
         pressure = c.p_fill + y[p] / area
@@ -336,7 +336,7 @@ def springs(c: Tube, h: Hidden, y: Array, z: float, v: float) -> float:
     """Gas force and rubber stops [N] at the stroke z [m]."""
     total = c.c_gas * z - c.F_0
     if h.residual > 0.0:
-        # Without oil lost since the start; the rod changes the space of the gas.
+        # Oil lost since the start is neglected; the rod changes the gas volume.
         space = c.A_1 * c.half + c.A_2 * c.half + c.V_res - c.oil
         total -= c.A_rod * ((P_ATM + h.residual) * math.pow(space / (space + c.A_rod * z), h.polytropic) - P_ATM)
     for stop, deep, speed, sign in ((h.stop_out, z - h.stop_at, v, 1.0), (h.stop_in, -z - h.stop_at, -v, -1.0)):
@@ -347,7 +347,7 @@ def springs(c: Tube, h: Hidden, y: Array, z: float, v: float) -> float:
 
 @compiled
 def advance(c: Tube, h: Hidden, y: Array, z: float, v: float, dt: float) -> tuple[float, float]:
-    """Carry the piston to the stroke z [m]; returns its force [N] and k_degr."""
+    """Move the piston to the stroke z [m]; returns its force [N] and k_degr."""
     before = y[PISTON]
     dz = z - before
     k = 1.0
@@ -377,12 +377,12 @@ def begin(c: Tube, h: Hidden, y: Array, z: float) -> None:
 
 @compiled
 def run(c: Tube, h: Hidden, pieces: Array, times: Array, y: Array, dz: float, dt: float, out: Array) -> None:
-    """March through the drive and write the columns at the `times` (n,) [s] to `out` (n, COLUMNS).
+    """Integrate over the excitation and write the columns at the `times` (n,) [s] to `out` (n, COLUMNS).
 
     A step is at most `dz` [m] of stroke and `dt` [s].
     """
     piece, t = 0, pieces[0, 0]
-    z, v = drive(pieces, 0, t)
+    z, v = motion(pieces, 0, t)
     begin(c, h, y, z)
     total, k = advance(c, h, y, z, v, dt)
     load = total
@@ -390,19 +390,19 @@ def run(c: Tube, h: Hidden, pieces: Array, times: Array, y: Array, dz: float, dt
         span = times[row] - t
         while piece < len(pieces) - 1 and pieces[piece, 1] <= times[row]:
             piece += 1
-        v_end = drive(pieces, piece, times[row])[1]
+        v_end = motion(pieces, piece, times[row])[1]
         steps = max(int(max(abs(v), abs(v_end)) * span / dz), int(span / dt)) + 1
         tau = span / steps
-        at, acting, way, impulse = piece, 0.0, 0.0, 0.0
-        while at > 0 and pieces[at, 0] > t:
-            at -= 1
+        current, acting, travel, impulse = piece, 0.0, 0.0, 0.0
+        while current > 0 and pieces[current, 0] > t:
+            current -= 1
         for i in range(steps if span > 0.0 else 0):
-            now, last = t + (i + 1) * tau, y[PISTON]
-            while at < piece and pieces[at, 1] <= now:
-                at += 1
-            z, v = drive(pieces, at, now)
+            end_time, last = t + (i + 1) * tau, y[PISTON]
+            while current < piece and pieces[current, 1] <= end_time:
+                current += 1
+            z, v = motion(pieces, current, end_time)
             if h.mount > 0.0:
-                # Implicit in the mount, which may be stiff, and linearly so in the valves.
+                # Implicit in the mount, which may be stiff, and linearly implicit in the valves.
                 bent = z - y[PISTON]
                 stiff = h.mount * (1.0 + h.hardening * bent * bent)
                 pull = stiff * bent + h.rubber * v
@@ -419,18 +419,18 @@ def run(c: Tube, h: Hidden, pieces: Array, times: Array, y: Array, dz: float, dt
             else:
                 total, k = advance(c, h, y, z, v, tau)
             acting += k * abs(y[PISTON] - last)
-            way += abs(y[PISTON] - last)
+            travel += abs(y[PISTON] - last)
             if h.mode > 0.0:
                 y[MODE_V] += tau * (h.mode * h.mode * (total - y[MODE]) - 2.0 * h.mode_loss * h.mode * y[MODE_V])
                 y[MODE] += tau * y[MODE_V]
-            felt = load if h.mount > 0.0 else total
-            impulse += tau * (felt + h.mode_share * (y[MODE] - felt))
+            cell_force = load if h.mount > 0.0 else total
+            impulse += tau * (cell_force + h.mode_share * (y[MODE] - cell_force))
         t = times[row]
         force = load if h.mount > 0.0 else total
-        if way > 0.0 and h.mount + h.give + h.play <= 0.0:
-            # A load cell's filter sees the mean of what switches within a sample; where springs yield they smooth it.
-            force += fluid(c, h, y, acting / way - k, v, tau)
-            k = acting / way
+        if travel > 0.0 and h.mount + h.give + h.play <= 0.0:
+            # A load cell's filter averages changes within a sample; compliant springs smooth them anyway.
+            force += fluid(c, h, y, acting / travel - k, v, tau)
+            k = acting / travel
         out[row, FORCE] = force + h.mode_share * (y[MODE] - force)
         out[row, K_DEGR] = k
         out[row, OIL] = y[O1] + y[O2] + y[O3] + y[HELD] + y[HELD + 1] + y[HELD + 2]

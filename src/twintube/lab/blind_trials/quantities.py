@@ -1,6 +1,6 @@
-"""What the compiled model is given: constants of a damper and the physics hidden beside the paper's. SI units.
+"""Inputs of the compiled model: constants of a damper, and hidden physics in addition to the paper's. SI units.
 
-A field that is renamed or moved asks for a change of model.py too, whose compiled functions are cached by file.
+If a field is renamed or moved, change model.py too: its compiled functions are cached by file.
 """
 
 from typing import NamedTuple
@@ -52,7 +52,7 @@ class Tube(NamedTuple):
 
 
 class Hidden(NamedTuple):
-    """Physics beside the paper's; the defaults are nothing."""
+    """Physics in addition to the paper's; the defaults switch all of it off."""
 
     start: float = 298.15  # [K]
     warming: float = 0.0  # [K/J] 1 / heat capacity
@@ -68,27 +68,27 @@ class Hidden(NamedTuple):
     drain_fast: float = 0.0  # [1/s]
     drain_slow: float = 0.0  # [1/s]
     dissolve: float = 0.0  # [1/s]
-    give_way: float = 0.0  # [1] share of the oil in place of freed gas that the reserve keeps
-    scarce: float = 0.0  # [1] oil at the start per gas that it can free
+    give_way: float = 0.0  # [1] share of the displaced oil that stays in the reserve
+    scarce: float = 0.0  # [1] initial oil volume over the gas volume that it can free
     residual: float = 0.0  # [Pa] gauge
     polytropic: float = 1.2  # [1]
     leak: float = 0.0  # [m3/s per (m/s)^0.5]
     stop_out: float = 0.0  # [N] at the scale length, rebound stop
     stop_in: float = 0.0  # [N] the same, compression stop
-    stop_at: float = 1.0  # [m] stroke where a stop is touched
+    stop_at: float = 1.0  # [m] stroke at which a stop is touched
     stop_scale: float = 1.0  # [m]
     stop_loss: float = 0.0  # [1] hysteresis
     side: float = 0.0  # [N]
     side_v: float = 0.01  # [m/s] over which it reverses
-    lever: float = 0.0  # [1] share of the friction that a side pull on the rod makes
+    lever: float = 0.0  # [1] share of the friction that a side force on the rod causes
     span: float = 0.1  # [m] from guide to piston at the stroke 0
-    overhang: float = 0.05  # [m] from the pull to the guide at the stroke 0
+    overhang: float = 0.05  # [m] from the side force to the guide at the stroke 0
     wear_re: float = 0.0  # [1] change of the rebound force at high velocity
     wear_re_slow: float = 0.0  # [1] at low velocity
     wear_co: float = 0.0  # [1]
     wear_co_slow: float = 0.0  # [1]
-    wear_v: float = 0.3  # [m/s] over which low becomes high
+    wear_v: float = 0.3  # [m/s] range from low to high velocity
     mode: float = 0.0  # [rad/s] structural mode of the rig
     mode_loss: float = 0.04  # [1] its damping ratio
-    mode_share: float = 0.0  # [1] of the force that goes through it
+    mode_share: float = 0.0  # [1] share of the force that excites it
     play: float = 0.0  # [m] of the joint

@@ -1,7 +1,7 @@
-"""A virtual damper rig with physics of its own: the truth that is not the model of `twintube`.
+"""A virtual damper rig with its own physics, independent of the model of `twintube`.
 
 Pressures from oil and gas masses, turbulent orifices, check and blow-off valves, bubbles, Henry's law, oil temperature.
-Nothing comes from `twintube`, no equation and no value, so that it can contradict that model; both use published dimensions.
+No equation and no value comes from `twintube`, so that the rig can contradict the model; both use published dimensions.
 """
 
 from twintube.lab.virtual_rig.damper import VirtualDamper, virtual_damper

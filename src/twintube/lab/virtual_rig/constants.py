@@ -1,10 +1,10 @@
-"""What the right-hand side knows of a damper."""
+"""Constants of the right-hand side."""
 
 from typing import NamedTuple
 
 
 class Constants(NamedTuple):
-    """Dimensions, valves and fluids, SI units; `damper.py` says what is assumed and why."""
+    """Dimensions, valves and fluids, SI units; `damper.py` gives the assumptions and their reasons."""
 
     A_1: float  # [m2] annulus of the piston
     A_2: float  # [m2] piston
@@ -36,7 +36,7 @@ class Constants(NamedTuple):
     height_2: float  # [m] compression chamber at stroke 0
     height_3: float  # [m] reserve
     Q_mix: float  # [m3/s] flow at which half of the gas is broken into bubbles
-    jet: float  # [1] pocket gas that an oil jet drags below, per oil
+    jet: float  # [1] pocket gas that an oil jet entrains, per oil
     A_3: float  # [m2] cross-section of the reserve
     wetted: float  # [m] perimeter of the reserve
     jet_width: float  # [m] width of a foot-valve jet

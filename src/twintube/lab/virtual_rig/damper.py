@@ -1,4 +1,4 @@
-"""The virtual damper: dimensions of one of eight dampers, hydraulics of a typical one sized for published forces."""
+"""The virtual damper: dimensions of one of eight dampers, typical hydraulics sized for published forces."""
 
 from dataclasses import dataclass, replace
 from math import pi, sqrt
@@ -8,24 +8,24 @@ from twintube.lab.virtual_rig.dimensions import DIMENSIONS, Forces, Lengths, def
 from twintube.lab.virtual_rig.physics import P_0
 
 BAR = 1e5  # [Pa]
-# [m] outer tube beyond the inner tube at least, for the foot and the room under the seal: 200 against 180 mm in
+# [m] smallest excess length of the outer tube, for the foot and the space under the seal: 200 against 180 mm in
 # Global_Parameters.mo of Czesiek1701/Modelica-Double-tube-shock-absorber.
 OVERHANG = 0.02
 # [1] largest share of the reserve that oil takes at rest, assumed: Audi's Self-study programme 242 says "partially filled",
-# and the gas must take up the rod. Where the published oil would fill more, the outer tube is longer.
+# and the gas must accommodate the rod. If the published oil would fill more, the outer tube is longer.
 FULLEST = 0.65
-# Pressure drop of the foot valve relative to the piston's in compression, at the two velocities. As low as the preload
-# allows without cavitation in the rebound chamber, which is what a preload is for: without it, the chamber starves.
+# Pressure drop of the foot valve relative to the piston's in compression, at the two velocities: the lowest values without
+# cavitation in the rebound chamber with preload. Without preload the chamber is not filled.
 FOOT_TO_PISTON = (1.25, 0.85)
-WEAKEST = 0.2 * BAR  # [Pa] opening of a check valve at least, which its spring needs to close it; assumed
+WEAKEST = 0.2 * BAR  # [Pa] lowest opening pressure of a check valve, so that its spring closes it; assumed
 
 
 @dataclass(frozen=True)
 class VirtualDamper:
     """Geometry and physical constants, SI units; valve areas are relative to the area that feeds the valve.
 
-    The constants are assumed, typical of a passenger car's damper, the same for all dampers, and none is a parameter of
-    `twintube`; the valves are sized, see `sized`.
+    The constants are assumed: typical of a passenger car's damper and the same for all dampers. None is a parameter of
+    `twintube`. The valves are sized, see `sized`.
     """
 
     name: str  # the damper whose dimensions these are
@@ -56,15 +56,17 @@ class VirtualDamper:
     C_d: float = 0.7  # [1] discharge coefficient
     suction: float = 0.45  # [1] of A_rod: suction valve of the foot, and its windows to the reserve
     suction_pressure: float = 0.05 * BAR  # [Pa] at which the suction valve is fully open
-    rod_guide: float = 1e-7  # [m2] notch from rebound chamber to reserve: a hole of 0.36 mm, whose lip lets nothing back
-    rod_clearance: float = 3e-5  # [m] between rod and guide: gas gets through a hundred times more easily than oil
+    rod_guide: float = (
+        1e-7  # [m2] notch from rebound chamber to reserve: a hole of 0.36 mm with a lip that blocks the return
+    )
+    rod_clearance: float = 3e-5  # [m] between rod and guide: gas flows a hundred times more easily than oil
     guide_length: float = 0.015  # [m]
     viscosity: float = 1.2e-5  # [m2/s] of oil at 25 degC
     thinning: float = 0.03  # [1/K] share of viscosity lost per kelvin at 25 degC
     port: float = 2e-3  # [m] height of oil over which a port changes from oil to gas at rest
     draw: float = 1.2  # [1] the same under flow, relative to (Q^2/g)^(1/5), the height from which a port draws
     v_mix: float = 0.2  # [m/s] piston velocity whose flow breaks half of the gas into bubbles
-    jet: float = 1.0  # [1] pocket gas that an oil jet drags below, per oil: plunging jets of 50 m/s take about their volume
+    jet: float = 1.0  # [1] pocket gas that an oil jet entrains, per oil: plunging jets of 50 m/s entrain about their volume
     jet_width: float = 8e-3  # [m] width of a foot-valve jet: a window in the foot, or the gap of the reserve
     released: float = 0.3  # [1] largest share of the dissolved gas that one pass of a cavitating valve releases
     cavitating: float = 20.0  # [1] pressure drop over downstream pressure at which a valve releases half of that
@@ -102,7 +104,7 @@ class VirtualDamper:
 
     @property
     def half(self) -> float:
-        """Way of the piston from stroke 0, midway between the end stops (assumed), to either stop [m]."""
+        """Travel [m] of the piston from stroke 0, midway between the end stops (assumed), to either stop."""
         return (self.h_l - self.lengths.total) / 2
 
     @property
@@ -116,7 +118,7 @@ class VirtualDamper:
         return self.h_l + self.overhang
 
     def constants(self, gas_preload: bool, ambient_degC: float) -> Constants:
-        """What the right-hand side needs."""
+        """Constants of the right-hand side."""
         derived = {
             "V_10": self.A_1 * self.half,
             "V_20": self.A_2 * self.half,
@@ -133,7 +135,7 @@ class VirtualDamper:
             derived[name] = getattr(self, name) * self.A_1
         for name in ("base_bleed", "base_opening", "suction"):
             derived[name] = getattr(self, name) * self.A_rod
-        # Floats throughout: numba would compile anew for an integer.
+        # All floats: numba would compile again for an integer.
         return Constants(*(float(derived[name] if name in derived else getattr(self, name)) for name in Constants._fields))
 
 
@@ -142,8 +144,8 @@ def virtual_damper(
 ) -> VirtualDamper:
     """A virtual damper with the dimensions of one of the paper's, e.g. `virtual_damper("SA1", preload=4e5)`.
 
-    Its valves are sized for the `forces`; these and the `lengths` are those of `dimensions.py` where none are given. Raises
-    ValueError for a damper that the paper does not have.
+    Its valves are sized for the `forces`; by default these and the `lengths` are those of `dimensions.py`. Raises
+    ValueError for a damper that is not in the paper.
     """
     if name not in DIMENSIONS:
         raise ValueError(f"unknown damper {name}: the virtual rig has {', '.join(DIMENSIONS)}")
@@ -160,8 +162,8 @@ def sized(D_PR: float, D_li: float, forces: Forces, leak: float = 0.15) -> dict[
     """Valves with which the damper reaches the `forces` [N], as a damper designer sizes them.
 
     The bleeds and the leak past the piston, a share `leak` [1] of the flow, carry the lower velocity; the blow-off valves
-    open there and make up for the rest at the higher one. In compression both valves share the force. A piston valve
-    that had to be open at rest gets the weakest spring, and the lower force is then higher than asked for.
+    open there and carry the rest at the higher one. In compression both valves share the force. A piston valve that would
+    have to be open at rest has the weakest spring; the force at the lower velocity is then higher than specified.
     """
     A_rod = pi / 4 * D_PR**2
     A_1 = pi / 4 * D_li**2 - A_rod
@@ -169,7 +171,7 @@ def sized(D_PR: float, D_li: float, forces: Forces, leak: float = 0.15) -> dict[
     rebound, compression = zip(forces.slow[1:], forces.fast[1:], strict=True)
 
     def area(v: float, dp: float) -> float:
-        """Of an orifice, relative to the area that feeds it at v [m/s]."""
+        """Area of an orifice relative to the area that feeds it at v [m/s]."""
         return v / VirtualDamper.C_d / sqrt(2 * dp / VirtualDamper.rho_oil)
 
     down = [F / A_1 for F in rebound]

@@ -1,6 +1,6 @@
-"""What the virtual damper takes from others, SI units: published dimensions, component lengths and F-v design forces.
+"""Data of the virtual damper from the literature, SI units: published dimensions, component lengths, F-v design forces.
 
-Nothing here comes from `twintube` or was calibrated with it. Where no source was found, the comment says "assumed".
+Nothing here comes from `twintube` or was calibrated with it. Values without a source are marked "assumed".
 """
 
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ class Dimensions(NamedTuple):
 
 
 class Lengths(NamedTuple):
-    """What fills the inner tube beside the oil [m]; a rebound stop fills its length of the chamber."""
+    """Lengths [m] of the components in the inner tube; a rebound stop fills its length of the chamber."""
 
     foot_valve: float  # in the lower end of the tube
     piston: float  # with valve discs, springs and nut
@@ -50,21 +50,21 @@ DIMENSIONS: Mapping[str, Dimensions] = {
     "SA8": Dimensions(41.4e-3, 13e-3, 29.8e-3, 32.10e-3, 331.0e-3, 273e-6),  # Passat B8, rear
 }
 
-# [m] thinnest rod of a strut; a damper that guides no wheel has usually 11 mm (myengineerings.com/mcpherson-strut).
+# [m] thinnest rod of a strut; a damper that does not guide a wheel usually has 11 mm (myengineerings.com/mcpherson-strut).
 STRUT_ROD = 18e-3
 
 # Component lengths: assumed. A piston disc is 10 mm high (Piston.mo of the engineering thesis published as
 # Czesiek1701/Modelica-Double-tube-shock-absorber); with valve discs, springs and the nut the piston is assumed to take 25 to
 # 28 mm, foot valve and guide somewhat less than half a bore each, a rebound stop half a bore. In a strut the guide and the
 # stop are longer, because the rod carries side forces between guide and piston (remembered from Reimpell, Stoll, Betzler,
-# The Automotive Chassis, not looked up). The published oil speaks for short ones: with 20 mm of overhang it leaves a third
-# of the reserve to the gas only where the sum is below 65 mm (SA4), 70 mm (SA6), 80 mm (SA3) or 95 mm (SA7, SA8); SA1, SA2
-# and SA5 would need less than 55 mm, so that their outer tubes must be longer.
+# The Automotive Chassis, not looked up). The published oil volumes suggest short components: with 20 mm of overhang, a third
+# of the reserve is left for the gas only if the sum is below 65 mm (SA4), 70 mm (SA6), 80 mm (SA3) or 95 mm (SA7, SA8). SA1,
+# SA2 and SA5 would need less than 55 mm, so that their outer tubes must be longer.
 REAR_LENGTHS = Lengths(foot_valve=12e-3, piston=25e-3, rebound_stop=15e-3, rod_guide=12e-3)
 STRUT_LENGTHS = Lengths(foot_valve=12e-3, piston=28e-3, rebound_stop=25e-3, rod_guide=15e-3)
 
 # Default car of IPG CarMaker (SuspF and SuspR, Damp_Push and Damp_Pull times their amplification), as an open-source test
-# tool keeps it. Its front damper does the wheel's way, its rear damper 0.6 of it. Here the rear damper stands at the wheel
+# tool keeps it. Its front damper has the wheel's stroke, its rear damper 0.6 of it. Here the rear damper is at the wheel
 # carrier (assumed), so that its forces are those at the wheel: velocities divided by 0.6, forces times 0.6, linear between.
 STRUT_FORCES = Forces(slow=(0.13, 700.0, 300.0), fast=(1.04, 2300.0, 1600.0))
 REAR_FORCES = Forces(slow=(0.13, 546.0, 344.0), fast=(1.04, 2628.0, 819.0))

@@ -1,12 +1,11 @@
-"""Right-hand side of the rig's damper: masses in three chambers, pressures from them, compiled by numba.
+"""Right-hand side of the rig's damper: masses in three chambers and their pressures, compiled by numba.
 
-The states are masses instead of chamber pressures: at a given stroke a chamber's oil and gas fix its pressure, so that
-both are the same state in other coordinates, but masses are conserved to rounding, and a pressure state would drift.
-They are written as standard volumes [m3] at P_0 and T_0. Fade comes from four places: without preload, gas below the
-piston leaves the foot valve too little back pressure to fill the rebound chamber; the reserve's gas is sucked in where
-oil is missing; foot-valve jets throw oil onto the reserve's walls, from where it runs down too late for the next stroke;
-a valve's jet releases dissolved gas. All compiled functions stay in this one file, because numba's cache does not notice
-a change in another one.
+The states are masses, not chamber pressures: at a given stroke the oil and gas of a chamber determine its pressure. Masses
+are conserved to rounding, whereas a pressure state would drift. They are given as standard volumes [m3] at P_0 and T_0.
+Fade has four causes: without preload, gas below the piston leaves the foot valve too little back pressure to fill the
+rebound chamber; gas of the reserve is drawn in where oil is missing; jets of the foot valve throw oil onto the reserve's
+walls, which runs down too late for the next stroke; the jet of a valve releases dissolved gas. All compiled functions are
+in this file, because numba's cache does not detect a change in another file.
 """
 
 import math
@@ -25,24 +24,24 @@ Array = NDArray[np.float64]
 P_0 = 1.0e5  # [Pa] ambient pressure
 T_0 = 298.15  # [K]
 GAS_DENSITY = 1.17  # [kg/m3] at P_0 and T_0
-P_SMOOTH = 1.0e3  # [Pa] below it an orifice is nearly laminar
+P_SMOOTH = 1.0e3  # [Pa] at lower pressure drops an orifice is nearly laminar
 TINY = 1.0e-12  # [m3]
 VOGEL = 95.0  # [degC] of mineral oils in Vogel's law, viscosity ~ exp(B / (T + VOGEL)), after Cameron (remembered)
 
 # States: oil, gas in a pocket above the oil, gas in bubbles, dissolved gas, each in the rebound chamber 0, the compression
 # chamber 1 and the reserve 2; oil on the reserve's walls [m3], oil temperature [degC], bristle deflection [m], energy
-# dissipated [J]. The gas dissolved in the reserve is in both of its oils.
+# dissipated [J]. The gas dissolved in the reserve belongs to its pool and to the film.
 OIL, POCKET, BUBBLES, DISSOLVED, FILM, TEMPERATURE, BRISTLE, ENERGY, STATES = 0, 3, 6, 9, 12, 13, 14, 15, 16
 
 
 def compiled(function: F) -> F:
-    """Compiled by numba, with its type kept."""
+    """Compile with numba; for type checkers the signature is unchanged."""
     return cast(F, numba.njit(cache=True, error_model="numpy")(function))
 
 
 @compiled
 def warmth(temperature: float) -> float:
-    """Gas volume relative to that at T_0 [1]; bounded, as a solver tries states that nothing reaches."""
+    """Gas volume relative to that at T_0 [1]; bounded, because the solver tries states that are never reached."""
     return min(max((temperature + 273.15) / T_0, 0.7), 2.0)
 
 
@@ -109,16 +108,16 @@ def shares(i: int, p: float, Q: float, y: Array, at_bottom: bool, c: Constants) 
     liquid = oil + bubbles
     total = max(liquid + pocket, TINY)
     if at_bottom:
-        wet = 1.0 - math.exp(-liquid / (width * total)) * (1.0 - math.exp(-pocket / (0.2 * width * total)))
+        wetted = 1.0 - math.exp(-liquid / (width * total)) * (1.0 - math.exp(-pocket / (0.2 * width * total)))
     else:
-        wet = math.exp(-pocket / (width * total)) * (1.0 - math.exp(-liquid / (0.2 * width * total)))
-    part = oil / max(liquid, TINY)
-    return wet * part, 1.0 - wet, wet * (1.0 - part)
+        wetted = math.exp(-pocket / (width * total)) * (1.0 - math.exp(-liquid / (0.2 * width * total)))
+    oil_share = oil / max(liquid, TINY)
+    return wetted * oil_share, 1.0 - wetted, wetted * (1.0 - oil_share)
 
 
 @compiled
 def orifice(dp: float, area: float, gap: float, rho: float, oil: float, c: Constants) -> float:
-    """Volume flow [m3/s] for dp >= 0: turbulent through the area, laminar through the gap (gas: a hundredth as viscous)."""
+    """Volume flow [m3/s] for dp >= 0: turbulent through the area, laminar through the gap (viscosity of gas: 1 %)."""
     turbulent = c.C_d * area * math.sqrt(2.0 / rho) * dp / math.sqrt(math.sqrt(dp * dp + P_SMOOTH * P_SMOOTH))
     return turbulent + gap * dp / (0.01 + oil)
 
@@ -134,9 +133,9 @@ def all_oil(i: int, y: Array) -> float:
 
 @compiled
 def throw(Q: float, Q_oil: float, y: Array, dy: Array, c: Constants) -> None:
-    """Throw a share of what leaves the foot valve onto the reserve's walls: half of it at a jet's head of half the height.
+    """Move a share of the foot valve's flow to the reserve's walls: half of it if the jet's head is half the height.
 
-    A turbulent jet keeps its speed for six widths of oil above it and then slows with distance.
+    A turbulent jet keeps its speed within six widths of oil above it; then its speed falls with the distance.
     """
     pool = max(y[OIL + 2], 0.0) / c.A_3
     speed = Q / c.suction / (1.0 + pool / (6.0 * c.jet_width))
@@ -169,7 +168,7 @@ def transfer(
     Q_pocket = Q * pocket * per_gas
     Q_bubbles = Q * bubbles * per_gas
     Q_dissolved = Q_oil * max(y[DISSOLVED + i], 0.0) / max(all_oil(i, y), TINY)
-    # The jet of a cavitating valve is nearly a vacuum inside, so that gas comes out of solution within a pass.
+    # The pressure in the jet of a cavitating valve is nearly zero, so that gas is released within one pass.
     x = ((p - p_to) / (p_to * c.cavitating)) ** 2
     Q_released = c.released * x / (1.0 + x) * Q_dissolved
     dy[OIL + i] -= Q_oil
@@ -180,7 +179,7 @@ def transfer(
     dy[DISSOLVED + j] += Q_dissolved - Q_released
     if i == 1 and j == 2:
         throw(Q, Q_oil, y, dy, c)
-    # Gas that comes out below oil is broken into bubbles if the flow is fast; an oil jet drags pocket gas below.
+    # Gas that enters below the oil level breaks into bubbles if the flow is fast; an oil jet entrains pocket gas.
     fast = Q * Q / (Q * Q + c.Q_mix * c.Q_mix)
     from_below = i != 0
     wet, dry, froth = shares(j, p_to, 0.0, y, from_below, c)
@@ -191,7 +190,7 @@ def transfer(
         dragged = c.jet * fast * Q_oil * dry * p_to / P_0 / warm
         dy[BUBBLES + j] += dragged
         dy[POCKET + j] -= dragged
-    # Gas is as warm as the oil, so that what it could have done by expanding becomes heat in the course of an oscillation.
+    # Gas has the temperature of the oil: its work of expansion becomes heat in the course of an oscillation.
     return Q * (oil * (p - p_to) + (1.0 - oil) * p * math.log(p / p_to))
 
 

@@ -8,16 +8,17 @@ import numpy as np
 import tomlkit
 from scipy.interpolate import CubicSpline
 
+from twintube.files import replacing, write_text
 from twintube.lab.virtual_rig.physics import Array
 from twintube.lab.virtual_rig.rig import VirtualRecord
 
 KINDS = ("quasi-static", "harmonic", "stochastic")
-LARGEST_JITTER = 0.45  # share of the sampling interval: time goes on rising
+LARGEST_JITTER = 0.45  # share of the sampling interval: time stays increasing
 
 
 @dataclass(frozen=True)
 class Measured:
-    """What a rig would have written: arrays (n,), SI units, time and temperature without error."""
+    """Channels of a rig: arrays (n,), SI units, time and temperature without error."""
 
     time: Array  # [s]
     stroke: Array  # [m], positive in rebound
@@ -34,7 +35,7 @@ class DatasetRecord:
     oil_level: float  # [1] as recorded, which may differ from the truth
     gas_preload: bool  # as recorded
     data: Measured
-    split: str = ""  # fit, heldout or nothing
+    split: str = ""  # fit, heldout or empty
 
 
 def measured(
@@ -50,8 +51,8 @@ def measured(
     """The record as a rig with errors samples it; the same seed gives the same arrays.
 
     `noise` is the standard deviation of the force as a share of its largest magnitude, `jitter` the standard deviation of
-    the sampling instants as a share of the interval 1/`rate_Hz` (cut at 0.45 of it, and written down as they were).
-    `start` [s] leaves out what was before it, e.g. a preconditioning.
+    the sampling instants as a share of the interval 1/`rate_Hz` (limited to 0.45 of it; the record contains them).
+    Samples before `start` [s], e.g. a preconditioning, are not written.
     """
     if rate_Hz <= 0 or noise < 0 or jitter < 0 or stroke_noise_m < 0:
         raise ValueError("rate_Hz must be positive; noise, jitter and stroke_noise_m must not be negative")
@@ -75,7 +76,7 @@ def measured(
 
 
 def write_dataset(folder: str | Path, damper: str, records: Sequence[DatasetRecord], title: str = "Virtual rig") -> Path:
-    """Write `dataset.toml` and a CSV per record into the folder, made where it is missing; returns the folder.
+    """Write `dataset.toml` and a CSV per record to the folder, which is created if it is missing; returns the folder.
 
     `damper` is a named set of `twintube` or a path to a parameter file, relative to `dataset.toml`.
     """
@@ -97,16 +98,17 @@ def write_dataset(folder: str | Path, damper: str, records: Sequence[DatasetReco
             table["split"] = item.split
         tables.append(table)
         columns = (item.data.time, item.data.stroke * 1e3, item.data.force, item.data.temperature)
-        np.savetxt(
-            folder / item.file,
-            np.column_stack(columns),
-            fmt=("%.6f", "%.5f", "%.3f", "%.3f"),
-            delimiter=",",
-            header="time [s],stroke [mm],force [N],temperature [degC]",
-            comments="",
-        )
+        with replacing(folder / item.file) as temporary:
+            np.savetxt(
+                temporary,
+                np.column_stack(columns),
+                fmt=("%.6f", "%.5f", "%.3f", "%.3f"),
+                delimiter=",",
+                header="time [s],stroke [mm],force [N],temperature [degC]",
+                comments="",
+            )
     document["record"] = tables
-    (folder / "dataset.toml").write_text(tomlkit.dumps(document), encoding="utf-8")
+    write_text(folder / "dataset.toml", tomlkit.dumps(document))
     return folder
 
 
@@ -117,6 +119,6 @@ def refuse(records: Sequence[DatasetRecord]) -> None:
         if Path(item.file).name != item.file or files.count(item.file) > 1:
             raise ValueError(f"{item.file!r}: must be the name of one CSV, without a folder")
         if item.measurement not in KINDS:
-            raise ValueError(f"{item.file}: measurement {item.measurement!r} is none of {', '.join(KINDS)}")
+            raise ValueError(f"{item.file}: measurement {item.measurement!r} must be one of {', '.join(KINDS)}")
         if item.split not in ("", "fit", "heldout"):
-            raise ValueError(f"{item.file}: split {item.split!r} is neither fit nor heldout")
+            raise ValueError(f"{item.file}: split {item.split!r} must be fit or heldout")

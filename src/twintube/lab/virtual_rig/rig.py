@@ -30,7 +30,7 @@ ATOL = np.array([1e-12] * 13 + [1e-5, 1e-9, 1e-3])  # [m3], [degC], [m], [J]
 
 @dataclass(frozen=True)
 class VirtualRecord:
-    """What the rig and, unlike a real one, the inside of the damper did: arrays (n,), SI units.
+    """Signals of the rig and, unlike a real rig, of the inside of the damper: arrays (n,), SI units.
 
     Rows of the (3, n) arrays are rebound chamber, compression chamber and reserve.
     """
@@ -46,23 +46,23 @@ class VirtualRecord:
     dissipated: Array  # [J] turned into heat since the start
     pressure: Array  # [Pa] absolute, (3, n)
     oil: Array  # [m3] at ambient pressure, (3, n)
-    film: Array  # [m3] the part of the oil that is on the walls of the reserve, (n,)
+    film: Array  # [m3] oil on the walls of the reserve, included in `oil`, (n,)
     free_gas: Array  # [m3] at ambient pressure and 25 degC, pockets and bubbles, (3, n)
-    bubbles: Array  # [m3] the part of free_gas that is in bubbles, (3, n)
+    bubbles: Array  # [m3] gas in bubbles, included in `free_gas`, (3, n)
     dissolved_gas: Array  # [m3] at ambient pressure and 25 degC, (3, n)
 
 
 def initial_state(z: float, oil: float, temperature: float, c: Constants) -> Array:
-    """States at rest at the stroke z [m] with `oil` [m3]: compression chamber first, then rebound chamber, then reserve."""
+    """States at rest at the stroke z [m] with `oil` [m3]: filled in the order compression, rebound, reserve."""
     p = c.p_fill
     dense = 1.0 - (p - P_0) / c.K_oil
     warm = (temperature + 273.15) / T_0
     rooms = np.array([c.V_10 - c.A_1 * z, c.V_20 + c.A_2 * z, c.V_3])
     y = np.zeros(STATES)
-    left = oil
+    remaining = oil
     for i in (1, 0, 2):
-        y[OIL + i] = min(left, rooms[i] / (dense if i < 2 else 1.0))
-        left -= y[OIL + i]
+        y[OIL + i] = min(remaining, rooms[i] / (dense if i < 2 else 1.0))
+        remaining -= y[OIL + i]
         y[POCKET + i] = max(rooms[i] - y[OIL + i] * (dense if i < 2 else 1.0), 0.0) * p / P_0 / warm
         y[DISSOLVED + i] = c.solubility * y[OIL + i] * p / P_0
     y[TEMPERATURE] = temperature
@@ -78,9 +78,9 @@ def run(
     temperature_degC: float = 25.0,
     rtol: float = RTOL,
 ) -> VirtualRecord:
-    """Record of the damper at rest before `time[0]` [s], then driven by `stroke` [m], through which a cubic spline goes.
+    """Record of the damper at rest before `time[0]` [s], then driven by a cubic spline through `stroke` [m].
 
-    Raises ValueError where time or stroke cannot be a record, and where the oil does not fit.
+    Raises ValueError if time or stroke is not a valid record, or if the oil does not fit.
     """
     time = np.ascontiguousarray(time, dtype=float)
     stroke = np.ascontiguousarray(stroke, dtype=float)
@@ -123,7 +123,7 @@ def run(
 
 
 def check(damper: VirtualDamper, time: Array, stroke: Array, oil_level: float, c: Constants) -> None:
-    """Raise ValueError with what is wrong."""
+    """Raise ValueError with the first defect of the inputs."""
     if time.ndim != 1 or time.shape != stroke.shape or len(time) < 4:
         raise ValueError("time and stroke must be arrays of the same length, at least 4")
     if not (np.isfinite(time).all() and np.isfinite(stroke).all() and (np.diff(time) > 0).all()):

@@ -1,4 +1,4 @@
-"""The figures of the paper by number: what each is, what it needs from the virtual rig, the function that draws it."""
+"""The figures of the paper by number: the function that draws each, and the records of the virtual rig it needs."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,18 +11,18 @@ from twintube.report.statement import Plot
 
 
 def nothing() -> list[Job]:
-    """For figures without measurements."""
+    """No records: for figures without measurements."""
     return []
 
 
 def fitting(*names: str) -> list[Job]:
-    """What the identification of these dampers takes."""
+    """The records for the identification of these dampers."""
     return [job for name in names for job in (*harmonic_jobs(name), *slow_jobs(name)[:1])]
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A figure of the paper."""
+    """A figure of the paper: drawing function and records."""
 
     draw: Callable[[Context], Plot]
     jobs: Callable[[], list[Job]] = nothing

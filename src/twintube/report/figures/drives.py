@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.claims.claim import MODEL_ERROR
+from twintube.claims.table3_drives import BUMP
 from twintube.report import fitted, notes, style
 from twintube.report.context import Context
 from twintube.report.figures.validation import model_works, on_record
@@ -13,21 +15,19 @@ from twintube.report.statement import Plot, Statement, from_claim
 from twintube.vehicle.maneuvers import MANEUVERS
 from twintube.vehicle.plan import drive_signal
 
-BUMP = 3  # number in Table 3
-FORCE, MOVING = 0.20, 0.05  # error of the force [1] while the damper moves faster than this [m/s]
-CLOSE = 0.10  # mean difference of the relative works
+FORCE_ERROR, MOVING = 0.20, 0.05  # error limit of the force [1], and velocity [m/s] above which it is evaluated
 
 
 def strokes(context: Context, number: int, first: int, last: int) -> Plot:
     """Damper strokes of the front axle over time for the drives `first` to `last` of Table 3."""
-    chosen = [m for m in MANEUVERS if first <= m.number <= last]
+    maneuvers = [m for m in MANEUVERS if first <= m.number <= last]
     damper = context.dampers["SA7"]
-    figure, axes = style.canvas(len(chosen), 1, (9.0, 7.4))
+    figure, axes = style.canvas(len(maneuvers), 1, (9.0, 7.4))
     speed = {}
-    for ax, maneuver in zip(axes[:, 0], chosen, strict=True):
+    for ax, maneuver in zip(axes[:, 0], maneuvers, strict=True):
         signal = drive_signal(damper, maneuver)
-        part = slice(signal.marks[0], None)
-        ax.plot(signal.time[part] - signal.time[signal.marks[0]], signal.stroke[part] * 1e3, color=style.BLUE, lw=0.9)
+        span = slice(signal.marks[0], None)
+        ax.plot(signal.time[span] - signal.time[signal.marks[0]], signal.stroke[span] * 1e3, color=style.BLUE, lw=0.9)
         style.title(ax, f"{maneuver.number}: {maneuver.name}")
         ax.set_ylabel("stroke [mm]")
         ax.margins(x=0.01)
@@ -39,7 +39,7 @@ def strokes(context: Context, number: int, first: int, last: int) -> Plot:
     style.notes(figure, ["Stand-in: strokes simulated in a quarter car with the intact damper, not the paper's measurement.",
                          *notes.lines(assumed)])  # fmt: skip
     fast = [v for k, v in speed.items() if "uneven" in k and " 4 km/h" not in k]
-    other = [v for k, v in speed.items() if not ("uneven" in k and " 4 km/h" not in k)]
+    others = [v for k, v in speed.items() if not ("uneven" in k and " 4 km/h" not in k)]
     return Plot(
         number,
         f"Front damper excitation, measurements {first} to {last}",
@@ -48,16 +48,16 @@ def strokes(context: Context, number: int, first: int, last: int) -> Plot:
             Statement(
                 text="excitations with persistently high damper velocities occur particularly on uneven roads",
                 source="Section 4, Figure 6",
-                holds=min(fast) > max(other),
+                holds=min(fast) > max(others),
                 numbers={"damper_velocity_exceeded_a_tenth_of_the_time_m_per_s": speed},
                 basis="by assumption",
                 criterion="velocity exceeded a tenth of the time: every uneven road from 30 km/h on above all others",
-                reason="" if min(fast) > max(other) else "with the assumed obstacles another drive is as fast",
+                reason="" if min(fast) > max(others) else "with the assumed obstacles another drive has velocities as high",
             ),
         ),
         ("strokes simulated in a quarter car with the intact damper, not the paper's measurement",),
         assumed,
-        ("The text names no number of these strokes, so their size cannot be checked.",),
+        ("The text gives no number for these strokes, so their size cannot be checked.",),
     )
 
 
@@ -72,32 +72,32 @@ def figure_6(context: Context) -> Plot:
 
 
 def jobs_bump(name: str) -> list[Job]:
-    """The slow bump in all states, and what the identification takes."""
+    """Records of the slow bump in all states and of the identification."""
     return [*harmonic_jobs(name), *slow_jobs(name)[:1], *drive_jobs(name, (BUMP,))]
 
 
 def bump(context: Context, name: str) -> Plot:
-    """Figures 29 and 30: force over time at the slow bump."""
+    """Figures 29 and 30: force over time during the slow bump crossing."""
     damper = context.fit(name)
     figure, axes = style.canvas(3, 1, (9.0, 6.6), sharex=True, sharey=True)
-    off, peaks = {}, {}
+    errors, peaks = {}, {}
     for ax, level, colour in zip(axes[:, 0], levels(name), style.LEVELS, strict=True):
         record = context.records.get(Job(name, "drive", float(BUMP), level))
         run = on_record(damper, record)
-        part = slice(record.marks[0], record.marks[-1] + 1)
-        time = record.time[part] - record.time[record.marks[0]]
-        ax.plot(time, record.force[part] / 1e3, color=style.GREY, lw=2.2, label="virtual rig (stand-in)")
-        ax.plot(time, run.force[part] / 1e3, color=colour, lw=1.2, label=f"model, {level:.0%} oil")
+        span = slice(record.marks[0], record.marks[-1] + 1)
+        time = record.time[span] - record.time[record.marks[0]]
+        ax.plot(time, record.force[span] / 1e3, color=style.GREY, lw=2.2, label="virtual rig (stand-in)")
+        ax.plot(time, run.force[span] / 1e3, color=colour, lw=1.2, label=f"model, {level:.0%} oil")
         style.title(ax, f"{level:.0%} oil")
         ax.set_ylabel("force [kN]")
         ax.set_xlim(0.3, 2.0)
-        off[f"{level:.0%}"] = error_moving(run.force[part], record.force[part], record.velocity[part])
-        peaks[f"{level:.0%}"] = {"virtual rig": extremes(record.force[part]), "model": extremes(run.force[part])}
+        errors[f"{level:.0%}"] = error_moving(run.force[span], record.force[span], record.velocity[span])
+        peaks[f"{level:.0%}"] = {"virtual rig": extremes(record.force[span]), "model": extremes(run.force[span])}
     axes[-1][0].set_xlabel("time [s]")
     style.legend_above(figure, *axes[:, 0])
     assumed = (notes.DEAD, notes.DRIVES)
     style.notes(figure, notes.lines(assumed, notes.VIRTUAL, fitted.HOW))
-    good = max(off.values()) <= FORCE
+    reproduced = max(errors.values()) <= FORCE_ERROR
     return Plot(
         29 if name == "SA7" else 30,
         f"Damping force over time for the slow bump crossing of {name}",
@@ -106,12 +106,13 @@ def bump(context: Context, name: str) -> Plot:
             Statement(
                 text="the model is able to reproduce the damping forces of the slow bump crossing well, in all states",
                 source="Section 3.3, Figures 29 and 30",
-                holds=good,
-                numbers={"rmse_over_rms_of_the_force_while_moving": off, "largest_and_smallest_force_N": peaks},
+                holds=reproduced,
+                numbers={"rmse_over_rms_of_the_force_while_moving": errors, "largest_and_smallest_force_N": peaks},
                 basis="stand-in",
-                criterion=f"root mean square error up to {FORCE:.0%} of the stand-in's root mean square force while it "
-                f"moves faster than {MOVING:g} m/s, in every state",
-                reason="" if good else "other physics; too far at " + ", ".join(k for k, x in off.items() if x > FORCE),
+                criterion=f"root mean square error up to {FORCE_ERROR:.0%} of the stand-in's root mean square force while "
+                f"it moves faster than {MOVING:g} m/s, in every state",
+                reason="" if reproduced else "the rig has other physics; error too large at "
+                + ", ".join(level for level, x in errors.items() if x > FORCE_ERROR),
             ),
         ),
         notes.VIRTUAL,
@@ -119,12 +120,12 @@ def bump(context: Context, name: str) -> Plot:
     )  # fmt: skip
 
 
-def lean(both: list[Any], states: tuple[float, ...]) -> str:
-    """On which side the model is, per oil level; `both` holds relative works (drives, levels) of stand-in and model."""
-    shift = (both[1] - both[0]).mean(axis=0)
-    parts = [f"{abs(x):.0%} of the intact work too {'much' if x > 0 else 'little'} at {level:.0%} oil"
+def bias(works: list[Any], states: tuple[float, ...]) -> str:
+    """Mean difference of model and stand-in by oil level, as text; `works`: relative works (drives, levels) of both."""
+    shift = (works[1] - works[0]).mean(axis=0)
+    texts = [f"{abs(x):.0%} of the intact work too {'much' if x > 0 else 'little'} at {level:.0%} oil"
              for x, level in zip(shift, states, strict=True)]  # fmt: skip
-    return "other physics: on average the model does " + " and ".join(parts)
+    return "the rig has other physics: on average the model does " + " and ".join(texts)
 
 
 def error_moving(simulated: Array, measured: Array, velocity: Array) -> float:
@@ -150,17 +151,17 @@ def bars(context: Context, name: str) -> Plot:
         table["model"][maneuver.name] = (model / model[0]).tolist()
     figure, axes = style.canvas(1, 1, (10.0, 4.8))
     ax = axes[0][0]
-    at = np.arange(len(MANEUVERS))
+    positions = np.arange(len(MANEUVERS))
     for i, (level, colour) in enumerate(zip(levels(name)[1:], style.LEVELS[1:], strict=True), start=1):
         for j, (source, hatch) in enumerate((("virtual rig", "////"), ("model", ""))):
             text = "virtual rig (stand-in)" if j == 0 else "model"
             heights = 100 * np.array([row[i] for row in table[source].values()])
-            place, face = at + (2 * i + j - 3.5) * 0.2, "white" if hatch else colour
+            place, face = positions + (2 * i + j - 3.5) * 0.2, "white" if hatch else colour
             text = f"{text}, {level:.0%} oil"
             ax.bar(place, heights, 0.18, color=face, edgecolor=colour, hatch=hatch, lw=0.8, label=text)
     ax.axhline(100, color=style.INK, lw=0.9, ls="--")
     ax.set_xticks(
-        at,
+        positions,
         [f"{m.number}: {m.name}".replace(", ", ",\n") for m in MANEUVERS],
         rotation=32,
         ha="right",
@@ -172,8 +173,8 @@ def bars(context: Context, name: str) -> Plot:
     style.legend_above(figure, ax)
     assumed = (notes.DEAD, notes.DRIVES)
     style.notes(figure, notes.lines(assumed, notes.VIRTUAL, fitted.HOW))
-    both = [np.array([row[1:] for row in table[source].values()]) for source in ("virtual rig", "model")]
-    mean = [float(x) for x in np.abs(both[0] - both[1]).mean(axis=0)]
+    works = [np.array([row[1:] for row in table[source].values()]) for source in ("virtual rig", "model")]
+    mean = [float(x) for x in np.abs(works[0] - works[1]).mean(axis=0)]
     return Plot(
         31 if name == "SA7" else 32,
         f"Work performed for stochastic excitation signals of {name}, relative to the intact state",
@@ -182,15 +183,15 @@ def bars(context: Context, name: str) -> Plot:
             Statement(
                 text="the simulation model provides a good representation of the work performed",
                 source="Section 3.3, Figures 31 and 32",
-                holds=max(mean) <= CLOSE,
+                holds=max(mean) <= MODEL_ERROR,
                 numbers={"mean_difference_at_60_40": mean, "work_relative_to_intact_at_100_60_40": table},
                 basis="stand-in",
-                criterion=f"on average over the ten drives the works differ by up to {CLOSE:.0%} of the intact work",
-                reason="" if max(mean) <= CLOSE else lean(both, levels(name)[1:]),
+                criterion=f"on average over the ten drives the works differ by up to {MODEL_ERROR:.0%} of the intact work",
+                reason="" if max(mean) <= MODEL_ERROR else bias(works, levels(name)[1:]),
             ),
             from_claim(context.claim("C13")),
         ),
         notes.VIRTUAL,
         assumed,
-        ("C13 is judged with the published parameters and the assumed F-v curve, the bars show the identified model.",),
+        ("C13 uses the published parameters and the assumed F-v curve; the bars show the identified model.",),
     )

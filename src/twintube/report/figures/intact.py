@@ -11,32 +11,33 @@ from twintube.engine.simulate import simulate
 from twintube.identification import Harmonic
 from twintube.identification.intact import fv_points, quasi_static
 from twintube.report import notes, style
-from twintube.report.context import Context, levels, loop, state
+from twintube.report.context import Context, loop
 from twintube.report.records import Job, harmonic_jobs, slow_jobs
 from twintube.report.statement import Plot, Statement, from_claim
+from twintube.rig.plan import at_oil_level, oil_levels
 from twintube.rig.plan import quasi_static as ramps
 from twintube.rig.signals import BLOCKS
 
 
 def jobs_3(name: str) -> list[Job]:
-    """Intact blocks at the velocities that all dampers have."""
-    return [job for job in harmonic_jobs(name, BLOCKS) if job.level >= 1.0]
+    """Intact blocks at the velocities common to all dampers."""
+    return [job for job in harmonic_jobs(name, BLOCKS) if job.gas_preload]
 
 
-def own_record(damper: Damper, velocity: float) -> Harmonic:
-    """The model's answer to an intact block as if it had been measured."""
+def model_record(damper: Damper, velocity: float) -> Harmonic:
+    """The simulation of an intact block, as a record."""
     signal, run = loop(damper, 1.0, velocity)
     return Harmonic(1.0, 1, signal.time, run.stroke, run.velocity, run.force, signal.marks)
 
 
-def at_middle(record: Harmonic) -> tuple[float, float]:
+def forces_at_middle(record: Harmonic) -> tuple[float, float]:
     """Forces [N] at stroke 0 in rebound and compression, means over the oscillations."""
     z, F = record.stroke[record.marks[0] :], record.force[record.marks[0] :]
-    found = []
+    forces = []
     for i in (np.flatnonzero((z[:-1] < 0) & (z[1:] >= 0)), np.flatnonzero((z[:-1] > 0) & (z[1:] <= 0))):
         share = z[i] / (z[i] - z[i + 1])
-        found.append(float(np.mean(F[i] + share * (F[i + 1] - F[i]))))
-    return found[0], found[1]
+        forces.append(float(np.mean(F[i] + share * (F[i + 1] - F[i]))))
+    return forces[0], forces[1]
 
 
 def figure_3(context: Context) -> Plot:
@@ -54,18 +55,19 @@ def figure_3(context: Context) -> Plot:
             lw=1.6,
             label="friction-reduced F-v curve (assumed)",
         )
-        own = [own_record(damper, speed) for speed in BLOCKS]
-        points = [at_middle(record) for record in own]
-        ax.plot([*BLOCKS, *(-x for x in BLOCKS)], np.array([q[0] for q in points] + [q[1] for q in points]) / 1e3, "o", ms=4,
-                color=style.BLUE, mfc="white", label="model, force at stroke 0")  # fmt: skip
-        rig = [at_middle(context.records.get(job)) for job in jobs_3(name)]
-        ax.plot([*BLOCKS, *(-x for x in BLOCKS)], np.array([q[0] for q in rig] + [q[1] for q in rig]) / 1e3, "x", ms=4,
-                color=style.GREY, label="virtual rig (stand-in), force at stroke 0")  # fmt: skip
-        rebound, compression = fv_points(damper, own)
-        off = [abs(F / fluid_force(p, u) - 1) for u, F in rebound] + [
+        model_records = [model_record(damper, speed) for speed in BLOCKS]
+        model_forces = [forces_at_middle(record) for record in model_records]
+        both_ways = [*BLOCKS, *(-speed for speed in BLOCKS)]
+        values = np.array([force[0] for force in model_forces] + [force[1] for force in model_forces])
+        ax.plot(both_ways, values / 1e3, "o", ms=4, color=style.BLUE, mfc="white", label="model, force at stroke 0")
+        rig_forces = [forces_at_middle(context.records.get(job)) for job in jobs_3(name)]
+        values = np.array([force[0] for force in rig_forces] + [force[1] for force in rig_forces])
+        ax.plot(both_ways, values / 1e3, "x", ms=4, color=style.GREY, label="virtual rig (stand-in), force at stroke 0")
+        rebound, compression = fv_points(damper, model_records)
+        deviations = [abs(F / fluid_force(p, u) - 1) for u, F in rebound] + [
             abs(F / -fluid_force(p, -u) - 1) for u, F in compression
         ]
-        deviation[name] = max(off)
+        deviation[name] = max(deviations)
     for name in ("SA1", "SA5"):
         axes[name].set_ylabel("force [kN]")
     for name in ("SA5", "SA6", "SA7", "SA8"):
@@ -84,7 +86,7 @@ def figure_3(context: Context) -> Plot:
                 holds=None,
                 numbers={},
                 basis="not checkable",
-                reason="the measured curves are unpublished, and the modification has no counterpart in a model",
+                reason="the measured curves are unpublished, and a model has no counterpart of the modification",
             ),
             Statement(
                 text="the friction-reduced F-v curve is determined from harmonic measurements of the intact damper at a "
@@ -93,7 +95,7 @@ def figure_3(context: Context) -> Plot:
                 holds=max(deviation.values()) <= 0.02,
                 numbers={"largest_deviation_of_the_curve_found_from_the_curve_put_in": deviation},
                 basis="consistency",
-                criterion="the curve read from the model's own intact blocks at 0 mm is the curve put in within 2 %",
+                criterion="the curve determined from simulated intact blocks at 0 mm equals the input curve within 2 %",
             ),
         ),
         notes.VIRTUAL,
@@ -113,10 +115,10 @@ def figure_7(context: Context) -> Plot:
     figure, axes = style.canvas(1, 2, (10.0, 4.2), sharex=True)
     signal = ramps(damper)
     slopes: dict[str, list[float]] = {"model": [], "virtual rig": []}
-    for level, job, colour in zip(levels(damper), slow_jobs("SA7"), style.LEVELS, strict=True):
+    for level, job, colour in zip(oil_levels(damper), slow_jobs("SA7"), style.LEVELS, strict=True):
         text = "100% oil, gas preload" if level >= 1.0 else f"{level:.0%} oil, no preload"
-        run = simulate(state(damper, level), signal.stroke, signal.velocity)
-        dash = (0, (4, 3)) if level == levels(damper)[-1] else "-"  # the two degraded states lie on each other
+        run = simulate(at_oil_level(damper, level), signal.stroke, signal.velocity)
+        dash = (0, (4, 3)) if level == oil_levels(damper)[-1] else "-"  # the curves of the two degraded states coincide
         axes[0][0].plot(run.stroke * 1e3, run.force, color=colour, ls=dash, lw=1.2, label=text)
         rig = context.records.get(job)
         axes[0][1].plot(rig.stroke * 1e3, rig.force, color=colour, ls=dash, lw=1.2)
@@ -142,7 +144,7 @@ def figure_7(context: Context) -> Plot:
                 holds=None,
                 numbers={},
                 basis="not checkable",
-                reason="a property of the paper's rig; neither the model nor the stand-in has lateral forces",
+                reason="a property of the paper's rig; the model and the stand-in have no lateral forces",
             ),
         ),
         notes.VIRTUAL,
@@ -163,7 +165,7 @@ def figure_12(context: Context) -> Plot:
     ax.set_ylabel("scaling $k_{FrS}$ [1]")
     assumed = ("shape and values of the scaling, the same for all eight dampers",)
     style.notes(figure, notes.lines(assumed))
-    one = curves["SA7"]
+    scaling = curves["SA7"]
     return Plot(
         12,
         "Velocity-dependent scaling factor for the friction force",
@@ -174,8 +176,8 @@ def figure_12(context: Context) -> Plot:
                 source="Section 3.2, Figure 12",
                 holds=None,
                 numbers={
-                    "scaling_at_rest": float(one.max()),
-                    "scaling_at_0.3_m_per_s": float(one[-1]),
+                    "scaling_at_rest": float(scaling.max()),
+                    "scaling_at_0.3_m_per_s": float(scaling[-1]),
                     "largest_difference_between_dampers": float(max(np.ptp(c) for c in np.array(list(curves.values())).T)),
                 },
                 basis="not checkable",

@@ -13,18 +13,19 @@ from twintube.dampers import Damper
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
 from twintube.engine.simulate import Simulation
 from twintube.report import notes, style
-from twintube.report.context import ONE, SLOW, Context, loop
+from twintube.report.context import Context, loop
 from twintube.report.statement import Plot, Statement
+from twintube.rig.signals import ONE_METRE, SLOWEST
 
 
 def figure_14(context: Context) -> Plot:
     """Phase volumes of the compression chamber."""
     damper = context.dampers["SA1"]
     level = damper.measured_levels[-1]
-    signal, run = loop(damper, level, ONE)
-    part = slice(signal.marks[0], signal.marks[4] + 1)
-    time = signal.time[part] - signal.time[signal.marks[0]]
-    volumes = {phase: run.columns[f"V2_{phase}"][part] * 1e6 for phase in style.PHASES}
+    signal, run = loop(damper, level, ONE_METRE)
+    span = slice(signal.marks[0], signal.marks[4] + 1)
+    time = signal.time[span] - signal.time[signal.marks[0]]
+    volumes = {phase: run.columns[f"V2_{phase}"][span] * 1e6 for phase in style.PHASES}
     figure, axes = style.canvas(1, 1, (9.0, 4.0))
     ax = axes[0][0]
     ax.stackplot(time, *volumes.values(), colors=[style.PHASES[p] for p in volumes], labels=list(volumes), lw=0)
@@ -32,7 +33,7 @@ def figure_14(context: Context) -> Plot:
     ax.plot(time, total, color=style.INK, lw=1.4, label="compression chamber $V_2$")
     ax.set_xlim(0, time[-1])
     ax.set_ylim(bottom=0)
-    ax.set_xlabel(f"time [s], first four oscillations, maximum velocity {ONE:g} m/s")
+    ax.set_xlabel(f"time [s], first four oscillations, maximum velocity {ONE_METRE:g} m/s")
     ax.set_ylabel("volume [mL]")
     style.legend_above(figure, ax)
     assumed = (notes.DEAD, notes.REACH, "oil level and velocity of the figure")
@@ -51,7 +52,7 @@ def figure_14(context: Context) -> Plot:
                 holds=at_top["gas"] > 0 and at_top["foam"] > 0,
                 numbers={"mL_at_maximum_volume": at_top, "maximum_volume_mL": float(total[top])},
                 basis="evidence",
-                reason="" if at_top["gas"] > 0 and at_top["foam"] > 0 else "one of the two is missing at the largest volume",
+                reason="" if at_top["gas"] > 0 and at_top["foam"] > 0 else "gas or foam is missing at the largest volume",
             ),
         ),
         (),
@@ -60,7 +61,7 @@ def figure_14(context: Context) -> Plot:
     )
 
 
-def half(run: Simulation, marks: Any, *, rebound: bool) -> slice:
+def stroke_span(run: Simulation, marks: Any, *, rebound: bool) -> slice:
     """The last full rebound (from the lower reversal) or compression stroke (from the upper one)."""
     period = int(marks[-1] - marks[-2])
     begin = int(marks[-2]) - period // 4 if rebound else int(marks[-2]) + period // 4
@@ -79,22 +80,22 @@ def sweep(
 ) -> tuple[list[float], list[float]]:
     """Draw the fluid force of one stroke for each value of a parameter.
 
-    Returns the mean k_degr while `phase` holds and the stroke [mm] after which the full force is there, one per value.
+    Returns the mean k_degr while `phase` holds and the stroke [mm] after which the full force is reached, per value.
     """
     colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.85, len(values)))
     means, rises = [], []
     for value, colour in zip(values, colours, strict=True):
-        signal, run = loop(damper.with_(**{name: value}), level, SLOW)
-        part = half(run, signal.marks, rebound=rebound)
-        z, k = run.stroke[part], run.k_degr[part]
-        ax.plot(z * 1e3, run.F_fluid[part], color=colour, lw=1.5, label=f"{value:g}")
-        inside = phase(run)[part]
+        signal, run = loop(damper.with_(**{name: value}), level, SLOWEST)
+        span = stroke_span(run, signal.marks, rebound=rebound)
+        z, k = run.stroke[span], run.k_degr[span]
+        ax.plot(z * 1e3, run.F_fluid[span], color=colour, lw=1.5, label=f"{value:g}")
+        inside = phase(run)[span]
         means.append(float(k[inside].mean()) if inside.any() else float("nan"))
         full = np.flatnonzero(k > 0.99)
         rises.append(float(abs(z[full[0]] - z[0]) * 1e3) if len(full) else float("nan"))
-    signal, run = loop(damper, 1.0, SLOW)
-    part = half(run, signal.marks, rebound=rebound)
-    ax.plot(run.stroke[part] * 1e3, run.F_fluid[part], color=style.GREY, lw=1.0, ls="--", label="intact")
+    signal, run = loop(damper, 1.0, SLOWEST)
+    span = stroke_span(run, signal.marks, rebound=rebound)
+    ax.plot(run.stroke[span] * 1e3, run.F_fluid[span], color=style.GREY, lw=1.0, ls="--", label="intact")
     ax.set_xlabel("stroke [mm]")
     ax.legend(fontsize=8.5, loc="best", frameon=False)
     return means, rises
@@ -121,7 +122,7 @@ def rising(values: Sequence[float]) -> bool:
 
 
 def basic(damper: Damper, **changes: float) -> Damper:
-    """The damper with the basic model only: neither foam nor cavitation."""
+    """The damper with the basic model only, without foam and cavitation."""
     return damper.with_(**NO_FOAM, **NO_CAVITATION, **changes)
 
 
@@ -131,7 +132,7 @@ def figure_16(context: Context) -> Plot:
     level = damper.measured_levels[-1]
     values = (0.1, 0.3, 0.5, 0.7)
     figure, axes = style.canvas(1, 2, (10.0, 4.2), sharey=True)
-    style.title(axes[0][0], "oil share beside gas $X_{Re}$ ($L_{PV}$ = 0.2)")
+    style.title(axes[0][0], "oil share with gas $X_{Re}$ ($L_{PV}$ = 0.2)")
     style.title(axes[0][1], "leakage factor $L_{PV}$ ($X_{Re}$ = 0.3)")
     plateau, x_rises = sweep(axes[0][0], damper, level, "X_Re", values, mixed_1, rebound=True)
     leak, moves = sweep(axes[0][1], damper, level, "L_PV", values, mixed_1, rebound=True)
@@ -153,18 +154,18 @@ def figure_16(context: Context) -> Plot:
                 criterion="the relative force before the rise rises with the parameter",
             ),
             Statement(
-                text="L_PV is oil that changes chambers without making force: it moves the rise of the force",
+                text="L_PV is oil that changes chambers without producing force: it shifts the rise of the force",
                 source="Section 3.2, Figure 16",
                 holds=moved,
                 numbers={"L_PV": values, "full_force_after_mm": moves, "k_degr_beside_gas": leak},
                 basis="consistency",
                 criterion="the stroke before the rise changes in one direction with the parameter",
-                reason="" if moved else "the rise does not move in one direction",
+                reason="" if moved else "the rise does not shift in one direction",
             ),
         ),
         (),
         assumed,
-        (f"Drawn for SA1 with {level:.0%} oil at {SLOW:g} m/s; the paper gives neither damper nor values for this sketch.",),
+        (f"Drawn for SA1 with {level:.0%} oil at {SLOWEST:g} m/s; the paper gives no damper and no values here.",),
     )
 
 
@@ -179,16 +180,16 @@ def figure_17(context: Context) -> Plot:
         "X_Co2": "$X_{Co2}$ ($X_{Co1}$ = 0.2, $G_{PV}$ = 0.2)",
         "G_PV": "$G_{PV}$ ($X_{Co1}$ = 0.2, $X_{Co2}$ = 0.4)",
     }
-    found = {}
+    plateaus = {}
     for ax, (name, title) in zip(axes[0], titles.items(), strict=True):
         style.title(ax, title)
         phase = mixed_2 if name == "X_Co1" else venting
-        found[name], _ = sweep(ax, damper, level, name, values, phase, rebound=False)
+        plateaus[name], _ = sweep(ax, damper, level, name, values, phase, rebound=False)
         ax.invert_xaxis()
     axes[0][0].set_ylabel("fluid force [N]")
     assumed = (notes.FV, *notes.SHAPES, "the set of parameters around which the figure varies")
     style.notes(figure, notes.lines(assumed))
-    holds = all(rising(row) for row in found.values())
+    holds = all(rising(row) for row in plateaus.values())
     return Plot(
         17,
         "Effect of model parameters during the compression stroke",
@@ -199,16 +200,16 @@ def figure_17(context: Context) -> Plot:
                 "chamber is full of oil and the rebound chamber is still being vented",
                 source="Section 3.2, Figure 17, equations 26 to 29",
                 holds=holds,
-                numbers={"values": values, "k_degr_in_that_part_of_the_stroke": found},
+                numbers={"values": values, "k_degr_in_that_part_of_the_stroke": plateaus},
                 basis="consistency",
-                criterion="the relative force in the named part of the stroke rises with the parameter",
-                reason="" if holds else "a part of the stroke does not occur in this damper at this oil level",
+                criterion="the relative force in the named phase of the stroke rises with the parameter",
+                reason="" if holds else "one phase of the stroke does not occur in this damper at this oil level",
             ),
         ),
         (),
         assumed,
         (
-            f"Drawn for SA1 with {level:.0%} oil at {SLOW:g} m/s; the compression stroke goes from left to right.",
+            f"Drawn for SA1 with {level:.0%} oil at {SLOWEST:g} m/s; the compression stroke goes from left to right.",
             "Table 6 calls X_Co2 a flow through the piston valve, equation 28 for the bottom valve; the equation is taken.",
         ),
     )

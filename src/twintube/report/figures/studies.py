@@ -4,6 +4,7 @@ import matplotlib
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.claims.claim import MODEL_ERROR
 from twintube.claims.variants import variants
 from twintube.dampers import Damper
 from twintube.report import fitted, notes, style
@@ -17,27 +18,25 @@ from twintube.studies.cases import scaled
 NAMES = {1: "1 scalar factor", 2: "2 basic model", 3: "3 with foam", 4: "4 with foam and cavitation"}
 # Colour, dash and width [pt]: curves that coincide stay visible below each other.
 DRAWN = {1: (style.GREY, "--", 1.7), 2: (style.FAINT, "-", 6.0), 3: (style.BLUE, "-", 3.0), 4: (style.RED, "-", 1.3)}
-ERROR = 0.10  # of variants 2 to 4 on the first oscillation, Section 3.4
-SHORT = 0.25  # of variant 1
 
 
 def variant_works(damper: Damper, level: float, speeds: tuple[float, ...]) -> dict[int, Array]:
     """Works [J] (velocities, 19) of the four variants; 1 is the oil level times the intact fluid force."""
     factor = scaled(damper, level, 0)
-    found = {1: np.array([works(factor, 1.0, v) for v in speeds])}
+    table = {1: np.array([works(factor, 1.0, v) for v in speeds])}
     for number, variant in variants(damper).items():
-        found[number] = np.array([works(variant, level, v) for v in speeds])
-    return found
+        table[number] = np.array([works(variant, level, v) for v in speeds])
+    return table
 
 
 def figure_33(context: Context) -> Plot:
     """Four model variants at 60 % oil."""
-    named, damper = context.dampers["SA8"], context.fit("SA8")
-    level = named.measured_levels[0]
-    speeds = velocities(named)
+    published, identified = context.dampers["SA8"], context.fit("SA8")
+    level = published.measured_levels[0]
+    speeds = velocities(published)
     rig = np.array([context.records.get(Job("SA8", "harmonic", v, level)).works() for v in speeds])
     figure, axes = style.canvas(2, 2, (10.0, 7.2), sharex=True, sharey="row")
-    rows = (variant_works(named, level, BLOCKS), variant_works(damper, level, speeds))
+    rows = (variant_works(published, level, BLOCKS), variant_works(identified, level, speeds))
     for row, table, x, measured in zip(axes, rows, (BLOCKS, speeds), (False, True), strict=True):
         for ax, i in zip(row, (0, -1), strict=True):
             if measured:
@@ -56,9 +55,9 @@ def figure_33(context: Context) -> Plot:
     style.notes(figure, notes.lines(notes.HARMONIC, notes.VIRTUAL, f"lower row {fitted.HOW}"))
     first = {number: rows[1][number][:, 0] / rig[:, 0] - 1 for number in rows[1]}
     worst = {NAMES[n]: float(np.abs(first[n]).max()) for n in (2, 3, 4)}
-    at = {NAMES[n]: speeds[int(np.argmax(np.abs(first[n])))] for n in (2, 3, 4)}
-    low = float(-first[1].min())
-    close = max(worst.values()) <= ERROR
+    worst_speed = {NAMES[n]: speeds[int(np.argmax(np.abs(first[n])))] for n in (2, 3, 4)}
+    shortfall = float(-first[1].min())
+    reproduced = max(worst.values()) <= MODEL_ERROR
     return Plot(
         33,
         f"Damping work for the 1st (a) and the 19th oscillation (b) for different model variants, SA8, {level:.0%} oil",
@@ -70,31 +69,33 @@ def figure_33(context: Context) -> Plot:
             Statement(
                 text="variants 2 to 4 reproduce the work of the first oscillation with a maximum error of 10 %",
                 source="Section 3.4, Figure 33",
-                holds=close,
+                holds=reproduced,
                 numbers={
                     "largest_error_of_the_first_oscillation": worst,
-                    "at_m_per_s": at,
-                    "scalar_factor_below_by_up_to": low,
+                    "at_m_per_s": worst_speed,
+                    "scalar_factor_below_by_up_to": shortfall,
                 },
                 basis="stand-in",
                 criterion="at every velocity of the lower row, against the virtual rig",
                 reason=""
-                if close
-                else "other physics: "
-                + ", ".join(f"variant {n} is off by {x:.0%} at {at[n]:g} m/s" for n, x in worst.items() if x > ERROR),
+                if reproduced
+                else "the rig has other physics: "
+                + ", ".join(
+                    f"variant {n} is off by {x:.0%} at {worst_speed[n]:g} m/s" for n, x in worst.items() if x > MODEL_ERROR
+                ),
             ),
         ),
         notes.VIRTUAL,
         notes.HARMONIC,
-        ("The claims are judged with the published parameters (upper row); against the stand-in the lower row counts.",),
+        ("The claims use the published parameters (upper row); the comparison with the stand-in uses the lower row.",),
     )
 
 
 def figure_34(context: Context) -> Plot:
     """Oil levels from 0 to 100 %."""
     damper = context.dampers["SA8"]
-    chosen = [round(0.1 * i, 1) for i in range(10, -1, -1)]
-    table = {level: np.array([works(damper, level, v) for v in BLOCKS]) for level in chosen}
+    oil_levels = [round(0.1 * i, 1) for i in range(10, -1, -1)]
+    table = {level: np.array([works(damper, level, v) for v in BLOCKS]) for level in oil_levels}
     figure, axes = style.pair((10.0, 4.6), sharey=True)
     colours = matplotlib.colormaps["plasma"]
     for ax, i in zip(axes, (0, -1), strict=True):

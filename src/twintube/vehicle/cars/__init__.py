@@ -1,4 +1,4 @@
-"""Cars in TOML, with sources, assumed values and the bands that a result must hold for; a named one is a file here."""
+"""Cars as TOML files, with sources, assumed values and bands of uncertain values; the named cars are in this folder."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
@@ -9,20 +9,21 @@ from twintube.core.checks import outside
 from twintube.dampers import Damper
 from twintube.dampers.damper import refuse, suggestion
 from twintube.dampers.quantity import quantity
-from twintube.dampers.toml import line_of, read_named
+from twintube.dampers.toml import as_table, line_of, read_named, read_text, read_texts, unknown_keys, wrong_tables
 from twintube.vehicle.quarter_car import Car
 
 FOLDER = Path(__file__).parent
 DEFAULT = "passat_b8"
 AXLES = ("front", "rear")
 TABLE = {item.name: item.metadata for item in fields(Car) if item.name != "F_rest"}
-KEYS = ("name", "title", *AXLES, "band", "sources", "assumed")
-RUBBER = 0.025  # [m] that a rubber stop gives before the damper's own end
+TABLES = {*AXLES, "band", "sources", "assumed"}
+KEYS = ("name", "title", *sorted(TABLES))
+RUBBER = 0.025  # [m] compression of a rubber stop at the damper's maximum stroke
 
 
 @dataclass(frozen=True)
 class CarSet:
-    """A car: values [SI] of `quarter_car.Car` by axle, and the range of those that are not known well."""
+    """A car: values [SI] of `quarter_car.Car` by axle, and the range of uncertain values."""
 
     name: str
     title: str
@@ -32,9 +33,9 @@ class CarSet:
     assumed: Mapping[str, str]
 
     def corner(self, damper: Damper, **changes: float) -> Car:
-        """The corner that the damper sits in, with `changes` of its values; the spring is set for the intact damper.
+        """The corner of the damper, with `changes` of its values; the spring preload is that of the intact damper.
 
-        The rubber stops touch so early that they are pressed by RUBBER at the damper's maximum stroke.
+        The rubber stops begin early enough to be compressed by RUBBER at the damper's maximum stroke.
         """
         values = self.axles[axle(damper)] | changes
         room = damper.parameters.stroke_max / values["ratio"] - RUBBER
@@ -43,58 +44,59 @@ class CarSet:
 
 
 def axle(damper: Damper) -> str:
-    """`front` where the damper's title says so, else `rear`."""
+    """`front` if the damper's title contains it, else `rear`."""
     return "front" if "front" in damper.title.lower() else "rear"
 
 
 def load_car(car: str | Path = DEFAULT) -> CarSet:
     """A named car or a car's file; raises ParameterError with every defect, its line and the allowed range."""
     content, text, file = read_named(car, FOLDER, "car")
-    found = [f"unknown {key}{suggestion(key, KEYS)}" for key in content if key not in KEYS]
-    axles = {name: read_axle(content.get(name), name, text, found) for name in AXLES}
-    band = read_band(content.get("band", {}), text, found)
-    refuse(file, found)
-    return CarSet(
-        str(content.get("name", Path(file).stem)),
-        str(content.get("title", Path(file).stem)),
-        axles,
-        band,
-        content.get("sources", {}),
-        content.get("assumed", {}),
-    )
+    messages = wrong_tables(content, text, TABLES)
+    messages += unknown_keys(content, text, {"": {*KEYS}, **{name: set(TABLE) for name in AXLES}})
+    axles = {name: read_axle(content.get(name), name, text, messages) for name in AXLES}
+    band = read_band(as_table(content.get("band", {})), text, messages)
+    name, title = (read_text(content, key, text, messages) for key in ("name", "title"))
+    sources, assumed = (read_texts(content, key, text, messages) for key in ("sources", "assumed"))
+    refuse(file, messages)
+    return CarSet(name or Path(file).stem, title or Path(file).stem, axles, band, sources, assumed)
 
 
-def read_value(value: Any, name: str, group: str, text: str, found: list[str]) -> float:
-    """One value [SI]; what is wrong with it goes to `found`."""
+def read_value(value: Any, name: str, group: str, text: str, messages: list[str]) -> float:
+    """One value [SI]; defects are added to `messages`."""
     meta = TABLE[name]
     try:
-        number = quantity(value, meta["unit"].replace("N/m3", "N/m**3"))
+        number = quantity(value, meta["unit"])
     except ValueError as error:
-        found.append(f"{line_of(text, group, name)}{group}.{name}: {error}")
+        messages.append(f"{line_of(text, group, name)}{group}.{name}: {error}")
         return 0.0
     message = outside(f"{group}.{name}", number, meta["lower"], meta["upper"], meta["unit"])
     if message:
-        found.append(line_of(text, group, name) + message)
+        messages.append(line_of(text, group, name) + message)
     return number
 
 
-def read_axle(table: Any, name: str, text: str, found: list[str]) -> dict[str, float]:
+def read_axle(table: Any, name: str, text: str, messages: list[str]) -> dict[str, float]:
     """The values of an axle's corner."""
+    if table is None:
+        messages.append(f"the table {name} is missing")
     if not isinstance(table, dict):
-        found.append(f"the table {name} is missing")
         return {}
-    found += [f"{line_of(text, name, key)}unknown {name}.{key}{suggestion(key, TABLE)}" for key in table if key not in TABLE]
-    found += [f"{name}.{key} is missing" for key in TABLE if key not in table]
-    return {key: read_value(value, key, name, text, found) for key, value in table.items() if key in TABLE}
+    messages += [f"{name}.{key} is missing" for key in TABLE if key not in table]
+    return {key: read_value(value, key, name, text, messages) for key, value in table.items() if key in TABLE}
 
 
-def read_band(table: Any, text: str, found: list[str]) -> dict[str, tuple[float, float]]:
-    """The ranges of what is not known well."""
+def read_band(table: dict[str, Any], text: str, messages: list[str]) -> dict[str, tuple[float, float]]:
+    """The ranges of the uncertain values."""
     bands = {}
-    for key, value in table.items() if isinstance(table, dict) else ():
+    for key, value in table.items():
         if key not in TABLE or not isinstance(value, list) or len(value) != 2:
-            found.append(f"{line_of(text, 'band', key)}band.{key}: must be a value's name with [smallest, largest]")
+            hint = f"band.{key}: must be [smallest, largest] of a value of the axles"
+            messages.append(f"{line_of(text, 'band', key)}{hint}{suggestion(key, TABLE) if key not in TABLE else ''}")
             continue
-        low, high = (read_value(end, key, "band", text, found) for end in value)
+        low, high = (read_value(end, key, "band", text, messages) for end in value)
+        if low > high:
+            messages.append(
+                f"{line_of(text, 'band', key)}band.{key}: {low:g} must not be above {high:g} {TABLE[key]['unit']}"
+            )
         bands[key] = (low, high)
     return bands

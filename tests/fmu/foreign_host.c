@@ -1,12 +1,21 @@
-/* Runs the damper's DLL: host.exe DLL GUID oil_reference oil_level gas_reference gas_preload.
+/* Runs the damper's library: host LIBRARY GUID oil_reference oil_level gas_reference gas_preload.
    Steps come as lines of stroke, velocity, step size; forces go out as lines. */
 #include <stdio.h>
 #include <stdlib.h>
+
+#ifdef _WIN32
 #include <windows.h>
+#define OPEN(path) (void *)LoadLibraryA(path)
+#define FIND(library, name) (void *)GetProcAddress((HMODULE)library, name)
+#else
+#include <dlfcn.h>
+#define OPEN(path) dlopen(path, RTLD_NOW)
+#define FIND(library, name) dlsym(library, name)
+#endif
 
 #include "fmi2Functions.h"
 
-#define LOADED(name) name##TYPE *const name##_ = (name##TYPE *)(void *)GetProcAddress(dll, #name)
+#define LOADED(name) name##TYPE *const name##_ = (name##TYPE *)FIND(library, #name)
 
 static void log_line(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category,
                      fmi2String message, ...)
@@ -20,8 +29,8 @@ int main(int count, char **argument)
     const fmi2CallbackFunctions callbacks = {log_line, calloc, free, NULL, NULL};
     const fmi2ValueReference inputs[] = {0, 1}, force = 2;
     double value[2], h, time = 0.0;
-    HMODULE dll = count == 7 ? LoadLibraryA(argument[1]) : NULL;
-    if (dll == NULL) {
+    void *library = count == 7 ? OPEN(argument[1]) : NULL;
+    if (library == NULL) {
         fprintf(stderr, "not loaded\n");
         return 1;
     }

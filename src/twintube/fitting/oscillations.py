@@ -9,12 +9,12 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 from twintube.arrays import Array
 from twintube.data import MEASURED, Record
 from twintube.engine.simulate import InputError
-from twintube.identification.objective import Harmonic
+from twintube.fitting.harmonic import Harmonic
 
 REST = 1.0  # a rest lasts at least so long [s] ...
 STILL = 0.004  # ... with the stroke within this share of its range, less than a ramp of 1 mm/s goes
-SAME_SPEED = 0.8  # oscillations of the measured block reach this share of the record's largest stroke per time
-SMOOTHING = 100  # parts of an oscillation over which a velocity made from the stroke is smoothed
+FAST_SHARE = 0.8  # oscillations of the measured block reach this share of the record's largest stroke per time
+SMOOTHING = 100  # parts of an oscillation over which a velocity computed from the stroke is smoothed
 HALF_WAY = 0.1  # share of the half range that the stroke must go below the middle between two beginnings
 
 
@@ -34,7 +34,7 @@ def segments(time: Array, stroke: Array) -> list[NDArray[np.int64]]:
 
 
 def beginnings(stroke: Array) -> NDArray[np.int64]:
-    """The samples at which oscillations begin, rising through the middle of the range, and the end of the last one."""
+    """The samples at which oscillations begin, rising through the middle of the range, and the last end."""
     middle, half = (stroke.max() + stroke.min()) / 2, float(np.ptp(stroke)) / 2
     if half == 0.0:
         return np.array([], dtype=np.int64)
@@ -69,15 +69,15 @@ def slopes(time: Array, stroke: Array, at: NDArray[np.int64], reach: NDArray[np.
     # Sums of long records lose the digits that a short window needs, unless they are of extended precision.
     totals = [np.concatenate([[0.0], np.cumsum(x.astype(np.longdouble))]) for x in (time - time[0], stroke)]
     ways = [mean(total, at, high) - mean(total, low, at) for total in totals]
-    found: Array = ways[1] / np.maximum(ways[0], 1e-12)
-    return found
+    velocity: Array = ways[1] / np.maximum(ways[0], 1e-12)
+    return velocity
 
 
 def reaches(at: NDArray[np.int64], count: int) -> NDArray[np.int64]:
     """Samples to each side (n,) that lie within half the way to the neighbours among `at`, of `count` samples in all."""
     gaps = np.diff(np.concatenate([[0], at, [count - 1]]))
-    found: NDArray[np.int64] = np.minimum(gaps[:-1], gaps[1:]) // 2
-    return found
+    half: NDArray[np.int64] = np.minimum(gaps[:-1], gaps[1:]) // 2
+    return half
 
 
 def smooth_velocity(record: Record) -> Array:
@@ -106,8 +106,8 @@ def harmonic(record: Record) -> Harmonic:
     if not any(len(some) for some in speeds):
         raise InputError(f"{record.file}: no full oscillation, the stroke goes from {stroke.min():g} to {stroke.max():g} m")
     every = np.concatenate(speeds)
-    # The median of the fast ones, as a single cycle may hold a gap or an outlier.
-    usual = SAME_SPEED * np.median(every[every >= SAME_SPEED * every.max()])
+    # The median of the fast oscillations, as a single cycle may hold a gap or an outlier.
+    usual = FAST_SHARE * np.median(every[every >= FAST_SHARE * every.max()])
     runs = []
     for marks, some in zip(marked, speeds, strict=True):
         for fast, group in itertools.groupby(range(len(some)), key=lambda i: bool(some[i] >= usual)):

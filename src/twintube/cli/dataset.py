@@ -1,0 +1,62 @@
+"""Commands to start with measured data: new-dataset, example."""
+
+from importlib.resources import as_file, files
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from twintube.cli.base import app
+from twintube.engine.simulate import InputError
+
+EXAMPLE = "bench_SA8"
+
+
+@app.command("new-dataset", epilog="Example: twintube new-dataset my_dataset --from block.csv --damper SA8")
+def new_dataset(
+    folder: Annotated[Path, typer.Argument(help="The folder of the new dataset; files that lie in it are taken, too.")],
+    source: Annotated[
+        list[Path] | None, typer.Option("--from", help="A measured record to copy into the folder; repeatable.")
+    ] = None,
+    damper: Annotated[str, typer.Option(help="A name of `twintube dampers` or a parameter file.")] = "",
+    oil_level: Annotated[
+        float | None, typer.Option(min=0.0, max=1.0, help="Share of the intact oil volume in all files.")
+    ] = None,
+    gas_lost: Annotated[bool | None, typer.Option("--gas-lost/--gas-present", help="Gas preload in all files.")] = None,
+) -> None:
+    """Write a commented dataset.toml, with delimiter, decimal sign, header, names and units read off the files.
+
+    What is not certain is said in its comments. No file is overwritten.
+    """
+    from twintube.data import check_dataset
+    from twintube.data.template import State, new_dataset
+
+    preload = None if gas_lost is None else not gas_lost
+    remarks = new_dataset(folder, source or [], damper, State(oil_level, preload))
+    typer.echo(f"{folder / 'dataset.toml'} is written.")
+    for doubt, records in remarks.items():
+        typer.echo(f"not sure: {doubt} ({', '.join(records)})" if records else f"not sure: {doubt}")
+    dataset = check_dataset(folder)
+    for finding in dataset.findings:
+        typer.echo(str(finding))
+    if dataset.errors:
+        typer.echo(f"Next: edit {folder / 'dataset.toml'}, then run: twintube check {folder}")
+    else:
+        typer.echo(f"Next: twintube identify {folder}")
+
+
+@app.command(epilog="Example: twintube example my_example")
+def example(
+    folder: Annotated[Path, typer.Argument(help="Folder to copy the example into; it must not exist or be empty.")],
+) -> None:
+    """Copy the example dataset: seven records of a simulated bench, in which `twintube diagnose` finds a cause."""
+    from twintube.files import write_bytes
+
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise InputError(f"{folder} is there already and not an empty folder; nothing is overwritten")
+    with as_file(files("twintube.examples") / EXAMPLE) as stored:
+        paths = sorted(stored.iterdir())
+        for path in paths:
+            write_bytes(folder / path.name, path.read_bytes())
+    typer.echo(f"{folder}: dataset.toml and {len(paths) - 1} records")
+    typer.echo(f"Next: twintube diagnose {folder}")

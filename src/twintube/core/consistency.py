@@ -1,0 +1,118 @@
+"""What must hold between parameters, and between a step and the last step: rules of both kinds of FMU and the engine.
+
+In the kernel's subset of Python, so that the native FMU runs the translation. Rules have numbers; their texts are in
+`messages.py`. The bounds of single parameters are in the table, `variables.py`.
+"""
+
+from dataclasses import dataclass
+
+from twintube.core.effects import Parameters, State
+from twintube.core.frame import stroke_limit
+from twintube.core.kernel.prepare import prepare
+from twintube.core.variables import FV_POINTS, Derived, var
+
+# Times [s] that a simulation may have: their differences still resolve a step.
+LONGEST = 1e12
+# Rounding may leave a phase [m3] this far below zero.
+TRACE = 1e-12
+# From here on [m] a stroke that the velocity did not lead to is worth a warning.
+JUMP = 0.02
+
+
+@dataclass(slots=True)
+class Violation:
+    """What breaks a rule."""
+
+    point: int = var("", "", "1", "point of the F-v curve, 0 for other rules", integer=True, default=0)
+    value: float = var("", "", "1", "value that breaks the rule, in SI units", default=0.0)
+    limit: float = var("", "", "1", "limit that it breaks, in SI units", default=0.0)
+
+
+def note(violation: Violation, point: int, value: float, limit: float) -> None:
+    """Keep what a message needs."""
+    violation.point = point
+    violation.value = value
+    violation.limit = limit
+
+
+def branch_rule(velocities: tuple[float, ...], forces: tuple[float, ...], after: int, violation: Violation) -> int:
+    """Number 1 to 3 of the first rule beyond `after` that a branch of the F-v curve breaks, else 0."""
+    if after < 1 and velocities[0] <= 0.0:
+        note(violation, 1, velocities[0], 0.0)
+        return 1
+    if after < 2:
+        for i in range(1, FV_POINTS):
+            if velocities[i] <= velocities[i - 1]:
+                note(violation, i + 1, velocities[i], velocities[i - 1])
+                return 2
+            if forces[i] < forces[i - 1]:
+                note(violation, i + 1, forces[i], forces[i - 1])
+                return 3
+    return 0
+
+
+def curve_rule(p: Parameters, after: int, violation: Violation) -> int:
+    """Number of the first rule beyond `after`, 1 to 6, that the F-v curve breaks, else 0."""
+    if after < 3:
+        rule = branch_rule(p.v_re, p.F_re, after, violation)
+        if rule > 0:
+            return rule
+    rule = branch_rule(p.v_co, p.F_co, after - 3, violation)
+    return rule + 3 if rule > 0 else 0
+
+
+def fit_rule(p: Parameters, d: Derived, after: int, violation: Violation) -> int:
+    """Number of the first rule beyond `after`, 7 to 13, that the dimensions or the oil break, else 0.
+
+    All parameters must be within their bounds. `d` is overwritten. Where the dimensions do not fit into each other, the
+    volumes mean nothing and their rules are not asked.
+    """
+    if after < 7 and p.D_li <= p.D_PR:
+        note(violation, 0, p.D_PR, p.D_li)
+        return 7
+    if after < 8 and p.D_li >= p.D_la:
+        note(violation, 0, p.D_li, p.D_la)
+        return 8
+    if after < 9 and p.D_la >= p.D_a:
+        note(violation, 0, p.D_la, p.D_a)
+        return 9
+    if after < 10 and p.dead_length >= p.h_l:
+        note(violation, 0, p.dead_length, p.h_l)
+        return 10
+    if after >= 7 and after <= 11:
+        return 0
+    prepare(p, d)
+    if p.stroke_max >= d.half_length:
+        note(violation, 0, p.stroke_max, d.half_length)
+        return 11
+    stretched = d.A_1 * (d.half_length - p.stroke_max) + d.A_2 * (d.half_length + p.stroke_max)
+    if after < 12 and p.V_oil < stretched:
+        note(violation, 0, p.V_oil, stretched)
+        return 12
+    pushed = d.A_1 * (d.half_length + p.stroke_max) + d.A_2 * (d.half_length - p.stroke_max) + d.V_reserve
+    if after < 13 and p.V_oil > pushed:
+        note(violation, 0, p.V_oil, pushed)
+        return 13
+    return 0
+
+
+def time_slack(time: float, step: float) -> float:
+    """Difference [s] of two communication points that is rounding: importers add up their steps, and end on a rest."""
+    return 1e-9 * (1.0 + abs(time)) + 1e-3 * step
+
+
+def stroke_jump(d: Derived, s: State, stroke: float) -> float:
+    """Way [m] from the stroke that the last step led to, with a mount that of its outer end; 0 where it is not notable."""
+    jump = stroke - (s.z_rod if d.extended > 0 else s.z)
+    return jump if abs(jump) > JUMP else 0.0
+
+
+def possible(d: Derived, s: State) -> int:
+    """1 where a restored state can be that of a damper: the piston in the tube, no phase below zero; else 0."""
+    if abs(s.z) > stroke_limit(d) or s.k_degr < 0.0:
+        return 0
+    if s.V1_oil < -TRACE or s.V1_gas < -TRACE or s.V1_foam < -TRACE or s.V1_foam_oil < -TRACE:
+        return 0
+    if s.V2_oil < -TRACE or s.V2_gas < -TRACE or s.V2_foam < -TRACE or s.V2_foam_oil < -TRACE:
+        return 0
+    return 0 if s.V3_oil < -TRACE or s.V3_foam < -TRACE or s.V3_foam_oil < -TRACE else 1

@@ -1,0 +1,106 @@
+"""Binary records, read by a child process: whatever a damaged file does to its library, this process goes on."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from twintube.data.findings import UnreadableError
+from twintube.data.formats import Format, Raw
+from twintube.data.read_binary import READERS, is_hdf5
+from twintube.extras import extra_of
+
+SCRIPT = Path(__file__).with_name("read_binary.py")
+SECONDS, BYTES_PER_SECOND = 30.0, 5e6  # that a child may take: to start, and for its files
+MOST_DEATHS = 5  # children that may end on a file before the others are not tried any more
+PACKAGES = {".mf4": "asammdf", ".mdf": "asammdf", ".parquet": "pyarrow", ".pq": "pyarrow"}
+# The child's libraries would start threads for each core, which take address space.
+ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "ARROW_NUM_THREADS": "1", "PYTHONFAULTHANDLER": ""}
+
+
+def is_binary(path: Path) -> bool:
+    """Whether the file is one of these formats, by its ending."""
+    return path.suffix.lower() in READERS
+
+
+def check_package(path: Path) -> None:
+    """Raise UnreadableError if the package is missing that reads the file."""
+    package = PACKAGES.get(path.suffix.lower()) or ("h5py" if is_hdf5(path) else "scipy")
+    if find_spec(package) is None:
+        what = f"'twintube[{extra_of(package)}]'"
+        raise UnreadableError(f"{path.suffix} files need the package {package}: pip install {what}")
+
+
+def read_binary(files: Sequence[tuple[Path, Format]]) -> Iterator[Raw | UnreadableError]:
+    """The columns of each file, or why there are none, in their order; the files must exist and have their package."""
+    waiting = list(range(len(files)))
+    deaths = 0
+    with tempfile.TemporaryDirectory(prefix="twintube_") as name:
+        folder = Path(name)
+        while waiting:
+            if deaths == MOST_DEATHS:
+                yield from (UnreadableError(f"not read, because {deaths} files before it are damaged") for _ in waiting)
+                return
+            ended = child(folder, [(i, *files[i]) for i in waiting])
+            while waiting and (folder / f"{waiting[0]}.json").is_file():
+                i = waiting.pop(0)
+                yield answer(folder, i)
+            if waiting:
+                yield UnreadableError(f"the file is damaged: {ended}")
+                waiting.pop(0)
+                deaths += 1
+
+
+def child(folder: Path, files: list[tuple[int, Path, Format]]) -> str:
+    """Let a child read the files into `folder`; how it ended, in words, for the case that it did not read all of them."""
+    requests = [(i, str(path.absolute()), wanted(form)) for i, path, form in files]
+    (folder / "requests.json").write_text(json.dumps(requests), encoding="utf-8")
+    seconds = SECONDS + sum(path.stat().st_size for _, path, _ in files) / BYTES_PER_SECOND
+    with subprocess.Popen(
+        [sys.executable, "-P", str(SCRIPT), str(folder)],
+        stdin=subprocess.PIPE,  # stays open: the child ends when it closes
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        env=os.environ | ENVIRONMENT,
+    ) as process:
+        try:
+            code = process.wait(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            return f"reading took more than {seconds:.0f} s"
+        finally:
+            process.kill()
+    if code >= 0:
+        return f"its reader ended with status {code}"
+    known = code in [-number for number in signal.Signals]
+    return f"its reader ended by {signal.Signals(-code).name if known else f'signal {-code}'}"
+
+
+def wanted(form: Format) -> list[str] | None:
+    """The names in the file that dataset.toml asks for; None: it does not say."""
+    return list(form.columns.values()) if isinstance(form.columns, dict) else None
+
+
+def answer(folder: Path, number: int) -> Raw | UnreadableError:
+    """What the child read from a file."""
+    said = json.loads((folder / f"{number}.json").read_text(encoding="utf-8"))
+    if "error" in said:
+        return UnreadableError(said["error"])
+    file = folder / f"{number}.npz"
+    columns: dict[str, Any] = {}
+    with np.load(file, allow_pickle=False) as arrays:
+        for i, name in enumerate(said["names"]):
+            values = arrays[f"c{i}"]
+            empty = arrays.get(f"e{i}")
+            # A list shows which cells hold nothing; a NaN of an array is a value of the file.
+            columns[name] = [None if e else v for v, e in zip(values, empty, strict=True)] if np.any(empty) else values
+    file.unlink()
+    longest = max((len(values) for values in columns.values()), default=0)
+    return Raw(columns, range(longest), units=said["units"], refused=said["refused"])

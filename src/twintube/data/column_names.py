@@ -1,0 +1,110 @@
+"""Which column of a foreign file is which quantity: names and units as test benches write them, English and German."""
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from twintube.data.table import UNITS, in_si
+
+SYMBOLS = {"t": "time", "z": "stroke", "x": "stroke", "s": "stroke", "F": "force", "v": "velocity", "T": "temperature"}
+# Of two words that both fit the earlier line counts: `Kolbengeschwindigkeit` is a velocity, `Lastweg` a stroke.
+WORDS = {
+    "velocity": ("velocity", "geschw", "speed", "veloc"),
+    "temperature": ("temp",),
+    "stroke": ("stroke", "weg", "hub", "displ", "position", "travel", "auslenkung", "lvdt"),
+    "force": ("force", "kraft", "load", "last", "fz"),
+    "time": ("time", "zeit", "elapsed", "seconds", "sekunden"),
+}
+SET_POINT = ("soll", "set", "setpoint", "target", "command", "cmd", "demand", "ref", "sollwert")
+MEASURED = ("ist", "istwert", "act", "actual", "meas", "measured", "feedback", "fbk")
+UNIT_NAMES = {
+    "sec": "s", "sek": "s", "second": "s", "seconds": "s", "sekunden": "s", "msec": "ms", "millisekunden": "ms",
+    "millimeter": "mm", "meter": "m", "newton": "N", "kilonewton": "kN", "kn": "kN", "n": "N",
+    "°c": "degC", "c": "degC", "degc": "degC", "celsius": "degC", "grad c": "degC", "k": "K", "kelvin": "K",
+    "inch": "in", '"': "in", "lb": "lbf", "lbs": "lbf",
+}  # fmt: skip
+# Kept by their case: ms is not MS, mm not Mm.
+PLAIN_UNITS = ("s", "ms", "us", "m", "mm", "cm", "in", "N", "kN", "daN", "lbf", "m/s", "mm/s", "cm/s", "in/s", "degC", "K")
+
+
+def unit_of(text: str) -> str:
+    """A unit as `twintube` writes it; "" for a text that is not one."""
+    text = text.strip().replace("\N{MASCULINE ORDINAL INDICATOR}", "°").replace("\N{GREEK SMALL LETTER MU}", "u")
+    text = text.replace("\N{MICRO SIGN}", "u").replace("s^-1", "/s")
+    if text in PLAIN_UNITS:
+        return text
+    low = text.lower()
+    return UNIT_NAMES.get(low, low if low in PLAIN_UNITS else "")
+
+
+def name_and_unit(header: str) -> tuple[str, str]:
+    """Name and unit of `Kraft [kN]`, `Kraft (kN)`, `Kraft in kN`, `Kraft / kN`, `force_kN` and the like.
+
+    A unit in brackets that is not known is handed on as it is, so that it can be said.
+    """
+    text = header.strip().strip('"').strip()
+    bracketed = re.fullmatch(r"(.*?)\s*[\[(<{]\s*([^\])>}]*?)\s*[\])>}]", text)
+    if bracketed:
+        return bracketed[1], unit_of(bracketed[2]) or bracketed[2]
+    parted = re.fullmatch(r"(.+?)(?:\s*,\s*|\s+in\s+|\s*/\s*|\s+|_)([^\s,_]+)", text)
+    if parted and unit_of(parted[2]) and not unit_of(text):
+        return re.sub(r"(\s+in|\s*[/,])$", "", parted[1]), unit_of(parted[2])
+    slashed = re.fullmatch(r"([^/]+)/\s*(.+)", text)
+    if slashed and unit_of(slashed[2]):
+        return slashed[1].strip(), unit_of(slashed[2])
+    return text, ""
+
+
+def fits(quantity: str, unit: str) -> bool:
+    """Whether a unit is one of a quantity."""
+    try:
+        in_si(np.ones(1), quantity, unit)
+    except ValueError:
+        return False
+    return True
+
+
+def likeness(name: str, unit: str) -> tuple[str, float]:
+    """The quantity that a column most likely is, and how sure that is: 0 where it is none."""
+    low = name.lower()
+    parts = re.split(r"[\s_.-]+", low)
+    wanted = any(part in SET_POINT for part in parts)
+    symbol = name[:1] if all(part in (*SET_POINT, *MEASURED) for part in parts[1:]) and len(parts[0]) == 1 else ""
+    quantity, score = "", 0.0
+    if low in UNITS:
+        quantity, score = low, 4.0
+    elif symbol in SYMBOLS or symbol.lower() in SYMBOLS:
+        quantity, score = SYMBOLS.get(symbol, SYMBOLS.get(symbol.lower(), "")), 2.5
+    else:
+        quantity = next((q for q, words in WORDS.items() if any(word in low for word in words)), "")
+        score = 3.0 if quantity else 0.0
+    if unit and quantity and not fits(quantity, unit) and unit in PLAIN_UNITS:
+        quantity, score = "", 0.0  # `Zeit [N]` is neither
+    if not quantity and unit:
+        quantity = next((q for q in UNITS if fits(q, unit)), "")
+        score = 1.0 if quantity else 0.0
+    return quantity, score - 0.75 if wanted and score else score
+
+
+def assigned(pairs: Sequence[tuple[str, str]], doubts: list[str]) -> dict[str, tuple[int, str]]:
+    """By quantity: the number and the unit of the column that fits best; adds what is not sure to `doubts`."""
+    likely: dict[str, list[tuple[float, int]]] = {}
+    for i, (name, unit) in enumerate(pairs):
+        quantity, score = likeness(name, unit)
+        if score:
+            likely.setdefault(quantity, []).append((score, i))
+    columns = {}
+    for quantity in UNITS:
+        rated = sorted(likely.get(quantity, []), key=lambda item: (-item[0], item[1]))
+        if not rated:
+            continue
+        score, i = rated[0]
+        columns[quantity] = i, pairs[i][1]
+        if score < 2.0:
+            doubts.append(f"{quantity}: taken from {pairs[i][0]!r}, by its unit only")
+        rivals = [k for other, k in rated[1:] if other > score - 1.0]
+        if rivals:
+            others = ", ".join(repr(pairs[k][0]) for k in rivals)
+            doubts.append(f"{quantity}: taken from {pairs[i][0]!r}; {others} would fit too")
+    return columns

@@ -1,0 +1,42 @@
+"""The motion of a damper from a record: what a simulation needs. Columns, units and formats are those of datasets."""
+
+from pathlib import Path
+
+import numpy as np
+
+from twintube.arrays import Array
+from twintube.data.findings import Notes, UnreadableError
+from twintube.data.formats import Format
+from twintube.data.raw import read_raw
+from twintube.data.table import convert
+from twintube.engine.simulate import InputError
+
+NEEDED = ("time", "stroke")
+MOST_MESSAGES = 5
+
+
+def read_motion(path: Path) -> tuple[Array, Array, Array]:
+    """Time [s], stroke [m] and velocity [m/s] of a record; a missing velocity is the central difference of the stroke.
+
+    Raises InputError with file, row and column, and OSError.
+    """
+    notes = Notes(path.name)
+    form = Format()
+    try:
+        table = convert(read_raw(path, form), form, notes, NEEDED)
+    except UnreadableError as error:
+        notes.error(str(error), row=error.row)
+        table = None
+    if table is not None:
+        late = np.flatnonzero(np.diff(table.columns["time"]) <= 0)
+        for i in late[:1]:
+            time = table.columns["time"][i + 1]
+            notes.error(f"{time:g} s is not after the row before", table.headers["time"], int(table.rows[i + 1]))
+    errors = [finding for finding in notes.findings if finding.severity == "error"]
+    if errors or table is None:
+        rest = len(errors) - MOST_MESSAGES
+        text = "; ".join(finding.text for finding in errors[:MOST_MESSAGES])
+        raise InputError(f"{path.name}: {text}" + (f"; and {rest} more" if rest > 0 else ""))
+    time, stroke = table.columns["time"], table.columns["stroke"]
+    velocity = table.columns.get("velocity")
+    return time, stroke, np.gradient(stroke, time) if velocity is None else velocity

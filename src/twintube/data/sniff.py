@@ -1,0 +1,290 @@
+"""A first guess of how a text file is to be read: delimiter, decimal sign, header, names and units of its columns.
+
+A guess is judged by the rows that it turns into numbers, not by how often a character occurs. Whatever is not certain
+is said in words, for the comments of a new dataset.toml.
+"""
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from twintube.arrays import Array
+from twintube.data.column_names import assigned, name_and_unit
+from twintube.data.formats import TEXT
+from twintube.data.table import UNITS, in_si
+from twintube.engine.simulate import InputError
+
+LOOK = 400  # rows in which the table must begin
+MOST_BYTES = 8_000_000  # read for the guess; the rest of a longer file looks alike
+MOST_ROWS = 100_000
+LONGEST = 20_000  # characters of a row
+DELIMITERS = (";", "\t", ",", "|", "whitespace")  # in this order where two serve alike
+EVEN = 0.8  # of the rows must have the usual number of cells
+SLOW = 5e-3  # [m/s] up to which a record is quasi-static; the paper's ramps have 1 mm/s
+ALIKE = 0.15  # spread of the turning points of a harmonic record over their mean
+NUMBER = {
+    sign: re.compile(rf"[+-]?(\d+({mark}\d*)?|{mark}\d+)([eE][+-]?\d+)?$") for sign, mark in ((".", r"\."), (",", ","))
+}
+
+
+@dataclass
+class Sniffed:
+    """What dataset.toml should say about a text file."""
+
+    reading: dict[str, Any]  # keys of dataset.toml: columns, delimiter, decimal, encoding, skip_rows
+    measurement: str = ""  # quasi-static, harmonic, stochastic or not known
+    facts: list[str] = field(default_factory=list)  # what was seen
+    doubts: list[str] = field(default_factory=list)  # what was guessed, or is missing
+
+
+@dataclass(frozen=True)
+class Shape:
+    """One way to cut the lines into cells; `width` cells a row, of which `first` is the first of numbers."""
+
+    delimiter: str
+    decimal: str
+    rows: list[list[str]]
+    first: int
+    width: int
+    score: float
+
+
+def sniff(path: Path) -> Sniffed:
+    """What the first rows of a text file tell; raises InputError where they hold no table of numbers, and OSError."""
+    text, encoding = decoded(path)
+    lines = [line.rstrip("\r") for line in text.split("\n")]
+    if len(text) > MOST_BYTES // 4 and path.stat().st_size > MOST_BYTES:
+        lines.pop()  # cut within a row
+    if max(map(len, lines[:LOOK]), default=0) > LONGEST:
+        raise InputError(f"{path}: a row of more than {LONGEST} characters, so not a table of channels")
+    shapes = [shape(lines[:LOOK], delimiter, decimal) for delimiter in DELIMITERS for decimal in NUMBER]
+    best = max(shapes, key=lambda s: s.score)
+    if best.score <= 0.0:
+        raise InputError(f"{path}: no table of at least two columns of numbers in its first {LOOK} rows")
+    refuse_equal_signs(path, best)
+    result = Sniffed({})
+    if best.delimiter != TEXT[path.suffix.lower()]:
+        result.reading["delimiter"] = best.delimiter
+    if best.decimal != ".":
+        result.reading["decimal"] = best.decimal
+    if encoding != "utf-8-sig":
+        result.reading["encoding"] = encoding
+        result.doubts.append(f"encoding: the file is not UTF-8, {encoding} is assumed")
+    columns = named(best, result)
+    body = [row for row in cut(lines[best.first : best.first + MOST_ROWS], best.delimiter, best.decimal) if row]
+    judge(columns, body, best.decimal, result)
+    return result
+
+
+def decoded(path: Path) -> tuple[str, str]:
+    """The beginning of a file as text, and its encoding."""
+    with path.open("rb") as file:
+        data = file.read(MOST_BYTES)
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return data.decode("utf-16", errors="replace"), "utf-16"
+    try:
+        return data.decode("utf-8-sig"), "utf-8-sig"
+    except UnicodeDecodeError as error:
+        if len(data) == MOST_BYTES and error.start > MOST_BYTES - 4:  # cut within a character
+            return data[: error.start].decode("utf-8-sig"), "utf-8-sig"
+        return data.decode("cp1252", errors="replace"), "cp1252"
+
+
+def cut(lines: Sequence[str], delimiter: str, decimal: str) -> list[list[str]]:
+    """The cells of each line, without empty ones at its end."""
+    if delimiter == "whitespace":
+        rows = [line.split() for line in lines]
+    else:
+        try:
+            rows = [next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), []) for line in lines]
+        except csv.Error:
+            return []
+    rows = [[cell.strip() for cell in row] for row in rows]
+    for row in rows:
+        while row and not row[-1]:
+            row.pop()
+    return rows
+
+
+def shape(lines: Sequence[str], delimiter: str, decimal: str) -> Shape:
+    """How well a delimiter and a decimal sign turn the lines into numbers; a score of 0 where they do not."""
+    rows = cut(lines, delimiter, decimal)
+    if delimiter == decimal and not any('"' in line for line in lines):
+        return Shape(delimiter, decimal, rows, 0, 0, 0.0)
+    kinds = [(len(row), sum(bool(NUMBER[decimal].match(cell)) for cell in row)) for row in rows]
+    score, first, width, at = 0.0, 0, 0, 0
+    for (count, numbers), run in groupby(kinds):
+        length = len(list(run))
+        if numbers >= 2 and length * numbers / count > score:
+            score, first, width = length * numbers / count, at, count
+        at += length
+    # Empty cells cut the run of like rows; they are the matter of the checks on reading.
+    while first > 0 and kinds[first - 1][1] >= 2 and numeric(rows[first - 1], decimal):
+        first -= 1
+    return Shape(delimiter, decimal, rows, first, width, score)
+
+
+def refuse_equal_signs(path: Path, best: Shape) -> None:
+    """Raise InputError where delimiter and decimal sign are a comma both: `0,01,12,5` under two names."""
+    lengths = Counter(len(row) for row in best.rows[best.first :] if "" not in row and numeric(row, best.decimal))
+    uneven = lengths[best.width] < EVEN * lengths.total()
+    over = best.rows[best.first - 1] if best.first else []
+    if best.delimiter == "," and (uneven or (1 < len(over) <= best.width // 2 and not numeric(over, best.decimal))):
+        raise InputError(
+            f"{path}: delimiter and decimal sign seem to be the comma both; export the file with two different ones"
+        )
+
+
+def numeric(row: Sequence[str], decimal: str) -> bool:
+    """Whether all cells that are not empty are numbers."""
+    return all(NUMBER[decimal].match(cell) for cell in row if cell)
+
+
+def named(best: Shape, result: Sniffed) -> dict[str, tuple[int, str]]:
+    """By quantity: the number of its column and its unit ("" if not known); fills `columns` and `skip_rows`."""
+    width = best.width
+    above = [i for i in range(best.first) if best.rows[i]]
+    headers, at, units = header_rows(best, above, width)
+    if headers is None:
+        result.doubts.append("columns: the file has no header; the quantities and units are a guess by their order")
+        order = [*EXPECTED, *[""] * width][:width]
+        result.reading |= {"columns": order} | ({"skip_rows": best.first} if best.first else {})
+        return {name_and_unit(text)[0]: (i, name_and_unit(text)[1]) for i, text in enumerate(order) if text}
+    pairs = [name_and_unit(cell) for cell in headers]
+    if units is not None:
+        pairs = [
+            (name, name_and_unit(f"x [{unit.strip('[]()')}]")[1]) for (name, _), unit in zip(pairs, units, strict=False)
+        ]
+    columns = assigned(pairs, result.doubts)
+    result.facts.append("columns in the file: " + ", ".join(headers))
+    simple = units is None and at == best.first - 1 and len(set(headers)) == len(headers) == len(best.rows[at]) == width
+    if simple and at:
+        result.reading["skip_rows"] = at
+    elif not simple:
+        result.reading["skip_rows"] = best.first
+    result.reading["columns"] = (
+        {name: headers[i] for name, (i, _) in columns.items()} if simple else [headers[i] for i in range(len(headers))]
+    )
+    return columns
+
+
+EXPECTED = ("time [s]", "stroke [mm]", "force [N]", "velocity [mm/s]", "temperature [degC]")
+
+
+def header_rows(best: Shape, above: list[int], width: int) -> tuple[list[str] | None, int, list[str] | None]:
+    """The names over the numbers, their row, and the units where these have a row of their own."""
+    rows: list[tuple[int, list[str]]] = []
+    for i in reversed(above[-3:]):
+        cells = best.rows[i]
+        if best.delimiter == "whitespace" and len(cells) > width:
+            cells = re.split(r"\s+(?![\[(])", " ".join(cells))  # `Time [s]` is a single name
+        if len(cells) in (width, width - 1) and len(cells) > 1 and not numeric(cells, best.decimal):
+            rows.append((i, cells))
+    if not rows:
+        return None, 0, None
+    units = rows[0][1]
+    if len(rows) > 1 and all(not cell or name_and_unit(f"x [{cell.strip('[]()')}]")[1] for cell in units):
+        return rows[1][1], rows[1][0], units
+    return rows[0][1], rows[0][0], None
+
+
+def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: str, result: Sniffed) -> None:
+    """Complete the units from the sizes of the values, and say sampling and kind of the measurement."""
+    values = {name: column(body, i, decimal) for name, (i, _) in columns.items()}
+    known: dict[str, Array] = {}
+    headers: dict[str, str] = {}
+    for name, (_, stated) in columns.items():
+        unit = stated or guessed(name, values[name])
+        if not stated:
+            result.doubts.append(f"{name}: the file gives no unit, {unit} is guessed from the size of the values")
+        try:
+            known[name] = in_si(values[name], name, unit)
+        except ValueError:
+            unit, wrong = guessed(name, values[name]), unit
+            result.doubts.append(
+                f"{name}: the unit {wrong!r} is not known here, {unit} is guessed from the size of the values"
+            )
+            known[name] = in_si(values[name], name, unit)
+        headers[name] = f"{name} [{unit}]"
+    for name in ("time", "stroke", "force"):
+        if name not in known:
+            result.doubts.append(f"{name}: no column looks like it; complete `columns`")
+    write_columns(columns, headers, result)
+    if "time" in known:
+        steps = np.diff(known["time"])
+        steps = steps[np.isfinite(steps) & (steps > 0)]
+        if len(steps):
+            step = float(np.median(steps))
+            result.facts.append(f"{len(body)} rows looked at, {1 / step:.4g} Hz, {len(body) * step:.4g} s")
+    if "time" in known and "stroke" in known:
+        result.measurement = kind_of(known["time"], known["stroke"])
+
+
+def write_columns(columns: dict[str, tuple[int, str]], headers: dict[str, str], result: Sniffed) -> None:
+    """`columns` as dataset.toml wants it: left out, header = name in the file, or a list by position."""
+    stated = result.reading["columns"]
+    if isinstance(stated, dict):
+        pairs = {headers[name]: source for name, source in stated.items()}
+        result.reading["columns"] = pairs
+        if all(header == source for header, source in pairs.items()):
+            del result.reading["columns"]
+        return
+    width = max([len(stated), *(i + 1 for i, _ in columns.values())])
+    listed = [""] * width
+    for name, (i, _) in columns.items():
+        listed[i] = headers[name]
+    result.reading["columns"] = listed
+
+
+def column(body: list[list[str]], i: int, decimal: str) -> Array:
+    """The numbers of a column, NaN where a cell is not one."""
+    cells = [row[i] if i < len(row) else "" for row in body]
+    numbers = [float(cell.replace(",", ".")) if NUMBER[decimal].match(cell) else np.nan for cell in cells]
+    return np.array(numbers, dtype=float)
+
+
+def guessed(name: str, values: Array) -> str:
+    """The unit that makes the size of the values that of a damper on a bench."""
+    finite = values[np.isfinite(values)]
+    if len(finite) < 2:
+        return EXPECTED_UNIT[name]
+    span = float(np.ptp(finite))
+    if name == "time":
+        return "ms" if float(np.median(np.abs(np.diff(finite)))) >= 0.2 else "s"
+    if name == "temperature":
+        return "K" if float(np.median(finite)) > 200.0 else "degC"
+    limit, small, large = {"stroke": (1.0, "m", "mm"), "force": (60.0, "kN", "N"), "velocity": (10.0, "m/s", "mm/s")}[name]
+    return small if span < limit else large
+
+
+EXPECTED_UNIT = UNITS | {"stroke": "mm", "velocity": "mm/s"}
+
+
+def kind_of(time: Array, stroke: Array) -> str:
+    """The kind of a measurement by its speed and its turning points; "" where nothing moves."""
+    sound = np.isfinite(time) & np.isfinite(stroke)
+    time, stroke = time[sound], stroke[sound]
+    rising = np.concatenate([[True], np.diff(np.maximum.accumulate(time)) > 0]) if len(time) else sound[:0]
+    time, stroke = time[rising], stroke[rising]
+    if len(time) < 16 or float(np.ptp(stroke)) == 0.0:
+        return ""
+    middle, half = (stroke.max() + stroke.min()) / 2, float(np.ptp(stroke)) / 2
+    # Turning points between crossings of the middle, each by more than a tenth of the stroke.
+    side = np.where(stroke > middle + 0.1 * half, 1, np.where(stroke < middle - 0.1 * half, -1, 0))
+    moved = np.flatnonzero(side)
+    parts = np.split(moved, np.flatnonzero(np.diff(side[moved])) + 1)
+    turns = np.array([float(np.abs(stroke[part] - middle).max()) for part in parts])
+    coarse = max(1, len(time) // 20000)
+    speed = np.abs(np.gradient(stroke[::coarse], time[::coarse]))
+    if float(np.quantile(speed, 0.9)) < SLOW:
+        return "quasi-static"
+    inner = turns[1:-1]
+    common = Counter(np.round(inner / half / ALIKE).astype(int).tolist()).most_common(1)
+    return "harmonic" if len(inner) >= 3 and common[0][1] >= 0.8 * len(inner) else "stochastic"

@@ -1,0 +1,177 @@
+"""A dataset.toml to start from: every key with its meaning, filled in as far as the files tell."""
+
+import os
+import shutil
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+
+from twintube import dampers
+from twintube.data.dataset import FILE
+from twintube.data.formats import TEXT
+from twintube.data.manifest import READING
+from twintube.data.sniff import Sniffed, sniff
+from twintube.engine.simulate import InputError
+from twintube.files import replacing, write_text
+from twintube.reading import MB, ReadError, check_regular
+from twintube.words import CONTROL
+
+ENDINGS = (*TEXT, ".parquet", ".pq", ".mat", ".mf4", ".mdf")
+
+MOST_BYTES = 4000 * MB  # of a record
+
+HEAD = """\
+# A dataset: records of one damper. `twintube check` on this folder reads it and reports every defect.
+# Lines that begin with # are comments; remove the # before a key to use it.
+
+"""
+READING_HELP = """
+# How the files are to be read. These keys hold for all records; a record may have its own.
+#
+# columns = {"time [s]" = "Zeit", "stroke [mm]" = "Weg", "force [kN]" = "Kraft"}
+#     quantity [unit] = name in the file. Needed: time, stroke, force; optional: velocity, temperature.
+#     A list gives the columns of a text file without header: ["time [s]", "stroke [mm]", "", "force [N]"]
+# delimiter = ";"             # one character, or "whitespace"; usual is a comma in .csv, a tab in .tsv
+# decimal = ","
+# encoding = "cp1252"         # where the file is not UTF-8
+# skip_rows = 3               # rows before the header, or before the numbers where `columns` is a list
+# force_sign = -1             # force must be positive when the damper is pulled
+# stroke_sign = -1            # stroke must rise when the damper is pulled (rebound)
+# stroke_offset = "12.5 mm"   # added: 0 must be the middle position
+"""
+RECORD_HELP = """
+# The records, one [[record]] for each file:
+#
+# [[record]]
+# file = "oil060_1.0.csv"     # CSV, text, Parquet, MATLAB .mat or MDF 4, relative to this file
+# measurement = "harmonic"    # quasi-static, harmonic or stochastic
+# oil_level = 0.6             # share of the intact oil volume; or instead of it
+# oil_volume_mL = 164
+# gas_preload = false         # true: the gas is at its pressure; false: lost
+# start_temperature_degC = 25.0   # optional
+# split = "heldout"           # optional: fit or heldout; without it the program holds records out by itself
+"""
+
+
+@dataclass(frozen=True)
+class State:
+    """What no file tells: the state of the damper in all records; None where it was not given."""
+
+    oil_level: float | None = None
+    gas_preload: bool | None = None
+
+
+def new_dataset(folder: Path, sources: Sequence[Path], damper: str = "", state: State | None = None) -> dict[str, list[str]]:
+    """Write dataset.toml into the folder, copy the files into it, and return what is not sure, each with its records.
+
+    Without `sources` it takes the records that lie in the folder. Nothing is overwritten, and nothing is written where
+    an InputError, a ParameterError or an OSError is raised.
+    """
+    if (folder / FILE).exists():
+        raise InputError(f"{folder / FILE} is there already; it is not overwritten")
+    if damper:
+        dampers.load(damper)
+    files = list(sources) or present(folder)
+    names = [file.name for file in files]
+    copies: dict[Path, Path] = {}
+    for file in files:
+        if file.suffix.lower() not in ENDINGS:
+            raise InputError(f"{file}: unknown format {file.suffix!r}, must be one of {', '.join(ENDINGS)}")
+        if names.count(file.name) > 1:
+            raise InputError(f"{file}: two files have the name {file.name}")
+        try:
+            check_regular(file, MOST_BYTES)
+        except ReadError as error:
+            raise InputError(f"{file}: {error}") from error
+        target = folder / file.name
+        if target.exists() and not target.samefile(file):
+            raise InputError(f"{target} is there already; it is not overwritten")
+        if not target.exists():
+            copies[target] = file
+    sniffed = [sniff(file) if file.suffix.lower() in TEXT else Sniffed({}) for file in files]
+    text, doubts = template(folder, names, sniffed, damper, state or State())
+    for target, file in copies.items():
+        with replacing(target) as part:
+            shutil.copyfile(file, part)
+    write_text(folder / FILE, text)
+    return doubts
+
+
+def present(folder: Path) -> list[Path]:
+    """The records that lie in a folder, by name."""
+    return sorted(p for p in folder.glob("*") if p.suffix.lower() in ENDINGS) if folder.is_dir() else []
+
+
+def template(
+    folder: Path, names: Sequence[str], sniffed: Sequence[Sniffed], damper: str, state: State
+) -> tuple[str, dict[str, list[str]]]:
+    """The text of dataset.toml, and what is not sure in it with the names of the records."""
+    doubts: dict[str, list[str]] = {}
+    readings = [guess.reading for guess in sniffed]
+    first = readings[0] if readings else {}
+    shared = {key: first[key] for key in READING if key in first and all(r.get(key) == first[key] for r in readings)}
+    text = HEAD + f"title = {quoted(folder.resolve().name)}\n"
+    if not damper:
+        doubt = "damper: none was given, SA8 is assumed; a name of `twintube dampers` or a parameter file"
+        doubts[doubt] = []
+        text += f"# NOT SURE: {doubt}\n"
+    text += f"damper = {quoted(relative(damper, folder) if damper else 'SA8')}\n"
+    text += READING_HELP + "".join(f"{key} = {quoted(value)}\n" for key, value in shared.items()) + RECORD_HELP
+    for name, guess in zip(names, sniffed, strict=True):
+        text += entry(name, guess, shared, state, doubts)
+    return text, doubts
+
+
+def entry(name: str, guess: Sniffed, shared: dict[str, Any], state: State, doubts: dict[str, list[str]]) -> str:
+    """One `[[record]]`; what is not sure goes to `doubts` too."""
+    lines = ["", "[[record]]"]
+    own = list(guess.doubts)
+    lines += [f"# {said(fact)}" for fact in guess.facts]
+    body = [f"file = {quoted(name)}"]
+    if guess.measurement:
+        own.append(f"measurement: {guess.measurement}, judged by the speed and the turning points of the stroke")
+        body.append(f"measurement = {quoted(guess.measurement)}")
+    else:
+        own.append("measurement: quasi-static, harmonic or stochastic; fill it in")
+        body.append("# measurement = ")
+    if state.oil_level is None:
+        own.append("oil_level: the file does not tell it; fill it in")
+        body.append("# oil_level = ")
+    else:
+        body.append(f"oil_level = {state.oil_level}")
+    if state.gas_preload is None:
+        own.append("gas_preload: the file does not tell it; fill it in")
+        body.append("# gas_preload = ")
+    else:
+        body.append(f"gas_preload = {str(state.gas_preload).lower()}")
+    body += [f"{key} = {quoted(value)}" for key, value in guess.reading.items() if key not in shared]
+    for doubt in own:
+        doubts.setdefault(said(doubt), []).append(said(name))
+    return "\n".join(lines + [f"# NOT SURE: {said(doubt)}" for doubt in own] + body) + "\n"
+
+
+def said(text: str) -> str:
+    """A text with what a file may hold as one line of a comment."""
+    return CONTROL.sub("?", text)[:500]
+
+
+def relative(damper: str, folder: Path) -> str:
+    """A named damper, or the path of its parameter file as seen from the folder."""
+    if damper in dampers.names():
+        return damper
+    try:
+        return Path(os.path.relpath(damper, folder)).as_posix()
+    except ValueError:  # on another drive
+        return str(Path(damper).resolve())
+
+
+def quoted(value: Any) -> str:
+    """A value as TOML; a table in one line."""
+    if isinstance(value, dict):
+        table = tomlkit.inline_table()
+        table.update(value)
+        return table.as_string()
+    return str(tomlkit.item(value).as_string())

@@ -1,0 +1,180 @@
+"""All thresholds of the diagnosis: value, unit, reason, and on what they were tuned.
+
+The table in docs/diagnosis.md is generated from this file (rules_table.py). Datasets that a value was tuned on do not
+confirm it.
+"""
+
+from dataclasses import dataclass
+
+from twintube.fitting.rule import JUDGEMENT, METHOD, NOT_RECORDED, NUMERICS, STATISTICS, TRIALS, Section
+
+records = Section("Records")
+measurement = Section("What every measurement has")
+fitting = Section("Fit")
+starts = Section("Starts of a candidate")
+selection = Section("Selection")
+verdict = Section("Verdict and values")
+units = Section("Wrong units")
+saturation = Section("Signature: force at a limit")
+line = Section("Signature: line of fixed frequency")
+ringing = Section("Signature: resonance")
+backlash = Section("Signature: play")
+maps = Section("Maps and structure of the residual")
+
+
+@dataclass(frozen=True)
+class Rules:
+    """The thresholds; read `RULES`."""
+
+    intervals_fast: int = records(48, "", "intervals per oscillation of the main block", NUMERICS)
+    intervals_slow: int = records(24, "", "intervals of slower oscillations, which are not what is looked at", JUDGEMENT)
+    intervals_ramp: int = records(240, "", "of a quasi-static record: friction reverses within tenths of a mm", JUDGEMENT)
+    interval_drive: float = records(5e-3, "s", "interval of other signals", JUDGEMENT)
+    block_factor: float = records(
+        1.5, "1", "oscillations longer than this times the shortest are not the main block", JUDGEMENT
+    )
+    peak_quantile: float = records(0.999, "1", "of the measured force: its peak without outliers", JUDGEMENT)
+    speed_quantile: float = records(0.99, "1", "of the speed: the top speed of a record without outliers", JUDGEMENT)
+    repeats: int = records(3, "", "oscillations from which noise is what does not repeat: second differences", METHOD)
+    jump_scatters: float = records(4.0, "1", "standard deviations of a sample's noise by which a jump stands out", JUDGEMENT)
+    least_noise: float = records(1e-4, "1", "of the peak: without noise every difference would be significant", JUDGEMENT)
+    equal_speeds: float = records(
+        1.05, "1", "top speeds within this factor are held out together: they hold noise", JUDGEMENT
+    )
+
+    small_zero: float = measurement(0.005, "1", "of the largest force: zero of a good load cell", JUDGEMENT)
+    small_delay: float = measurement(3e-4, "s", "delay that sampling leaves open; a shorter lag is not a cause", JUDGEMENT)
+    usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
+    least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
+
+    model_error: float = fitting(3e-3, "1", "of the peak: error of sampling and time step, tests/diagnosis", NUMERICS)
+    steps_per_interval: int = fitting(
+        8, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
+    )
+    pull: float = fitting(
+        0.5, "1", "of the range: standard deviation of a weak pull that keeps idle parameters in place", JUDGEMENT
+    )
+    free_pull: float = fitting(1e-6, "1", "of that pull acts on zero, gain and delay: next to none", JUDGEMENT)
+    inside: float = fitting(1e-9, "1", "of the range by which a fit begins inside it", NUMERICS)
+    failed_force: float = fitting(
+        1e9, "N", "force where a step of the model fails: finite, as least squares needs", NUMERICS
+    )
+    evaluations: int = fitting(12, "", "most evaluations of a fit", NOT_RECORDED)
+    fit_ends: float = fitting(
+        1e-4, "1", "relative change of cost or parameters; a cause changes the cost by percents", JUDGEMENT
+    )
+
+    shapes: int = starts(2, "", "lengths, times and powers that are sought, the first in the effect's file", JUDGEMENT)
+    shares: tuple[float, ...] = starts(
+        (0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", JUDGEMENT
+    )
+    place: float = starts(0.9, "1", "of the largest stroke, at which the search for a place begins", JUDGEMENT)
+    zero_range: float = starts(0.5, "1", "of the largest force: range of a zero that is a fault", JUDGEMENT)
+    gain_range: tuple[float, float] = starts(
+        (0.5, 2.0), "1", "range of a gain that is a fault; beyond it is a wrong unit", JUDGEMENT
+    )
+    delay_range: float = starts(0.03, "s", "range of a delay that is a fault, to both sides", JUDGEMENT)
+
+    alarm: float = selection(0.01, "1", "datasets without a cause in which noise makes any; gives the limit c", STATISTICS)
+    least_misfit: float = selection(0.5, "1", "mean squared weighted error below which nothing is gained", JUDGEMENT)
+    worth: float = selection(
+        0.03, "1", "least gain in log-likelihood per held-out sample: below it numerics decide", NUMERICS
+    )
+    next_share: float = selection(
+        1 / 3, "1", "of the squared error left, or of the step between the zeros, for a further cause", TRIALS
+    )
+    half: float = selection(
+        0.5, "1", "of the misfit left, for a further cause that does not raise the squared error", TRIALS
+    )
+    whole_share: float = selection(0.1, "1", "of the whole misfit, which that cause must explain as well", TRIALS)
+    near_best: float = selection(0.75, "1", "of the best gain, from which a third less squared error decides", TRIALS)
+    first_fits: int = selection(9, "", "candidates fitted in the first round: those with the best starts", JUDGEMENT)
+    further_fits: int = selection(4, "", "candidates fitted in further rounds", JUDGEMENT)
+    rounds: int = selection(3, "", "most causes", JUDGEMENT)
+    few_records: int = selection(2, "", "held-out records up to which a single record may decide", JUDGEMENT)
+    acts: float = selection(1e-3, "1", "of its range: a strength below it is neutral", JUDGEMENT)
+
+    right: float = verdict(0.1, "1", "log-misfit per sample up to which nothing is missing: 5 % above the noise", JUDGEMENT)
+    explained: float = verdict(0.5, "1", "of the explainable squared error that named causes must explain", JUDGEMENT)
+    close: float = verdict(0.01, "1", "of the explainable misfit: candidates that differ by less are ambiguous", JUDGEMENT)
+    alternatives: int = verdict(3, "", "most alternatives of an ambiguous verdict", JUDGEMENT)
+    shows: float = verdict(0.3, "1", "of the base model's error: a signature of less is only mentioned", JUDGEMENT)
+    at_bound: float = verdict(1e-3, "1", "of the range: nearer to its end the range decides, not the records", JUDGEMENT)
+    wide: float = verdict(0.5, "1", "of the range: a wider interval says nothing about the value", JUDGEMENT)
+    interval: float = verdict(1.96, "1", "standard deviations of a 95 % interval", STATISTICS)
+    interval_level: float = verdict(0.95, "1", "of the intervals of gains", STATISTICS)
+    resamples: int = verdict(2000, "", "of the records, for the intervals of gains", JUDGEMENT)
+    worst_share: float = verdict(0.01, "1", "of the explainable error that a record must hold to be the worst", JUDGEMENT)
+
+    unit_gain: float = units(1.5, "1", "log-misfit per sample: an error twice as small is not a calibration", JUDGEMENT)
+
+    limit_records: int = saturation(2, "", "records that must reach the limit", JUDGEMENT)
+    limit_width: float = saturation(1e-6, "1", "of the limit: forces within it are equal; float32 keeps 6e-8", NUMERICS)
+    limit_samples: int = saturation(20, "", "samples at the limit, over all records", NOT_RECORDED)
+    limit_pile: float = saturation(5.0, "1", "times the samples at any value next below: cut forces pile up", NOT_RECORDED)
+    limit_below: int = saturation(10, "", "values next below the limit that are compared with it", NOT_RECORDED)
+    limit_slow: float = saturation(0.05, "1", "quantile of the speed at which the force reaches the limit", JUDGEMENT)
+
+    line_alarm: float = line(1e-4, "1", "chance that white noise makes a line in a record", STATISTICS)
+    line_records: int = line(3, "", "records that must show a line", JUDGEMENT)
+    line_share: float = line(1 / 3, "1", "of the records that can show a line, that must show it", JUDGEMENT)
+    line_periods: float = line(1.2, "1", "factor between periods of the excitation that makes them different", JUDGEMENT)
+    line_side: float = line(0.1, "1", "of the frequency, within which other lines are side lobes", JUDGEMENT)
+    line_padding: int = line(4, "", "bins of the spectrum per independent frequency", NUMERICS)
+    line_background: int = line(64, "", "independent frequencies over which the background is taken", JUDGEMENT)
+    line_slack: float = line(2.0, "1", "above the threshold of a known background, which scatters", NOT_RECORDED)
+    line_strong: float = line(0.02, "1", "of a record's strongest line: weaker ones may be its side lobes", JUDGEMENT)
+    line_width: float = line(2e-3, "1", "relative: lines within it are equal; mains keep 50 Hz within 0.1 Hz", JUDGEMENT)
+    line_slowest: float = line(3.0, "1", "times the frequency of the excitation, from which lines are sought", JUDGEMENT)
+    line_gap: float = line(10.0, "1", "sampling intervals, from which a gap is filled with zeros", JUDGEMENT)
+    line_phases: int = line(64, "", "parts of an oscillation with a scatter of their own: force jumps wander", JUDGEMENT)
+    line_outlier: float = line(4.0, "1", "scatters at which a sample is cut", JUDGEMENT)
+    line_least_scatter: float = line(0.5, "1", "of the median scatter: the least at any phase", JUDGEMENT)
+    line_turns: int = line(5, "", "oscillations of equal period that a record needs", JUDGEMENT)
+    line_fade: float = line(3.0, "1", "oscillations in which a force fades", JUDGEMENT)
+    lines_named: int = line(4, "", "most lines that are named", JUDGEMENT)
+    mains: tuple[int, ...] = line((50, 60), "Hz", "frequencies of the mains", JUDGEMENT)
+
+    speeds_apart: float = ringing(1.2, "1", "factor between velocities that makes them different", JUDGEMENT)
+    ring_step: float = ringing(1.03, "1", "from a frequency that is tried to the next", NUMERICS)
+    ring_inside: float = ringing(1.05, "1", "its band reaches to these factors of the frequency", NOT_RECORDED)
+    ring_outside: tuple[float, float] = ringing(
+        (1.5, 2.2), "1", "the bands to both sides lie between these factors", JUDGEMENT
+    )
+    ring_seen: float = ringing(4.0, "1", "power of a band relative to noise", NOT_RECORDED)
+    ring_power: float = ringing(
+        10**0.6, "1", "power of the band relative to the stronger side band (6 dB), median record", NOT_RECORDED
+    )
+    ring_lowest: float = ringing(5.0, "Hz", "lowest frequency that is tried", JUDGEMENT)
+    ring_harmonic: float = ringing(3.0, "1", "least number of the harmonic", JUDGEMENT)
+    ring_records: int = ringing(5, "", "records that must be able to show a resonance", NOT_RECORDED)
+    ring_middle: float = ringing(0.2, "1", "of the frequency, in which the middle of the resonance is sought", JUDGEMENT)
+
+    play_records: int = backlash(3, "", "records that must show a play", JUDGEMENT)
+    play_share: float = backlash(0.6, "1", "of the intact records that must show it", JUDGEMENT)
+    plays: tuple[float, float, int] = backlash(
+        (1e-3, 2e-2, 40), "1", "lengths tried, of the range of the stroke: from, to, number", JUDGEMENT
+    )
+    play_inside: tuple[float, float, int] = backlash(
+        (0.2, 0.9, 4), "1", "of the play, where the force is steady: from, to, edges", JUDGEMENT
+    )
+    play_after: tuple[float, float] = backlash((1.25, 1.6), "1", "stretch behind the play, of its length", JUDGEMENT)
+    play_later: tuple[float, float] = backlash((2.0, 2.5), "1", "stretch further behind, of its length", JUDGEMENT)
+    play_at_once: float = backlash(
+        0.6, "1", "least force of the first stretch relative to the second: a spring has less", NOT_RECORDED
+    )
+    play_even: float = backlash(1e-3, "1", "of the largest force: the least that a force is taken to vary", JUDGEMENT)
+    play_jump: float = backlash(
+        20.0, "1", "force behind relative to its variation: 15 at most by chance, 30 of a play", NOT_RECORDED
+    )
+    play_alike: float = backlash(1.25, "1", "plays within this factor are equal", JUDGEMENT)
+    play_samples: int = backlash(3, "", "samples of a mean", JUDGEMENT)
+
+    bins: int = maps(16, "", "of a map; quantities of fewer values show each value", JUDGEMENT)
+    bin_samples: int = maps(10, "", "that a bin must hold", JUDGEMENT)
+    striking: float = maps(1.5, "1", "times the usual error, from which a bin stands out", JUDGEMENT)
+    regions: int = maps(3, "", "most regions that are named", JUDGEMENT)
+    structure_alarm: float = maps(0.01, "1", "chance that white noise in all records shows structure in any", STATISTICS)
+
+
+RULES = Rules()

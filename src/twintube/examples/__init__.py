@@ -1,0 +1,1 @@
+"""Data that `twintube example` copies."""

@@ -1,0 +1,80 @@
+"""Simulated mean forces over the intervals of many records: what identification and diagnosis compare with measurements."""
+
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Protocol
+
+import numpy as np
+
+from twintube.arrays import Array
+from twintube.core import effects
+from twintube.core.variables import Derived, Flow, blank
+from twintube.dampers import Damper
+from twintube.engine import compiled
+
+MARGIN = 1.02  # of the velocity threshold of foam
+
+
+class Driven(Protocol):
+    """A record that drives the model: arrays (n,) in SI units; an interval ends at each sample but the first."""
+
+    @property
+    def oil_level(self) -> float:
+        """Share of the intact oil volume [1]."""
+
+    @property
+    def gas_preload(self) -> int:
+        """1 with gas preload, else 0."""
+
+    @property
+    def time(self) -> Array:
+        """Times [s]."""
+
+    @property
+    def stroke(self) -> Array:
+        """Strokes [m]."""
+
+    @property
+    def velocity(self) -> Array:
+        """Velocities [m/s]."""
+
+
+def tolerant(damper: Damper) -> Damper:
+    """The damper for measured velocities: the rig's slow block moves at the threshold of foam, and they scatter about it."""
+    return damper.with_(v_foam=MARGIN * damper.parameters.v_foam)
+
+
+class SimulatedRecords:
+    """Records laid end to end, and the damper that they drive.
+
+    `starts` (r + 1,) where each record begins; `states` (r, 2) oil level and preload; `t`, `z`, `v` (n,) time, stroke and
+    velocity. `parts` are the steps of the model per interval; the forces behind a step that fails are `failed` [N].
+    `threads` serve several parameter sets at once, as numba releases the interpreter's lock.
+    """
+
+    def __init__(self, damper: Damper, records: Sequence[Driven], *, parts: int, failed: float) -> None:
+        self.given = damper
+        self.damper = tolerant(damper)
+        self.parts, self.failed = parts, failed
+        self.starts = np.concatenate([[0], np.cumsum([len(r.time) for r in records])]).astype(np.int64)
+        self.states = np.array([[r.oil_level, r.gas_preload] for r in records], dtype=float)
+        self.t, self.z, self.v = (np.concatenate([getattr(r, n) for r in records]) for n in ("time", "stroke", "velocity"))
+        self.workers = os.cpu_count() or 1
+        self.threads = ThreadPoolExecutor(self.workers)
+
+    def rows(self) -> list[Any]:
+        """The compiled model's records with the given parameters; each thread needs its own."""
+        records = (self.damper.parameters, blank(Derived), blank(effects.State), blank(Flow))
+        return [compiled.as_row(record)[0] for record in records]
+
+    def run(self, rows: list[Any], changes: Iterable[tuple[str, float]]) -> tuple[Array, Array]:
+        """Mean forces [N] and works since the start of the record [J], both (n,), with parameters changed in `rows`."""
+        for name, value in changes:
+            rows[0][name] = value
+        force, work = np.empty(len(self.z)), np.empty(len(self.z))
+        done = compiled.module().run_means(
+            *rows, self.states, self.t, self.z, self.v, self.starts, self.parts, force, work
+        )  # fmt: skip
+        force[self.starts[done] :] = self.failed
+        return force, work

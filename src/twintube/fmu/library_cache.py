@@ -1,0 +1,52 @@
+"""Compiled libraries kept between builds: in a folder of this user alone, every file next to its digest.
+
+A library goes into FMUs that others execute, so a damaged file is deleted and compiled again.
+"""
+
+from pathlib import Path
+
+import platformdirs
+
+from twintube.engine.code_cache import VOUCHED, digest, private
+from twintube.files import write_bytes, write_text
+
+KEPT = 400  # libraries of about 50 kB; the oldest are deleted beyond
+
+
+def folder() -> Path | None:
+    """The user's cache of libraries; None where it is not private or cannot be written."""
+    path = Path(platformdirs.user_cache_dir("twintube")) / "libraries"
+    return path if private(path) else None
+
+
+def stored(key: str) -> bytes | None:
+    """The library of a key; None where it is missing or damaged."""
+    cache = folder()
+    if cache is None:
+        return None
+    path = cache / key
+    try:
+        data = path.read_bytes()
+        vouched = path.with_name(key + VOUCHED).read_text(encoding="ascii")
+    except (OSError, UnicodeDecodeError):
+        return None
+    if vouched != digest(path):
+        path.unlink(missing_ok=True)
+        return None
+    return data
+
+
+def store(key: str, data: bytes) -> None:
+    """Keep a library; without a private folder, or with a full disk, nothing happens."""
+    cache = folder()
+    if cache is None:
+        return
+    try:
+        write_bytes(cache / key, data)
+        write_text(cache / (key + VOUCHED), digest(cache / key))
+        libraries = sorted((path for path in cache.iterdir() if not path.suffix), key=lambda path: path.stat().st_mtime)
+        for path in libraries[:-KEPT]:
+            path.unlink(missing_ok=True)
+            path.with_name(path.name + VOUCHED).unlink(missing_ok=True)
+    except OSError:
+        return

@@ -1,0 +1,147 @@
+"""The section "Add an effect" of docs/effects.md, followed to the letter in a copy of the package."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "effects.md").read_text(encoding="utf-8")
+BLOCK = re.compile(r"<!-- file: (\S+) -->\n```python\n(.*?)```", re.DOTALL)
+
+HEAD = """
+import numpy as np
+
+import twintube
+from twintube import harmonic_block, load, simulate
+from twintube.core.effects import EFFECTS, active
+from twintube.core.hooks import sources
+
+assert twintube.__file__.startswith(COPY), twintube.__file__
+(name,) = set(sources()) - set(OLD)
+plain = load("SA8")
+damper = plain.with_(groove_share=0.5)
+assert active(damper.parameters) == (name,)
+"""
+INTERPRETED = """
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.variables import Derived, Flow, blank
+from twintube.fmu.description import described
+from twintube.fmu.equations import StaleTranslationError, checked
+from twintube.fmu.sources import NATIVE
+
+
+def fluid(damper):
+    p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
+    model.set_up(p, d)
+    model.start(p, d, s, -0.04)
+    forces = []
+    for i in range(1, 81):
+        model.advance(p, d, s, f, -0.04 + 0.001 * i, 0.5, 0.5, 0.002)
+        forces.append(s.F_fluid)
+    return np.array(forces)
+
+
+ratio = fluid(damper) / fluid(plain)
+stroke = 0.001 * np.arange(1, 81) - 0.04
+np.testing.assert_allclose(ratio, 1 - 0.5 * np.exp(-((stroke / 0.02) ** 2)), rtol=1e-9)
+xml = described(damper, "{0}", "2025-01-01T00:00:00Z", {}, [], []).decode()
+assert 'name="bypass_groove.groove_share"' in xml and 'name="bypass_groove.groove_length"' in xml
+try:
+    checked((NATIVE / "kernel.h").read_text(encoding="utf-8"))
+except StaleTranslationError as error:
+    assert "python -m twintube.fmu.translate" in str(error)
+else:
+    raise AssertionError("C without the effect was taken for current")
+"""
+COMPILED = """
+block = harmonic_block(0.524, dt=5e-3)
+a, b = (simulate(d, block.stroke, block.velocity, block.time) for d in (plain, damper))
+fast = (np.abs(b.stroke) < 2e-3) & (np.abs(b.velocity) > 0.1)
+np.testing.assert_allclose(b.columns["F_fluid"][fast] / a.columns["F_fluid"][fast], 0.5, atol=0.01)
+"""
+
+
+def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Python with the copy of the package."""
+    environment = os.environ | {"PYTHONPATH": str(folder)}
+    return subprocess.run(
+        [sys.executable, *arguments], cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=300
+    )
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("copy")
+    ignored = shutil.ignore_patterns("__pycache__", "examples", "fmu_sources")
+    shutil.copytree(ROOT / "src" / "twintube", folder / "twintube", ignore=ignored)
+    shutil.copytree(ROOT / "fmu_src", folder / "twintube" / "fmu_sources", ignore=ignored)
+    ((path, text),) = BLOCK.findall(PAGE)
+    assert not (folder / "twintube" / path).exists()
+    (folder / "twintube" / path).write_text(text, encoding="utf-8")
+    return folder
+
+
+def head(copy: Path) -> str:
+    """The beginning of a script: the effect is the only one that this checkout does not have."""
+    from twintube.core.hooks import sources
+
+    return f"COPY = {str(copy)!r}\nOLD = {sorted(sources())!r}\n{HEAD}"
+
+
+def test_the_page_gives_an_effect_that_works(copy: Path) -> None:
+    done = run(copy, "-c", head(copy) + INTERPRETED)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.slow
+def test_the_compiled_model_has_it(copy: Path) -> None:
+    done = run(copy, "-c", head(copy) + COMPILED)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_generated_parts_know_it(copy: Path) -> None:
+    stubs = run(copy, "-m", "twintube.stubs")
+    assert stubs.returncode == 0, stubs.stderr
+    assert "groove_share: float" in (copy / "twintube" / "core" / "effects" / "__init__.pyi").read_text(encoding="utf-8")
+    table = run(copy, "-m", "twintube.cli", "variables")
+    assert "| `bypass_groove.groove_share` |" in table.stdout, table.stderr
+
+
+def test_an_unknown_unit_is_an_error(copy: Path) -> None:
+    ((path, text),) = BLOCK.findall(PAGE)
+    other = copy / "twintube" / path
+    other.write_text(text.replace('"bypass_groove", "", "m"', '"bypass_groove", "", "furlong"'), encoding="utf-8")
+    try:
+        done = run(copy, "-c", "import twintube.core.effects")
+    finally:
+        other.write_text(text, encoding="utf-8")
+    assert done.returncode != 0
+    assert "unit 'furlong' of bypass_groove" in done.stderr.splitlines()[-1]
+
+
+PYCCEL = shutil.which("pyccel") or shutil.which("pyccel", path=str(Path(sys.executable).parent))
+
+
+@pytest.mark.skipif(PYCCEL is None, reason="pyccel is not installed")
+def test_the_translation_takes_it(copy: Path) -> None:
+    done = run(copy, "-m", "twintube.fmu.translate")
+    assert done.returncode == 0, done.stderr
+    assert "bypass_groove_scale_fluid" in (copy / "twintube" / "fmu_sources" / "native" / "kernel.h").read_text(
+        encoding="utf-8"
+    )
+
+
+def test_every_hook_and_role_of_the_page_exists() -> None:
+    from twintube.core.hooks import NEEDED, ROLES
+
+    section = PAGE[PAGE.index("## Add an effect") :]
+    for name in NEEDED:
+        assert name in section
+    for role in ROLES:
+        assert f"`{role}`" in section

@@ -1,0 +1,26 @@
+"""Without any extra the example is read and its diagnosis can begin: nothing of an extra is imported on the way."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+SCRIPT = """
+import sys
+
+for name in ("asammdf", "cma", "distributed", "emcee", "h5py", "pandas", "pyarrow", "pymoo"):
+    sys.modules[name] = None
+from typer.testing import CliRunner
+
+import twintube.diagnosis
+import twintube.report.diagnosis
+from twintube.cli import app
+
+for arguments in (["example", "my_example"], ["check", "my_example"], ["simulate", "SA8", "--amplitude-mm", "10"]):
+    run = CliRunner().invoke(app, arguments)
+    assert run.exit_code == 0, (arguments, run.output, run.exception)
+"""
+
+
+def test_first_contact_needs_no_extra(tmp_path: Path) -> None:
+    done = subprocess.run([sys.executable, "-c", SCRIPT], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
