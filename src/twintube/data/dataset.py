@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.arrays import Array, freeze_arrays
 from twintube.core.checks import tube_limit
 from twintube.dampers import Damper, ParameterError, load, names
 from twintube.data.checks import check, computed
@@ -40,6 +40,10 @@ class Record:
     velocity_source: str  # MEASURED, GIVEN or GRADIENT
     temperature: Array | None  # [degC]
     findings: tuple[Finding, ...]
+
+    def __post_init__(self) -> None:
+        """Shared by all who read it."""
+        freeze_arrays(self)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
+from twintube.arrays import Array, freeze_arrays
 from twintube.data.condition import is_intact
 from twintube.fitting.intervals import impulse, means
 
@@ -24,6 +24,10 @@ class Harmonic:
     marks: NDArray[np.int64]
     name: str = ""
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through, see averaging.py
+
+    def __post_init__(self) -> None:
+        """Shared by all who read it."""
+        freeze_arrays(self)
 
     @property
     def intact(self) -> bool:

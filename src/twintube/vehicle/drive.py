@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.arrays import Array, freeze_arrays
 from twintube.core.frame import stroke_limit
 from twintube.core.variables import blank
 from twintube.dampers import Damper
@@ -25,6 +25,10 @@ class Drive:
     wheel_load: Array  # [N]
     work: Array  # [J] dissipated by the damper since the start
     oil: Array  # [m3] of oil in the damper, including that in the foam
+
+    def __post_init__(self) -> None:
+        """Shared by all who read it."""
+        freeze_arrays(self)
 
 
 CONDITIONING_STEP = 5e-3  # [s]
@@ -69,7 +73,9 @@ def drive(
     if rates is None:
         rates = slopes(heights, dt)
     out = np.empty((len(heights), 6))
-    steps: int = module.run_drive(p, d, s, f, *rows([car, blank(Motion)]), heights, rates, push, dt, limit, out)
+    # Copies, as compiled code takes arrays that can be written to.
+    inputs = [np.array(values, dtype=float) for values in (heights, rates, push)]
+    steps: int = module.run_drive(p, d, s, f, *rows([car, blank(Motion)]), *inputs, dt, limit, out)
     if steps < len(heights):
         raise InputError(f"time {steps * dt:g} s: stroke must be from {-limit:g} to {limit:g} m")
     return Drive(np.arange(len(heights)) * dt, *np.ascontiguousarray(out.T))

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.arrays import Array, freeze_arrays
 from twintube.dampers import Damper
 from twintube.vehicle import road
 from twintube.vehicle.drive import Drive, drive
@@ -26,6 +26,10 @@ class Track:
     dt: float
     heights: Array
     rates: Array
+
+    def __post_init__(self) -> None:
+        """Shared by all who read it."""
+        freeze_arrays(self)
 
 
 def track(speed_kmh: float, seconds: float, *, road_class: str = "D", seed: int = 1, dt: float = DT) -> Track:

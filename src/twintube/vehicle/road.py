@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import signal
 
-from twintube.arrays import Array
+from twintube.arrays import Array, freeze_arrays
 
 N_0 = 0.1  # reference spatial frequency [cycles/m]
 WAVINESS = 2.0
@@ -27,6 +27,10 @@ class Road:
 
     height: Array
     enveloped: Array
+
+    def __post_init__(self) -> None:
+        """Shared by all who read it."""
+        freeze_arrays(self)
 
     def at(self, position: Array) -> Array:
         """Enveloped heights [m] at the positions [m], linear between samples; raises ValueError outside the road."""
