@@ -7,19 +7,17 @@
 /* Whether all is a number: what the outputs do not show spoils later steps. */
 static int numbers(const void *record, size_t size)
 {
-    const char *bytes = record;
-    for (size_t i = 0; i < size; i += sizeof(double)) {
-        double value;
-        memcpy(&value, bytes + i, sizeof value);
-        if (value - value != 0.0)
-            return 0;
-    }
-    return 1;
+    const double *value = record;
+    int wrong = 0;
+    for (size_t i = 0; i < size / sizeof *value; i++)
+        wrong |= value[i] - value[i] != 0.0; /* without a branch: compilers do several at once */
+    return !wrong;
 }
 
-static int computed(const struct memory *m)
+static int computed(struct memory *m)
 {
-    return numbers(&m->s, sizeof m->s) && numbers(&m->out, sizeof m->out);
+    const double force = kernel_total_force(&m->s);
+    return force - force == 0.0 && numbers(&m->s, sizeof m->s);
 }
 
 /* What follows from the parameters in force. */
@@ -59,11 +57,11 @@ static int begin(struct unit *u)
     m->f.k_degr = m->f.k_mean = 1.0;
     kernel_start(&m->damper.p, &m->d, &m->s, m->stroke);
     kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, m->stroke, m->velocity, m->velocity, 0.0);
-    kernel_publish(&m->d, &m->s, &m->out);
     if (!computed(m)) {
         refuse(u, SAY_NO_START);
         return 0;
     }
+    kernel_publish(&m->d, &m->s, &m->out);
     m->stale = 0;
     return 1;
 }
@@ -78,7 +76,6 @@ static fmi2Status move(struct unit *u, double h, double rate)
     double jump;
     struct kernel_State before;
     struct kernel_Flow flow;
-    struct kernel_Outputs shown;
     fmi2Status status = fmi2OK;
 
     if (m->changed && !take_over(u))
@@ -89,18 +86,13 @@ static fmi2Status move(struct unit *u, double h, double rate)
         return fmi2Error;
     before = m->s;
     flow = m->f;
-    shown = m->out;
     jump = kernel_stroke_jump(&m->d, &m->s, z);
-    if (kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, end, v, after, h))
-        kernel_publish(&m->d, &m->s, &m->out);
-    else
-        m->out.force = NAN;
-    if (!computed(m)) {
+    if (!kernel_advance(&m->damper.p, &m->d, &m->s, &m->f, end, v, after, h) || !computed(m)) {
         m->s = before;
         m->f = flow;
-        m->out = shown;
         return refuse(u, SAY_NO_STEP, m->time);
     }
+    kernel_publish(&m->d, &m->s, &m->out);
     if (!m->warned && jump != 0.0) {
         m->warned = 1;
         status = warn(u, SAY_STROKE_JUMP, m->time, z, z - jump);
