@@ -108,6 +108,7 @@ def test_values_at_the_end_of_their_range_and_undetermined_values_are_doubted() 
     assert Estimate(0.03, 0.0299, 0.03, "s", (-0.03, 0.03), 0.0).doubt == "at the end of its range, -0.03 to 0.03 s"
 
 
+@pytest.mark.slow
 def test_what_no_effect_makes_is_unexplained_and_described(tmp_path: Path) -> None:
     answer = answered("backlash", tmp_path)
     assert (answer.verdict, answer.causes) == ("unexplained", [])

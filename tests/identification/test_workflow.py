@@ -105,7 +105,7 @@ def judged(truth: Damper, velocities: tuple[float, ...], budget: Budget) -> None
 
 
 def test_truth_lies_in_the_intervals_and_the_undetermined_are_named() -> None:
-    judged(load("SA7"), (*BLOCKS[::2], BLOCKS[-1]), QUICK)
+    judged(load("SA7"), (*BLOCKS[::2], BLOCKS[-1]), Budget((24, 30), (32, 40), (24, 80), (32, 80)))
 
 
 @pytest.mark.slow

@@ -9,6 +9,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+from twintube import claims
 from twintube.cli import app
 
 RUNNER = CliRunner()
@@ -109,12 +110,13 @@ def test_unwritable_output(tmp_path: Path) -> None:
     assert run.stderr.startswith("error: ")
 
 
-def test_claims_as_json(tmp_path: Path) -> None:
+def test_claims_as_json(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(claims, "EVALUATORS", claims.EVALUATORS[:2])  # tests/claims evaluates all
     out = tmp_path / "claims.json"
     run = RUNNER.invoke(app, ["claims", "--json", str(out)])
     assert run.exit_code == 0, run.output
     found = json.loads(out.read_text())
-    assert [c["id"] for c in found] == [f"C{i}" for i in range(1, 17)]
+    assert [c["id"] for c in found] == ["C1", "C2"]
     assert {"id", "holds", "figures", "needs"} <= set(found[0])
     assert "evidence: " in run.output
 

@@ -21,6 +21,13 @@ for arguments in (["example", "my_example"], ["check", "my_example"], ["simulate
 """
 
 
+def test_a_missing_package_is_answered_with_what_to_install(tmp_path: Path) -> None:
+    script = "import sys\nsys.modules['pyarrow'] = None\nfrom twintube.cli import app\napp(['study', 'variants'])"
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr == "error: the package pyarrow is not installed: pip install 'twintube[formats]'\n"
+
+
 def test_first_contact_needs_no_extra(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, "-c", SCRIPT], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
