@@ -9,7 +9,7 @@ from types import ModuleType
 import pytest
 
 from twintube.engine import code_cache
-from twintube.engine.code_cache import VOUCHED, CodeCache, private
+from twintube.engine.code_cache import VOUCHED, CodeCache, private, vouched
 
 TEXT = """
 import numba
@@ -41,7 +41,7 @@ def test_compiled_files_are_vouched_for_and_used_again(folder: Path) -> None:
     module, cache = loaded()
     assert module.run_twice(1.5) == 3.0
     assert cache.compiled()
-    assert all(cache.vouched(file) for file in cache.compiled())
+    assert all(vouched(file) for file in cache.compiled())
     before = {file: file.stat().st_mtime_ns for file in cache.compiled()}
     again, cache = loaded()
     assert again.run_twice(1.5) == 3.0
@@ -65,7 +65,7 @@ def test_a_damaged_file_is_compiled_anew(folder: Path, ending: str, damage: str)
     module, cache = loaded()
     assert victim not in cache.compiled()
     assert module.run_twice(1.0) == 2.0
-    assert all(cache.vouched(file) for file in cache.compiled())
+    assert all(vouched(file) for file in cache.compiled())
 
 
 def test_a_changed_source_is_written_again(folder: Path) -> None:

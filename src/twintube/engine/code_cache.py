@@ -56,6 +56,20 @@ def digest(path: Path) -> str:
         return ""
 
 
+def vouched(file: Path) -> bool:
+    """Whether the digest next to a file is that of the file."""
+    current = digest(file)
+    try:
+        return current != "" and file.with_name(file.name + VOUCHED).read_text(encoding="ascii") == current
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
+def vouch(file: Path) -> None:
+    """Put the digest next to a file."""
+    write_text(file.with_name(file.name + VOUCHED), digest(file))
+
+
 @dataclass(frozen=True)
 class CodeCache:
     """The source of a generated module, and numba's files of it."""
@@ -64,13 +78,13 @@ class CodeCache:
 
     @classmethod
     def open(cls, name: str, text: str) -> "CodeCache":
-        """The module's file with exactly `text`, and no compiled file that does not have its digest beside it."""
+        """The module's file with exactly `text`, and no compiled file that does not have its digest next to it."""
         path = cache_folder() / f"{name}.py"
         if digest(path) != hashlib.sha256(text.encode()).hexdigest():
             write_text(path, text)
         cache = cls(path)
         for file in cache.compiled():
-            if not cache.vouched(file):
+            if not vouched(file):
                 file.unlink(missing_ok=True)
         return cache
 
@@ -79,20 +93,11 @@ class CodeCache:
         folder = self.path.parent / "__pycache__"
         return [file for ending in ("nbi", "nbc") for file in folder.glob(f"{self.path.stem}.*.{ending}")]
 
-    @staticmethod
-    def vouched(file: Path) -> bool:
-        """Whether the digest beside a file is that of the file."""
-        try:
-            return file.with_name(file.name + VOUCHED).read_text(encoding="ascii") == digest(file)
-        except (OSError, UnicodeDecodeError):
-            return False
-
     def seal(self) -> None:
-        """Put the digests beside all compiled files; a process that is killed before leaves files that are compiled anew."""
+        """Put the digests next to all compiled files; a process that is killed before leaves files that are compiled anew."""
         for file in self.compiled():
-            current = digest(file)
-            if current and not self.vouched(file):
-                write_text(file.with_name(file.name + VOUCHED), current)
+            if not vouched(file):
+                vouch(file)
 
     def seal_after_compiling(self, module: ModuleType) -> None:
         """Let the functions of the module seal the cache whenever a call has compiled something."""

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import platformdirs
 
-from twintube.engine.code_cache import VOUCHED, digest, private
-from twintube.files import write_bytes, write_text
+from twintube.engine.code_cache import VOUCHED, private, vouch, vouched
+from twintube.files import write_bytes
 
 KEPT = 400  # libraries of about 50 kB; the oldest are deleted beyond
 
@@ -25,15 +25,10 @@ def stored(key: str) -> bytes | None:
     if cache is None:
         return None
     path = cache / key
-    try:
-        data = path.read_bytes()
-        vouched = path.with_name(key + VOUCHED).read_text(encoding="ascii")
-    except (OSError, UnicodeDecodeError):
-        return None
-    if vouched != digest(path):
-        path.unlink(missing_ok=True)
-        return None
-    return data
+    if vouched(path):
+        return path.read_bytes()
+    path.unlink(missing_ok=True)
+    return None
 
 
 def store(key: str, data: bytes) -> None:
@@ -43,7 +38,7 @@ def store(key: str, data: bytes) -> None:
         return
     try:
         write_bytes(cache / key, data)
-        write_text(cache / (key + VOUCHED), digest(cache / key))
+        vouch(cache / key)
         libraries = sorted((path for path in cache.iterdir() if not path.suffix), key=lambda path: path.stat().st_mtime)
         for path in libraries[:-KEPT]:
             path.unlink(missing_ok=True)
