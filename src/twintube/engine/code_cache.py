@@ -94,7 +94,7 @@ class CodeCache:
         return [file for ending in ("nbi", "nbc") for file in folder.glob(f"{self.path.stem}.*.{ending}")]
 
     def seal(self) -> None:
-        """Put the digests next to all compiled files; a process that is killed before leaves files that are compiled anew."""
+        """Put the digests next to all compiled files; what a process killed before that leaves is compiled anew."""
         for file in self.compiled():
             if not vouched(file):
                 vouch(file)
