@@ -10,6 +10,8 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
+from twintube.parsing import parsed
+
 PACKAGE = "twintube"
 ROOT = Path(__file__).parent
 # Their results differ in the last bits, which a search or a chaotic drive enlarges.
@@ -27,7 +29,7 @@ def location(module: str) -> Path | None:
 
 def named(path: Path) -> Iterator[Path]:
     """The files that a source file depends on: by imports, by naming them in a text, by importing its folder's files."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(parsed(path.read_text(encoding="utf-8"))):
         modules: list[str] = []
         match node:
             case ast.Import():

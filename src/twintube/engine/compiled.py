@@ -10,6 +10,7 @@ import sys
 from dataclasses import fields
 from functools import cache
 from pathlib import Path
+from threading import Lock
 from types import ModuleType
 from typing import Any
 
@@ -18,9 +19,11 @@ import numpy as np
 from twintube.core import sources
 from twintube.core.variables import FV_POINTS
 from twintube.engine.code_cache import CodeCache
+from twintube.parsing import parsed
 
 PACKAGE = Path(__file__).parents[1]
 LOOPS = ("engine/loops.py", "vehicle/quarter_car.py", "vehicle/loops.py")
+LOADING = Lock()
 HEAD = f"import math\nimport numba\n\nFV_POINTS = {FV_POINTS}\n"
 
 
@@ -39,7 +42,7 @@ def joined_source() -> str:
 def compilable(text: str, *, described: bool = False) -> list[str]:
     """Constants and functions of a source; of one that is `described` by constants of other types, numbers only."""
     parts = []
-    for node in ast.parse(text).body:
+    for node in parsed(text).body:
         if isinstance(node, ast.FunctionDef):
             node.returns = None
             for argument in node.args.args:
@@ -52,9 +55,15 @@ def compilable(text: str, *, described: bool = False) -> list[str]:
     return parts
 
 
-@cache
 def module() -> ModuleType:
-    """The compiled kernel and loops, as functions of structured arrays' rows."""
+    """The compiled kernel and loops, as functions of structured arrays' rows; threads that start together wait for one."""
+    with LOADING:
+        return loaded_module()
+
+
+@cache
+def loaded_module() -> ModuleType:
+    """The module, joined and executed."""
     text = joined_source()
     name = "twintube_kernel_" + hashlib.sha256(text.encode()).hexdigest()[:16]
     stored = CodeCache.open(name, text)

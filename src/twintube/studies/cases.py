@@ -1,7 +1,6 @@
 """One case of a study: a pure function of the study and the case's number."""
 
 from functools import lru_cache
-from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +11,12 @@ from twintube.core import kernel
 from twintube.core.variables import Derived, blank
 from twintube.dampers import Damper
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
-from twintube.engine import compiled
 from twintube.engine.simulate import InputError, simulate
 from twintube.provenance import fingerprint
 from twintube.rig.signals import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, harmonic_block, oscillations
 from twintube.studies.definition import FIELDS, Signal, Study, StudyCase, StudyError
 
 RESULTS = ("work_J", "work_relative", "peak_rebound_N", "peak_compression_N")
-COMPILING = Lock()  # the threads of a Dask worker start together
 
 
 def version_mark() -> str:
@@ -36,8 +33,6 @@ def chunk(study: Study, start: int, stop: int, expected: str) -> Array:
         raise StudyError(
             f"a worker has twintube {version_mark()}, this is twintube {expected}: install the same version on both"
         )
-    with COMPILING:
-        compiled.module()
     return np.concatenate([results(study, number) for number in range(start, stop)])
 
 
