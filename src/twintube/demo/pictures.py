@@ -132,7 +132,7 @@ def bands(folder: Path, name: str, result: dict[str, Any]) -> Path:
         ax.set_yticks(range(len(bars)), list(bars))
         ax.set_title(name_of(entry), loc="left", fontsize=10)
         ax.set_xlabel("DLC relative to intact [1]")
-        ax.set_xlim(left=0.95)
+    axes[0].set_xlim(left=0.95)  # after all bars: it ends the scaling of the shared axis
     axes[0].invert_yaxis()
     return save(figure, folder, "bands.png", f"Sensitivity of the rise of the DLC, {name}, {block['speed_kmh']:.0f} km/h, "
                 f"{result['seconds']:.0f} s (dashed: no rise, line: default)")  # fmt: skip

@@ -29,13 +29,12 @@ plt.rcParams |= {
     "figure.dpi": 110,
     "savefig.dpi": 130,
     "legend.frameon": False,
-    "text.parse_math": False,  # no picture holds a formula, but a damper's name may hold a $
 }
 
 
 def save(figure: Figure, folder: Path, name: str, title: str) -> Path:
     """Add title and footnote to the figure and write it to a file."""
-    figure.suptitle(title, x=0.01, ha="left", fontsize=12)
+    figure.suptitle(title, x=0.01, ha="left", fontsize=12, parse_math=False)  # names may hold "$"
     figure.text(0.01, 0.005, FOOTNOTE, fontsize=7, color="#777")
     figure.tight_layout(rect=(0, 0.02, 1, 0.97))
     path = folder / name
