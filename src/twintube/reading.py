@@ -3,6 +3,7 @@
 Writing is in files.py.
 """
 
+import codecs
 import re
 import stat
 import tomllib
@@ -41,7 +42,9 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
     """Content and text of a TOML file; raises ReadError and OSError."""
     check_regular(path, TOML_BYTES)
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        with path.open("rb") as file:
+            utf_16 = file.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+        text = path.read_text(encoding="utf-16" if utf_16 else "utf-8-sig")
     except UnicodeDecodeError as error:
         row = error.object[: error.start].count(b"\n") + 1
         raise ReadError(f"line {row}: not a text in UTF-8") from error

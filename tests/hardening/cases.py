@@ -79,10 +79,12 @@ CSV_FILES = {
     "escape in a cell": record(CSV.replace("0.002,1", f"0.002,{ESC}"), "is not a finite number"),
     "no time": record(CSV.replace("time [s]", "t"), "no column 'time [s]'"),
     "stroke twice": record(CSV.replace("force [N]", "stroke [m]"), "stroke is there already"),
+    "a day that is not there": record("time,stroke [mm]\n31.02.2026 12:00:00,1\n31.02.2026 12:00:01,2\n", "is not a date"),
+    "hour 99": record("time,stroke [mm]\n12:00:00,1\n99:00:00,2\n", "'99:00:00' is no time like '12:00:00'"),
     "thousands point": dataset("time [s];stroke [mm];force [N]\n0,0;2.189;1,5\n0,1;2,5;1,5\n", "'2.189' holds a point where decimal is ','",
                                "delimiter = ';'\ndecimal = ','"),
-    "thousands point and comma": dataset("time [s];stroke [mm];force [N]\n0,0;1.234,5;1,5\n0,1;2,5;1,5\n",
-                                         "'1.234,5' holds a point", "delimiter = ';'\ndecimal = ','"),
+    "thousands point in the wrong place": dataset("time [s];stroke [mm];force [N]\n0,0;12.34,5;1,5\n0,1;2,5;1,5\n",
+                                         "'12.34,5' holds a point", "delimiter = ';'\ndecimal = ','"),
     "mixed decimals": dataset("time [s];stroke [mm];force [N]\n0,0;1,5;1,5\n0.1;2,5;1,5\n", "'0.1' holds a point",
                               "delimiter = ';'\ndecimal = ','"),
     "delimiter is the decimal": dataset(CSV, "delimiter and decimal are both ','", "decimal = ','"),
@@ -124,7 +126,8 @@ ENCODINGS = {
     for name in ("idna", "punycode", "utf-7", "rot13", "base64", "unicode_escape", "raw_unicode_escape", "undefined", "zip", "",
                  "utf-9", "x" * 199, "../../etc/passwd", "utf-8\\u00e9")
 } | {
-    "UTF-16 read as UTF-8": record(CSV.encode("utf-16"), "not a text in utf-8"),
+    "UTF-16 without its mark": record(CSV.encode("utf-16-le"), "no column 'time [s]'"),
+    "UTF-16 cut": record(CSV.encode("utf-16")[:-1], "not a text in utf-16"),
     "UTF-8 read as UTF-16": dataset(CSV.encode()[: len(CSV) // 2 * 2], "no column 'time [s]'", "encoding = 'utf-16'"),
     "UTF-8 read as ASCII": dataset(CSV.replace("force", "für").encode(), "not a text in ascii", "encoding = 'ascii'"),
     "UTF-32 cut": dataset(CSV.encode("utf-32")[:-3], "not a text in utf-32", "encoding = 'utf-32'"),
@@ -168,13 +171,20 @@ MANIFESTS = {
     "file with NUL": manifest(HEAD + RECORD.format("a\\u0000.csv"), "control characters"),
     "file of 5000 letters": manifest(HEAD + RECORD.format("a" * 5000 + ".csv"), "at most 1000 characters"),
     "file of 190 letters per folder": manifest(HEAD + RECORD.format("a" * 190 + "/a.csv"), "cannot be read"),
-    "unknown format": manifest(HEAD + RECORD.format("a.xlsx"), "unknown format '.xlsx'"),
+    "unknown format": manifest(HEAD + RECORD.format("a.pdf"), "unknown format '.pdf'"),
     "oil level nan": manifest(HEAD + RECORD.format("a.csv").replace("0.56", "nan"), "oil_level = nan: must be"),
     "oil level 60": manifest(HEAD + RECORD.format("a.csv").replace("0.56", "60"), "(60 % is 0.6)"),
     "oil level as a list": manifest(HEAD + RECORD.format("a.csv").replace("0.56", "[1]"), "oil_level = [1]: must be"),
     "preload 1.5": manifest(HEAD + RECORD.format("a.csv").replace("false", "1.5"), "must be true (present) or false (lost)"),
     "measurement as a list": manifest(HEAD + RECORD.format("a.csv").replace('"harmonic"', "[]"), "measurement = []: must be"),
     "split as a table": manifest(HEAD + RECORD.format("a.csv") + "split = {}\n", "split = {}: must be"),
+    "power tower as a pressure": manifest(HEAD + RECORD.format("a.csv") + 'gas_pressure = "9**9**9 bar"\n', "must be a gauge"),
+    "power tower as a scale": manifest(HEAD + 'channels = {force = {scale = "1 9**9**9/V"}}\n', "must be like '500 N/V'"),
+    "a column that is a list": manifest(HEAD + "channels = {force = {column = [1]}}\n", "must be the name of a column"),
+    "5000 windows": manifest(HEAD + RECORD.format("a.csv") + f"exclude = {[[0, 1]] * MANY}\n", "at most 1000"),
+    "a window from nan": manifest(HEAD + RECORD.format("a.csv") + "exclude = [[nan, 1]]\n", "must be a list like"),
+    "start inf": manifest(HEAD + RECORD.format("a.csv") + "start_s = inf\n", "start_s = inf: must be a time"),
+    "sample rate inf": manifest(HEAD + "sample_rate_Hz = inf\n", "sample_rate_Hz = inf: must be a number"),
     "sign 1.5": manifest(HEAD + "force_sign = 1.5\n", "force_sign = 1.5: must be 1 or -1"),
     "sign as a list": manifest(HEAD + "force_sign = [1]\n", "force_sign = [1]: must be 1 or -1"),
     "delimiter of a line feed": manifest(HEAD + 'delimiter = "\\n"\n', "must be one character"),
@@ -359,6 +369,28 @@ MDF = {
     "a pipe": dataset(fifo, "a pipe or a device", name="a.mf4"),
 }
 
+WORKBOOKS = {
+    "empty": dataset(b"", "not a readable .xlsx file", name="a.xlsx"),
+    "text": dataset(CSV, "not a readable .xlsx file", name="a.xlsx"),
+    "a ZIP archive cut": dataset(b"PK\x03\x04" + bytes(100), "not a readable .xlsx file", name="a.xlsx"),
+    "an old one of zeros": dataset(bytes.fromhex("d0cf11e0a1b11ae1") + bytes(2000), "a.xls: ", name="a.xls"),
+    "a pipe": dataset(fifo, "a pipe or a device", name="a.xlsx"),
+}
+
+JSON = {
+    "empty": dataset("", "not a readable .json file", name="a.json"),
+    "cut": dataset('{"time [s]": [0, 1', "not a readable .json file", name="a.json"),
+    "UTF-16": dataset('{"time [s]": [0, 1]}'.encode("utf-16"), "not a readable .json file", name="a.json"),
+    "a number": dataset("1", "no table: must be lists by name", name="a.json"),
+    "lists within lists": dataset("[" * 100_000 + "]" * 100_000, "not a readable .json file", name="a.json"),
+    "tables within tables": dataset('{"a":' * 500 + "1" + "}" * 500, "no table: must be lists by name", name="a.json"),
+    "2000 columns": dataset("{" + ",".join(f'"c{i}": [1]' for i in range(2000)) + "}", "more than 1000 columns", name="a.json"),
+    "switches": dataset('{"time [s]": [true, false]}', "holds bool, must hold numbers", name="a.json"),
+    "5000 digits": dataset('{"time [s]": [0, ' + "9" * 5000 + "]}", "not a readable .json file", name="a.json"),
+    "NaN": dataset('{"time [s]": [0, NaN], "stroke [mm]": [1, 2], "force [N]": [1, 2]}', "nan is not a finite number", name="a.json"),
+    "rows of other lengths": dataset('{"columns": ["time [s]", "b"], "data": [[1]]}', "rows of other lengths", name="a.json"),
+}  # fmt: skip
+
 PIPES = {
     "record": record(fifo, "a pipe or a device"),
     "record of a dataset": dataset(fifo, "a pipe or a device"),
@@ -419,6 +451,8 @@ KINDS = {
     "HDF5": HDF5,
     "Parquet": PARQUET,
     "MDF": MDF,
+    "workbooks": WORKBOOKS,
+    "JSON": JSON,
     "pipes and folders": PIPES,
     "arguments": ARGUMENTS,
 }

@@ -107,7 +107,7 @@ def test_the_template_names_every_key(tmp_path: Path) -> None:
     [
         (["--from", "text.csv"], "text.csv: no table of at least two columns of numbers"),
         (["--from", "commas.csv"], "commas.csv: delimiter and decimal sign seem to be the comma both"),
-        (["--from", "a.xlsx"], "a.xlsx: unknown format '.xlsx', must be one of .csv"),
+        (["--from", "a.pdf"], "a.pdf: unknown format '.pdf', must be one of .csv"),
         (["--from", "nowhere.csv"], "nowhere.csv"),
         (["--from", "good.csv", "--from", "text.csv"], "text.csv: no table"),
         (["--from", "good.csv", "--damper", "sa9"], "error: unknown damper sa9"),
@@ -119,7 +119,7 @@ def test_what_cannot_be_used_leaves_nothing(arguments: list[str], message: str, 
     Path("text.csv").write_text("This is a letter, not a record.\nIt goes on; and on.\n")
     Path("commas.csv").write_text(table("Zeit,Weg,Kraft\n", (TIME + 0.0005, STROKE + 0.0005, FORCE + 0.0005), ",", ","))
     Path("good.csv").write_text(FILES["plain.csv"][0])
-    Path("a.xlsx").write_text("")
+    Path("a.pdf").write_text("")
     Path("empty.csv").write_text("")
     run = RUNNER.invoke(app, ["new-dataset", "set", *arguments])
     assert run.exit_code == 2

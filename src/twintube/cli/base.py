@@ -16,7 +16,7 @@ from twintube.extras import missing
 from twintube.words import printable
 
 STYLE: dict[str, Any] = {"add_completion": False, "rich_markup_mode": None, "pretty_exceptions_enable": False}
-OUTPUTS = ("output", "json_file")  # parameters of commands that name what is written
+OUTPUTS = ("output", "json_file", "plot")  # parameters of commands that name what is written
 
 
 @contextmanager

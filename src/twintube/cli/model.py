@@ -5,7 +5,7 @@ import math
 import re
 from dataclasses import asdict, fields
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
@@ -19,8 +19,11 @@ from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import ParameterError
 from twintube.dampers.closures import acting, closed
 from twintube.engine.simulate import InputError
-from twintube.files import write_text
+from twintube.files import write_bytes, write_text
 from twintube.rig import signals
+
+if TYPE_CHECKING:
+    from twintube.data.motion import Motion
 
 SLOWEST, FASTEST = 0.001, VELOCITY["upper"]  # maximum velocity of a block [m/s]
 SMALLEST, LARGEST = 0.1, 500.0  # its amplitude [mm]
@@ -44,51 +47,102 @@ def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this da
 
 @app.command(epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv")
 def simulate(
-    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
+    damper: Annotated[
+        str | None, typer.Argument(help="A name or a parameter file; may be left out for a record of a dataset.")
+    ] = None,
     record: Annotated[
         Path | None,
-        typer.Option(help="CSV (or any format of a dataset) with 'time [s]', 'stroke [mm]', optional 'velocity [mm/s]'."),
+        typer.Option(
+            help="A record in any format of a dataset. If the dataset.toml of its folder names it, damper, oil level, "
+            "preload, columns and signs come from there; else it needs 'time [s]' and 'stroke [mm]'."
+        ),
     ] = None,
     velocity: Annotated[float, typer.Option(help="Without a record: maximum velocity [m/s] of a harmonic block.")] = 1.048,
     amplitude_mm: Annotated[float, typer.Option(help="Without a record: amplitude of the block [mm].")] = 45.0,
-    oil_level: Annotated[float, typer.Option(help="Oil, share of the intact volume.")] = 1.0,
-    gas_lost: Annotated[bool, typer.Option("--gas-lost", help="The gas preload is lost.")] = False,
+    oil_level: Annotated[
+        float | None, typer.Option(help="Oil, share of the intact volume; 1 if no dataset says otherwise.")
+    ] = None,
+    gas_lost: Annotated[
+        bool | None,
+        typer.Option("--gas-lost/--gas-present", help="Whether the gas preload is lost; present if nothing says it."),
+    ] = None,
     output: Annotated[Path, typer.Option(help="CSV file for the result.")] = Path("simulation.csv"),
+    plot: Annotated[
+        Path | None, typer.Option(help="PNG file for a picture: stroke, force over stroke and velocity.")
+    ] = None,
 ) -> None:
-    """Simulate a record, or a harmonic block with its preconditioning, and write forces and volumes."""
-    from twintube.data.motion import read_motion
+    """Simulate a record, or a harmonic block with its preconditioning, and write forces and volumes.
+
+    A force in the record is compared with the simulated one.
+    """
+    from twintube.data import listed_record
+    from twintube.data.motion import Motion, read_moved
     from twintube.engine.simulate import simulate as run
     from twintube.engine.simulate import unit_of
-    from twintube.rig.signals import harmonic_block
 
-    chosen = dampers.load(damper).with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1)
-    if record is not None:
-        time, stroke, speed = read_motion(record)
-    elif not (SLOWEST <= velocity <= FASTEST and SMALLEST <= amplitude_mm <= LARGEST):
-        raise InputError(
-            f"velocity = {velocity:g} m/s, amplitude = {amplitude_mm:g} mm: "
-            f"must be from {SLOWEST:g} to {FASTEST:g} m/s, from {SMALLEST:g} to {LARGEST:g} mm"
-        )
+    entry = None if record is None else listed_record(record)
+    if damper is None and entry is None:
+        where = "" if record is None else f"no dataset.toml in the folder of {record} names it; "
+        raise InputError(f"{where}name a damper, e.g. twintube simulate SA8")
+    chosen = dampers.load(damper) if damper is not None else entry[0] if entry else dampers.load("SA8")
+    level = oil_level if oil_level is not None else entry[1].oil_level if entry else 1.0
+    preload = not gas_lost if gas_lost is not None else entry[1].gas_preload if entry else True
+    chosen = chosen.with_(oil_level=level, gas_preload=int(preload))
+    if entry is not None:
+        measured = entry[1]
+        motion = Motion(measured.time, measured.stroke, measured.velocity, measured.force)
+        usable = measured.usable
+        state = f"{level:.4g} of the oil, gas {'present' if preload else 'lost'}"
+        typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}")
     else:
-        period = 2 * math.pi * amplitude_mm * 1e-3 / velocity
-        if period > LONGEST:
-            raise InputError(
-                f"an oscillation of {amplitude_mm:g} mm at {velocity:g} m/s takes {period:.0f} s: at most {LONGEST:g} s"
-            )
-        signal = harmonic_block(velocity, amplitude_mm * 1e-3)
-        time, stroke, speed = signal.time, signal.stroke, signal.velocity
-    result = run(chosen, stroke, speed, time)
+        motion = block_motion(velocity, amplitude_mm) if record is None else read_moved(record)
+        usable = np.ones(len(motion.time), dtype=bool)
+    time = motion.time
+    result = run(chosen, motion.stroke, motion.velocity, time)
     head = ["time [s]", "stroke [m]", "velocity [m/s]"]
     columns: list[Any] = [time, result.stroke, result.velocity]
     for name, values in result.columns.items():
         head.append(f"{name} [{unit_of(name)}]")
         columns.append(values)
+    if motion.force is not None:
+        head.append("measured_force [N]")
+        columns.append(motion.force)
     lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
     write_text(output, "\n".join(lines) + "\n")
     typer.echo(
         f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
         f"force from {result.force.min():.0f} to {result.force.max():.0f} N"
     )
+    if motion.force is not None:
+        from twintube.report.simulated_record import deviation
+
+        typer.echo(deviation(motion.stroke, motion.force, result.force, usable).sentence)
+    if plot is not None:
+        from twintube.report.simulated_record import picture
+
+        name = f"{chosen.name}, {record.name if record else 'harmonic block'}"
+        drawn = picture(name, time, motion.stroke, result.velocity, result.force, motion.force, usable)
+        write_bytes(plot, drawn)
+        typer.echo(f"{plot}: stroke and force over time, force over stroke and velocity")
+
+
+def block_motion(velocity: float, amplitude_mm: float) -> "Motion":
+    """A harmonic block with its preconditioning; raises InputError."""
+    from twintube.data.motion import Motion
+    from twintube.rig.signals import harmonic_block
+
+    if not (SLOWEST <= velocity <= FASTEST and SMALLEST <= amplitude_mm <= LARGEST):
+        raise InputError(
+            f"velocity = {velocity:g} m/s, amplitude = {amplitude_mm:g} mm: "
+            f"must be from {SLOWEST:g} to {FASTEST:g} m/s, from {SMALLEST:g} to {LARGEST:g} mm"
+        )
+    period = 2 * math.pi * amplitude_mm * 1e-3 / velocity
+    if period > LONGEST:
+        raise InputError(
+            f"an oscillation of {amplitude_mm:g} mm at {velocity:g} m/s takes {period:.0f} s: at most {LONGEST:g} s"
+        )
+    signal = harmonic_block(velocity, amplitude_mm * 1e-3)
+    return Motion(signal.time, signal.stroke, signal.velocity, None)
 
 
 @app.command(epilog="Example: twintube rig SA8 --output excitations")

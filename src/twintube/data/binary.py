@@ -21,7 +21,10 @@ from twintube.extras import extra_of
 SCRIPT = Path(__file__).with_name("read_binary.py")
 SECONDS, BYTES_PER_SECOND = 30.0, 5e6  # that a child may take: to start, and for its files
 MOST_DEATHS = 5  # children that may end on a file before the others are not tried any more
-PACKAGES = {".mf4": "asammdf", ".mdf": "asammdf", ".parquet": "pyarrow", ".pq": "pyarrow"}
+PACKAGES = {
+    ".mf4": "asammdf", ".mdf": "asammdf", ".parquet": "pyarrow", ".pq": "pyarrow",
+    ".xlsx": "python_calamine", ".xlsm": "python_calamine", ".xls": "python_calamine",
+}  # fmt: skip
 # The child's libraries would start threads for each core, which take address space.
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "ARROW_NUM_THREADS": "1", "PYTHONFAULTHANDLER": ""}
 
@@ -33,10 +36,12 @@ def is_binary(path: Path) -> bool:
 
 def check_package(path: Path) -> None:
     """Raise UnreadableError if the package is missing that reads the file."""
+    if path.suffix.lower() == ".json":
+        return
     package = PACKAGES.get(path.suffix.lower()) or ("h5py" if is_hdf5(path) else "scipy")
     if find_spec(package) is None:
         what = f"'twintube[{extra_of(package)}]'"
-        raise UnreadableError(f"{path.suffix} files need the package {package}: pip install {what}")
+        raise UnreadableError(f"{path.suffix} files need the package {package.replace('_', '-')}: pip install {what}")
 
 
 def read_binary(files: Sequence[tuple[Path, Format]]) -> Iterator[Raw | UnreadableError]:
@@ -61,7 +66,7 @@ def read_binary(files: Sequence[tuple[Path, Format]]) -> Iterator[Raw | Unreadab
 
 def child(folder: Path, files: list[tuple[int, Path, Format]]) -> str:
     """Let a child read the files into `folder`; how it ended, in words, for the case that it did not read all of them."""
-    requests = [(i, str(path.absolute()), wanted(form)) for i, path, form in files]
+    requests = [(i, str(path.absolute()), request(form)) for i, path, form in files]
     (folder / "requests.json").write_text(json.dumps(requests), encoding="utf-8")
     seconds = SECONDS + sum(path.stat().st_size for _, path, _ in files) / BYTES_PER_SECOND
     with subprocess.Popen(
@@ -83,9 +88,11 @@ def child(folder: Path, files: list[tuple[int, Path, Format]]) -> str:
     return f"its reader ended by {signal.Signals(-code).name if known else f'signal {-code}'}"
 
 
-def wanted(form: Format) -> list[str] | None:
-    """The names in the file that dataset.toml asks for; None: it does not say."""
-    return list(form.columns.values()) if isinstance(form.columns, dict) else None
+def request(form: Format) -> dict[str, Any]:
+    """What dataset.toml says about the file; `wanted` are the names that it asks for, None where it does not say."""
+    names = [channel.column for channel in form.channels.values() if channel.column is not None]
+    wanted = [*form.columns.values(), *names] if isinstance(form.columns, dict) else None
+    return {"wanted": wanted, "sheet": form.sheet, "skip_rows": form.skip_rows}
 
 
 def answer(folder: Path, number: int) -> Raw | UnreadableError:
@@ -99,8 +106,13 @@ def answer(folder: Path, number: int) -> Raw | UnreadableError:
         for i, name in enumerate(said["names"]):
             values = arrays[f"c{i}"]
             empty = arrays.get(f"e{i}")
+            if values.dtype.kind == "U":
+                columns[name] = values.tolist()
+                continue
             # A list shows which cells hold nothing; a NaN of an array is a value of the file.
             columns[name] = [None if e else v for v, e in zip(values, empty, strict=True)] if np.any(empty) else values
     file.unlink()
     longest = max((len(values) for values in columns.values()), default=0)
-    return Raw(columns, range(longest), units=said["units"], refused=said["refused"])
+    first = said["first_row"]
+    rows = range(longest) if first is None else range(first, first + longest)
+    return Raw(columns, rows, "sample" if first is None else "row", said["units"], said["refused"])

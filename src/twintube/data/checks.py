@@ -1,4 +1,4 @@
-"""Checks of a record: time, units, stroke, velocity, work, repeated samples. They judge and change nothing."""
+"""Checks of a record: time, units, stroke, velocity, work. They judge and change nothing."""
 
 from dataclasses import dataclass
 
@@ -8,6 +8,7 @@ from scipy.ndimage import median_filter
 
 from twintube.arrays import Array
 from twintube.core.checks import VELOCITY
+from twintube.data.cycles import cycle_starts
 from twintube.data.findings import Notes, more
 from twintube.data.table import Table
 
@@ -29,28 +30,31 @@ DRIFT = 0.02  # mean of velocity beyond that of the stroke, over rms
 SAME = 0.05  # of the roughness of a difference quotient: whoever has its noise too is computed from it
 # Others
 BACKWARD_WORK = 0.05  # of the median work per cycle: what noise may make negative
-FROZEN = 3  # identical samples in motion that no replicated single sample explains
-SHORTEST_REST = 0.05  # [s]; a rig does not stop and go within less
-RESOLUTIONS = 3.0  # steps of the stroke's resolution that a repeated sample must have missed
+FEWEST_SAMPLES = 3
 OFF_CENTRE = 0.1  # middle of the stroke's range over half of the range
 
 
 def check(table: Table, limit: float | None, notes: Notes) -> None:
     """Run all checks; `limit` is the largest stroke [m] in the damper's tube, None if the damper is not known."""
-    columns = table.columns
     check_time(table, notes)
     check_units(table, notes)
     check_stroke(table, limit, notes)
-    time = columns["time"]
-    sound: NDArray[np.bool_] = np.all(np.isfinite(np.vstack(list(columns.values()))), axis=0)
-    latest = np.maximum.accumulate(np.where(np.isfinite(time), time, -np.inf))
-    sound[1:] &= time[1:] > latest[:-1]  # the checks below look at the samples in order only; the others are reported above
-    if sound.sum() < FROZEN:
+    kept = sound(table)
+    if len(kept.rows) < FEWEST_SAMPLES:
         return
-    kept = Table({name: values[sound] for name, values in columns.items()}, table.headers, table.rows[sound])
     check_velocity(kept, notes)
     check_work(kept, notes)
-    check_repeats(kept, notes)
+
+
+def sound(table: Table) -> Table:
+    """The samples whose cells are numbers and whose times rise; the others are reported by `check`."""
+    time = table.columns["time"]
+    good: NDArray[np.bool_] = np.all(np.isfinite(np.vstack(list(table.columns.values()))), axis=0)
+    latest = np.maximum.accumulate(np.where(np.isfinite(time), time, -np.inf))
+    good[1:] &= time[1:] > latest[:-1]
+    if good.all():
+        return table
+    return Table({name: values[good] for name, values in table.columns.items()}, table.headers, table.rows[good])
 
 
 @dataclass(frozen=True)
@@ -240,54 +244,3 @@ def check_work(table: Table, notes: Notes) -> None:
     elif where := places(np.isin(np.arange(len(table.rows)), starts[:-1][wrong]), table.rows, notes):
         message = f"work of a cycle = {cycles[wrong][0]:.3g} J: must be above 0, {usual:.3g} J is usual{where.tail}"
         notes.warning(message, header, where.first)
-
-
-def cycle_starts(stroke: Array) -> NDArray[np.int64]:
-    """Samples at which the stroke rises through the middle of its range, each after a way down below a tenth of it."""
-    middle, half = (stroke.max() + stroke.min()) / 2, float(np.ptp(stroke)) / 2
-    side = np.where(stroke > middle, 1, np.where(stroke < middle - 0.1 * half, -1, 0))
-    known = np.flatnonzero(side)
-    up = (side[known][1:] > 0) & (side[known][:-1] < 0)
-    return known[1:][up]
-
-
-def check_repeats(table: Table, notes: Notes) -> None:
-    """Runs of identical stroke and force while the damper moves: the recorder stood still."""
-    stroke, force = table.columns["stroke"], table.columns["force"]
-    steps = np.abs(np.diff(stroke))
-    if not steps.any():
-        return
-    resolution = float(steps[steps > 1e-9 * np.ptp(stroke)].min())
-    equal = np.concatenate([[False], (steps == 0) & (np.diff(force) == 0), [False]]).astype(int)
-    begin, end = np.flatnonzero(np.diff(equal) == 1), np.flatnonzero(np.diff(equal) == -1)
-    single, frozen = np.zeros(len(stroke), bool), np.zeros(len(stroke), bool)
-    for i, j in zip(begin, end, strict=True):  # samples i to j are identical
-        if stood_still(table, int(i), int(j), resolution):
-            (frozen if j - i + 1 >= FROZEN else single)[i + 1 : j + 1] = True
-    header = table.headers["stroke"]
-    if where := places(frozen, table.rows, notes):
-        notes.error(
-            f"stroke and force stay identical while the damper moves: repeated samples{where.tail}", header, where.first
-        )
-    if where := places(single, table.rows, notes):
-        notes.warning(f"stroke and force as in the sample before while the damper moves{where.tail}", header, where.first)
-
-
-def stood_still(table: Table, i: int, j: int, resolution: float) -> bool:
-    """Whether the recorder stood still from sample i to j, and not the damper: at rest, or turning within the resolution."""
-    time, stroke = table.columns["time"], table.columns["stroke"]
-    last = len(stroke) - 1
-
-    def moved(width: int) -> tuple[float, float]:
-        return float(stroke[i] - stroke[max(0, i - width)]), float(stroke[min(last, j + width)] - stroke[j])
-
-    before, after = moved(5)
-    missed, needed = min(abs(before), abs(after)) / 5 * (j - i), RESOLUTIONS * resolution
-    if before * after < 0:  # a turn in between: a parabola sampled with this resolution dwells for 8 of its steps
-        missed, needed = min(map(abs, moved(j - i))), 8 * RESOLUTIONS * resolution
-    if missed <= needed:
-        return False
-    jumps = abs(float(stroke[min(last, j + 1)] - stroke[j])) > missed / 2
-    velocity = np.abs(table.columns.get("velocity", np.zeros(1)))
-    runs_on = "velocity" in table.columns and float(velocity[i + 1 : j + 1].min()) > 0.1 * float(velocity.max())
-    return jumps or runs_on or float(time[j] - time[i]) < SHORTEST_REST

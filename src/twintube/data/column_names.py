@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from twintube.data.table import UNITS, in_si
+from twintube.data.units import OTHER_UNITS, PLAIN_UNITS
 
 SYMBOLS = {"t": "time", "z": "stroke", "x": "stroke", "s": "stroke", "F": "force", "v": "velocity", "T": "temperature"}
 # Of two words that both fit the earlier line counts: `Kolbengeschwindigkeit` is a velocity, `Lastweg` a stroke.
@@ -18,42 +19,6 @@ WORDS = {
 }
 SET_POINT = ("soll", "set", "setpoint", "target", "command", "cmd", "demand", "ref", "sollwert")
 MEASURED = ("ist", "istwert", "act", "actual", "meas", "measured", "feedback", "fbk")
-UNIT_NAMES = {
-    "sec": "s", "sek": "s", "second": "s", "seconds": "s", "sekunden": "s", "msec": "ms", "millisekunden": "ms",
-    "millimeter": "mm", "meter": "m", "newton": "N", "kilonewton": "kN", "kn": "kN", "n": "N",
-    "°c": "degC", "c": "degC", "degc": "degC", "celsius": "degC", "grad c": "degC", "k": "K", "kelvin": "K",
-    "inch": "in", '"': "in", "lb": "lbf", "lbs": "lbf",
-}  # fmt: skip
-# Kept by their case: ms is not MS, mm not Mm.
-PLAIN_UNITS = ("s", "ms", "us", "m", "mm", "cm", "in", "N", "kN", "daN", "lbf", "m/s", "mm/s", "cm/s", "in/s", "degC", "K")
-
-
-def unit_of(text: str) -> str:
-    """A unit as `twintube` writes it; "" for a text that is not one."""
-    text = text.strip().replace("\N{MASCULINE ORDINAL INDICATOR}", "°").replace("\N{GREEK SMALL LETTER MU}", "u")
-    text = text.replace("\N{MICRO SIGN}", "u").replace("s^-1", "/s")
-    if text in PLAIN_UNITS:
-        return text
-    low = text.lower()
-    return UNIT_NAMES.get(low, low if low in PLAIN_UNITS else "")
-
-
-def name_and_unit(header: str) -> tuple[str, str]:
-    """Name and unit of `Kraft [kN]`, `Kraft (kN)`, `Kraft in kN`, `Kraft / kN`, `force_kN` and the like.
-
-    A unit in brackets that is not known is handed on as it is, so that it can be said.
-    """
-    text = header.strip().strip('"').strip()
-    bracketed = re.fullmatch(r"(.*?)\s*[\[(<{]\s*([^\])>}]*?)\s*[\])>}]", text)
-    if bracketed:
-        return bracketed[1], unit_of(bracketed[2]) or bracketed[2]
-    parted = re.fullmatch(r"(.+?)(?:\s*,\s*|\s+in\s+|\s*/\s*|\s+|_)([^\s,_]+)", text)
-    if parted and unit_of(parted[2]) and not unit_of(text):
-        return re.sub(r"(\s+in|\s*[/,])$", "", parted[1]), unit_of(parted[2])
-    slashed = re.fullmatch(r"([^/]+)/\s*(.+)", text)
-    if slashed and unit_of(slashed[2]):
-        return slashed[1].strip(), unit_of(slashed[2])
-    return text, ""
 
 
 def fits(quantity: str, unit: str) -> bool:
@@ -79,8 +44,8 @@ def likeness(name: str, unit: str) -> tuple[str, float]:
     else:
         quantity = next((q for q, words in WORDS.items() if any(word in low for word in words)), "")
         score = 3.0 if quantity else 0.0
-    if unit and quantity and not fits(quantity, unit) and unit in PLAIN_UNITS:
-        quantity, score = "", 0.0  # `Zeit [N]` is neither
+    if unit and quantity and not fits(quantity, unit) and unit in (*PLAIN_UNITS, *OTHER_UNITS):
+        quantity, score = "", 0.0  # `Zeit [N]` is neither, `Kraft [V]` needs a scale
     if not quantity and unit:
         quantity = next((q for q in UNITS if fits(q, unit)), "")
         score = 1.0 if quantity else 0.0

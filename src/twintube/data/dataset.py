@@ -1,49 +1,22 @@
 """Dataset folders: `dataset.toml` and the records it names."""
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
-from twintube.arrays import Array, freeze_arrays
-from twintube.core.checks import tube_limit
 from twintube.dampers import Damper, ParameterError, load, names
-from twintube.data.checks import check, computed
-from twintube.data.findings import DataError, Finding, Notes, UnreadableError
-from twintube.data.manifest import Entry, Manifest, read_manifest
-from twintube.data.raw import Outcome, read_all
-from twintube.data.table import Table, convert
+from twintube.data.condition import is_intact
+from twintube.data.findings import DataError, Finding, Notes
+from twintube.data.manifest import Manifest, read_manifest
+from twintube.data.quality import no_preconditioning
+from twintube.data.raw import read_all
+from twintube.data.record import Record, read_record
 from twintube.reading import ReadError, read_toml
+from twintube.rig.signals import PRECONDITIONING, V_PRECONDITIONING
+from twintube.words import listed, printable
 
 FILE = "dataset.toml"
-MEASURED = "measured"
-GIVEN = "given, but recomputable from the stroke"
-GRADIENT = "central difference of the stroke over its actual times (numpy.gradient)"
-
-
-@dataclass(frozen=True)
-class Record:
-    """One measurement; all arrays (n,), SI units but temperatures in degC; stroke and force positive in rebound."""
-
-    name: str  # the file without its ending
-    file: str
-    measurement: str  # quasi-static, harmonic or stochastic
-    oil_level: float  # share of the intact oil volume
-    gas_preload: bool
-    start_temperature: float | None  # [degC]
-    split: str | None  # fit, heldout or not said
-    time: Array
-    stroke: Array
-    force: Array
-    velocity: Array
-    velocity_source: str  # MEASURED, GIVEN or GRADIENT
-    temperature: Array | None  # [degC]
-    findings: tuple[Finding, ...]
-
-    def __post_init__(self) -> None:
-        """Shared by all who read it."""
-        freeze_arrays(self)
 
 
 @dataclass(frozen=True)
@@ -91,8 +64,24 @@ def flipped_dataset(path: str | Path) -> Dataset:
     return read_dataset(path, -1)
 
 
-def read_dataset(path: str | Path, sign: int) -> Dataset:
-    """The dataset with its forces times `sign`."""
+def listed_record(path: Path) -> tuple[Damper, Record] | None:
+    """The damper and the record of a file that the dataset.toml of its folder names; None where there is no such name.
+
+    Raises DataError where dataset.toml or this record has an error; the other records are not read.
+    """
+    toml = path.parent / FILE
+    if not toml.is_file() or path.name == FILE:
+        return None
+    dataset = read_dataset(toml, 1, path)
+    if not dataset.errors and not dataset.records:
+        return None
+    if dataset.errors or dataset.damper is None:
+        raise DataError(dataset.title, dataset.findings)
+    return dataset.damper, dataset.records[0]
+
+
+def read_dataset(path: str | Path, sign: int, only: Path | None = None) -> Dataset:
+    """The dataset with its forces times `sign`; with `only`, the record of this file alone."""
     folder = Path(path)
     toml = folder / FILE if folder.is_dir() or folder.suffix != ".toml" else folder
     notes = Notes(toml.name)
@@ -103,6 +92,14 @@ def read_dataset(path: str | Path, sign: int) -> Dataset:
         notes.error(missing_manifest(folder) if isinstance(error, FileNotFoundError) else f"cannot be read: {error}")
         return Dataset(title, None, [], notes.findings)
     manifest = read_manifest(content, text, title, notes)
+    if only is not None:
+        named = [
+            entry for entry in manifest.entries if entry.file and (toml.parent / entry.file).resolve() == only.resolve()
+        ]
+        manifest = replace(manifest, entries=named)
+        if not named:
+            return Dataset(title, None, [], [])
+    check_settings(manifest, notes)
     damper = damper_of(manifest, toml.parent, notes)
     records: list[Record] = []
     findings: list[Finding] = []
@@ -120,7 +117,30 @@ def read_dataset(path: str | Path, sign: int) -> Dataset:
                 findings.append(remark)
                 record = replace(record, findings=(*record.findings, remark))
             records.append(record)
+    check_preconditioning(records, notes)
     return Dataset(manifest.title, damper, records, notes.findings + findings)
+
+
+def check_settings(manifest: Manifest, notes: Notes) -> None:
+    """A warning that names the settings where the records are of several."""
+    groups: dict[str | None, list[str]] = {}
+    for entry in manifest.entries:
+        groups.setdefault(entry.setting, []).append(entry.file)
+    if len(groups) > 1:
+        named = [f"{printable(key or 'none given')} ({listed(files, 5)})" for key, files in groups.items()]
+        line = next(entry.line for entry in manifest.entries if entry.setting is not None)
+        notes.warning(f"records of several settings, no single damper: {', '.join(named)}", "setting", line)
+
+
+def check_preconditioning(records: Sequence[Record], notes: Notes) -> None:
+    """A remark that names the harmonic records of a degraded damper without slow oscillations before their block."""
+    degraded = [r for r in records if r.measurement == "harmonic" and not is_intact(r.oil_level, r.gas_preload)]
+    files = [record.file for record in degraded if no_preconditioning(record.time, record.stroke)]
+    if files:
+        notes.remark(
+            f"no preconditioning in {listed(files, 5)}: they begin at the speed of their blocks; {PRECONDITIONING} "
+            f"oscillations at {V_PRECONDITIONING:g} m/s before would bring a damper without its oil to a known state"
+        )
 
 
 def missing_manifest(path: Path) -> str:
@@ -143,65 +163,3 @@ def damper_of(manifest: Manifest, folder: Path, notes: Notes) -> Damper | None:
 def digest(record: Record) -> bytes:
     """Of the samples: equal for a record that was stored twice."""
     return hashlib.sha256(record.stroke.tobytes() + record.force.tobytes()).digest()
-
-
-def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, notes: Notes, own: Notes) -> Record | None:
-    """Check a record that was read; None if it has an error. `notes` takes findings on dataset.toml, `own` on the file."""
-    limit, level = None, entry.oil_level
-    if damper is not None:
-        if level is None and entry.oil_volume is not None:
-            level = entry.oil_volume / damper.parameters.V_oil
-            if level > 1.0:
-                most = damper.parameters.V_oil * 1e6
-                message = f"{entry.where}oil_volume_mL = {entry.oil_volume * 1e6:g}: must be from 0 to {most:g} mL"
-                notes.error(message + f", the intact volume of {damper.name}", "oil_volume_mL", entry.line)
-                entry = replace(entry, complete=False)
-        limit = tube_limit(damper.parameters)
-    if outcome is None:
-        return None
-    if isinstance(outcome, UnreadableError):
-        own.counted = "row"
-        own.error(str(outcome), row=outcome.row)
-        return None
-    if isinstance(outcome, OSError):
-        own.error(f"cannot be read: {outcome.strerror or outcome}")
-        return None
-    table = convert(outcome, entry.form, own)
-    if table is None:
-        return None
-    table = turned(table, entry)
-    check(table, limit, own)
-    if own.failed or not entry.complete or level is None:
-        return None
-    c = table.columns
-    velocity, source = c.get("velocity"), MEASURED
-    if velocity is None:
-        velocity, source = np.gradient(c["stroke"], c["time"]), GRADIENT
-    elif computed(c["time"], c["stroke"], velocity):
-        source = GIVEN
-    return Record(
-        name=Path(entry.file).stem,
-        file=entry.file,
-        measurement=entry.measurement,
-        oil_level=level,
-        gas_preload=entry.gas_preload,
-        start_temperature=entry.start_temperature,
-        split=entry.split,
-        time=c["time"],
-        stroke=c["stroke"],
-        force=c["force"],
-        velocity=velocity,
-        velocity_source=source,
-        temperature=c.get("temperature"),
-        findings=tuple(own.findings),
-    )
-
-
-def turned(table: Table, entry: Entry) -> Table:
-    """The signs and the zero that dataset.toml states; nothing else is ever changed."""
-    columns = dict(table.columns)
-    columns["force"] = columns["force"] * entry.force_sign
-    columns["stroke"] = columns["stroke"] * entry.stroke_sign + entry.stroke_offset
-    if "velocity" in columns:
-        columns["velocity"] = columns["velocity"] * entry.stroke_sign
-    return replace(table, columns=columns)

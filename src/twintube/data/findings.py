@@ -12,7 +12,7 @@ from twintube.words import printable, shown
 class Finding:
     """One defect: where it is, and a message that names the quantity, its value and the limit."""
 
-    severity: Literal["error", "warning"]
+    severity: Literal["error", "warning", "remark"]
     file: str  # as written in dataset.toml, or "dataset.toml" itself
     column: str  # header as in the file or in `columns`; a key in dataset.toml; "" if it is about the whole file
     row: int | None  # row of a text file counted from 1, else number of the sample counted from 0; None: the whole column
@@ -41,8 +41,9 @@ class DataError(InputError):
 
 
 def report(findings: Iterable[Finding]) -> str:
-    """One line per finding, errors first."""
-    return "\n".join(str(finding) for finding in sorted(findings, key=lambda finding: finding.severity))
+    """One line per finding, errors first, remarks last."""
+    order = ("error", "warning", "remark")
+    return "\n".join(str(finding) for finding in sorted(findings, key=lambda finding: order.index(finding.severity)))
 
 
 class UnreadableError(ValueError):
@@ -68,6 +69,10 @@ class Notes:
     def warning(self, message: str, column: str = "", row: int | None = None) -> None:
         """Add a finding that the dataset can be used with."""
         self.findings.append(Finding("warning", self.file, column, row, message, self.counted))
+
+    def remark(self, message: str, column: str = "", row: int | None = None) -> None:
+        """Add a finding about the test rather than its data."""
+        self.findings.append(Finding("remark", self.file, column, row, message, self.counted))
 
     @property
     def failed(self) -> bool:

@@ -5,12 +5,14 @@ import csv
 import io
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
 from typing import Any, Literal
 
 from twintube.data.findings import UnreadableError
+from twintube.data.units import NUMBER, units_row
 from twintube.words import listed, shown
 
 TEXT = {".csv": ",", ".txt": "whitespace", ".dat": "whitespace", ".tsv": "\t"}  # the delimiter where none is given
@@ -18,23 +20,38 @@ TEXT_BYTES = 256_000_000
 BINARY_BYTES = 4_000_000_000
 MOST_COLUMNS = 256  # a wider table is not a recording of channels
 MOST_SKIPPED = 100_000  # rows before the header
-NUMBER = re.compile(r"\s*[+-]?[0-9]+([.,][0-9]*)?([eE][+-]?[0-9]+)?\s*")
+MOST_BLANK = 20  # rows in which the first two that hold something are looked for
 DELIMITERS = {";": "';'", "\t": "'\\t'", ",": "','"}
 # Others take quadratic time, or are encodings of something else than a file.
 ENCODINGS = re.compile(
     r"utf-(8|8-sig|16|32)(-le|-be)?|ascii|cp\d+|iso8859-\d+|mac-\w+|koi8-\w|big5|gbk?\d*|shift_jis|euc_\w+"
 )
+DEFAULT_ENCODING = "utf-8-sig"
+UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)  # how a text in UTF-16 begins
+
+
+@dataclass(frozen=True)
+class Channel:
+    """How a column becomes a quantity: `gain` times what is in the file, plus `zero`; `channels` of dataset.toml."""
+
+    column: str | None = None  # in the file; None: that of the quantity's own name, or the one in `columns`
+    gain: float | None = None  # in the quantity's SI unit per `unit`; None: the column is in a unit of the quantity
+    unit: str = ""  # V in `500 N/V`; "" for a plain number
+    zero: float = 0.0  # [SI unit of the quantity, degC], added
 
 
 @dataclass(frozen=True)
 class Format:
-    """How to read a file: the keys `columns`, `delimiter`, `decimal`, `encoding` and `skip_rows` of dataset.toml."""
+    """How to read a file, as dataset.toml says it; the same names there but for `sample_rate_Hz`."""
 
     columns: list[str] | dict[str, str] | None = None  # headers of a file without; or header -> name in the file
     delimiter: str | None = None
     decimal: str = "."
-    encoding: str = "utf-8-sig"
+    encoding: str = DEFAULT_ENCODING
     skip_rows: int = 0
+    sheet: str | None = None  # of a workbook; None: the first
+    sample_rate: float | None = None  # [Hz] instead of a column of times
+    channels: Mapping[str, Channel] = field(default_factory=dict)  # by quantity
 
 
 @dataclass
@@ -63,12 +80,15 @@ def read_text(path: Path, form: Format) -> Raw:
 
     Raises UnreadableError with the row, and OSError.
     """
+    text = decoded(path, form.encoding)
     delimiter = form.delimiter or TEXT[path.suffix.lower()]
+    if form.delimiter is None and delimiter == "whitespace" and tabbed(text, form):
+        delimiter = "\t"
     if delimiter == form.decimal:
         raise UnreadableError(
             f"delimiter and decimal are both {delimiter!r}: set `delimiter`, often ';' where decimal is ','"
         )
-    table = split_text(decoded(path, form.encoding), delimiter, form.skip_rows)
+    table = split_text(text, delimiter, form.skip_rows)
     if isinstance(form.columns, list):
         headers, body = form.columns, table
     else:
@@ -79,6 +99,9 @@ def read_text(path: Path, form: Format) -> Raw:
     for header, count in Counter(headers).items():
         if header and count > 1:
             raise UnreadableError(f"two columns are named {shown(header)}", table[0][0])
+    units = units_row(body[0][1]) if body and headers is not form.columns else None
+    if units is not None:
+        body = body[1:]
     width = len(headers)
     for number, cells in body:
         if len(cells) > width and any(cell.strip() for cell in cells[width:]):
@@ -86,18 +109,30 @@ def read_text(path: Path, form: Format) -> Raw:
     # Missing cells are reported as empty ones.
     rows = [cells if len(cells) == width else (cells + [""] * width)[:width] for _, cells in body]
     columns: dict[str, Any] = {header: [cells[i] for cells in rows] for i, header in enumerate(headers) if header}
-    return Raw(columns, [number for number, _ in body], "row")
+    carried = {header: unit for header, unit in zip(headers, units or [], strict=False) if header and unit}
+    return Raw(columns, [number for number, _ in body], "row", carried)
 
 
 def decoded(path: Path, encoding: str) -> str:
-    """The file's text; raises UnreadableError."""
+    """The file's text without a byte order mark, which is followed where it says UTF-16; raises UnreadableError."""
+    data = path.read_bytes()
+    if encoding == DEFAULT_ENCODING and data.startswith(UTF_16):
+        encoding = "utf-16"
     try:
-        return path.read_bytes().decode(encoding)
+        return data.decode(encoding).removeprefix("\ufeff")
     except UnicodeDecodeError as error:
         row = error.object[: error.start].count(b"\n") + 1
         raise UnreadableError(f"not a text in {encoding} ({error.reason}); set `encoding`", row) from error
     except UnicodeError as error:
         raise UnreadableError(f"not a text in {encoding} ({error}); set `encoding`") from error
+
+
+def tabbed(text: str, form: Format) -> bool:
+    """Whether tabs part the cells, which may hold spaces: as many in the header, or in `columns`, as in the row after it."""
+    lines = (line for line in islice(io.StringIO(text), form.skip_rows, form.skip_rows + MOST_BLANK) if line.strip())
+    first, second = ([line.rstrip("\r\n").split("\t") for line in islice(lines, 2)] + [[], []])[:2]
+    headers = form.columns if isinstance(form.columns, list) else first
+    return len(first) > 1 and len(first) == len(headers) == len(second)
 
 
 def split_text(text: str, delimiter: str, skipped: int) -> list[tuple[int, list[str]]]:

@@ -1,6 +1,5 @@
 """What `dataset.toml` says, checked key by key."""
 
-import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -9,25 +8,14 @@ from typing import Any
 from twintube.dampers.damper import suggestion
 from twintube.dampers.quantity import quantity
 from twintube.dampers.toml import line_of
+from twintube.data.channels import read_channels, wrong_channels
 from twintube.data.findings import Notes
-from twintube.data.formats import MOST_COLUMNS, MOST_SKIPPED, Format, known_encoding
-from twintube.data.table import UNITS, split_header
+from twintube.data.formats import DEFAULT_ENCODING, Format
+from twintube.data.keys import MOST_RECORDS, MOST_UNKNOWN, OIL, READING, RECORD, RULES, TOP
+from twintube.data.keys import number as is_number
+from twintube.data.table import UNITS, WHOLE, quantity_of
+from twintube.data.units import split_header
 from twintube.words import shown
-
-MEASUREMENTS = ("quasi-static", "harmonic", "stochastic")
-SPLITS = ("fit", "heldout")
-COLDEST, HOTTEST = -60.0, 200.0  # start temperature [degC]
-MOST_RECORDS = 1000
-MOST_UNKNOWN = 5  # unknown keys that are named
-LONGEST_TEXT = 200  # characters
-LONGEST_PATH = 1000
-LARGEST_OFFSET = 1.0  # [m]
-LARGEST_VOLUME = 100_000.0  # oil [mL]
-# How to read the files: at the top for all records, or in a record.
-READING = ("columns", "delimiter", "decimal", "encoding", "skip_rows", "force_sign", "stroke_sign", "stroke_offset")
-TOP = ("title", "damper", "record", *READING)
-OIL = ("oil_level", "oil_volume_mL")
-RECORD = ("file", "measurement", *OIL, "gas_preload", "start_temperature_degC", "split", *READING)
 
 
 @dataclass(frozen=True)
@@ -42,8 +30,13 @@ class Entry:
     oil_level: float | None
     oil_volume: float | None  # [m3]
     gas_preload: bool
+    gas_pressure: float | None  # gauge [Pa]
+    setting: str | None
+    temperature: float | None  # [degC]
     start_temperature: float | None  # [degC]
     split: str | None
+    window: tuple[float, float]  # [s] of the file's own time
+    excluded: tuple[tuple[float, float], ...]  # [s]
     form: Format
     force_sign: int
     stroke_sign: int
@@ -58,64 +51,6 @@ class Manifest:
     damper: str
     damper_line: int | None
     entries: list[Entry]
-
-
-def number(value: Any) -> bool:
-    """Whether a TOML value is a finite number."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def good_columns(value: Any) -> bool:
-    """A list of headers, or a table header = name in the file."""
-    texts = list(value.values()) if isinstance(value, dict) else value
-    return isinstance(texts, list) and 0 < len(texts) <= MOST_COLUMNS and all(isinstance(text, str) for text in texts)
-
-
-def good_offset(value: Any) -> bool:
-    """A length with its unit."""
-    try:
-        return isinstance(value, str) and abs(quantity(value, "m")) <= LARGEST_OFFSET
-    except ValueError:
-        return False
-
-
-def text(value: Any, most: int = LONGEST_TEXT) -> bool:
-    """A text of one line that is not empty."""
-    return isinstance(value, str) and 0 < len(value) <= most and "\n" not in value
-
-
-def good_path(value: Any) -> bool:
-    """A path that systems take."""
-    return text(value, LONGEST_PATH)
-
-
-def good_delimiter(value: Any) -> bool:
-    """What the csv module takes as a delimiter, or the word `whitespace`."""
-    return value == "whitespace" or (isinstance(value, str) and len(value) == 1 and value not in "\r\n\"'")
-
-
-RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
-    "title": (text, f"a text of one line and at most {LONGEST_TEXT} characters"),
-    "damper": (good_path, "the name of a damper or of a parameter file"),
-    "file": (good_path, f"the name of a file, at most {LONGEST_PATH} characters"),
-    "measurement": (lambda x: isinstance(x, str) and x in MEASUREMENTS, f"one of {', '.join(MEASUREMENTS)}"),
-    "oil_level": (lambda x: number(x) and 0 <= x <= 1, "a number from 0 to 1, the share of the intact oil volume"),
-    "oil_volume_mL": (lambda x: number(x) and 0 <= x <= LARGEST_VOLUME, f"a number from 0 to {LARGEST_VOLUME:g}"),
-    "gas_preload": (lambda x: isinstance(x, bool), "true (present) or false (lost)"),
-    "start_temperature_degC": (lambda x: number(x) and COLDEST <= x <= HOTTEST, f"from {COLDEST:g} to {HOTTEST:g} degC"),
-    "split": (lambda x: isinstance(x, str) and x in SPLITS, f"one of {', '.join(SPLITS)}"),
-    "columns": (
-        good_columns,
-        "a list of headers, or a table like {'stroke [mm]' = 'name in the file'}, at most " + str(MOST_COLUMNS),
-    ),
-    "delimiter": (good_delimiter, "one character or 'whitespace'"),
-    "decimal": (lambda x: isinstance(x, str) and x in (".", ","), "'.' or ','"),
-    "encoding": (lambda x: isinstance(x, str) and known_encoding(x), "a text encoding like 'utf-8' or 'latin-1'"),
-    "skip_rows": (lambda x: type(x) is int and 0 <= x <= MOST_SKIPPED, f"an integer from 0 to {MOST_SKIPPED}"),
-    "force_sign": (lambda x: type(x) in (int, float) and x in (1, -1), "1 or -1"),
-    "stroke_sign": (lambda x: type(x) in (int, float) and x in (1, -1), "1 or -1"),
-    "stroke_offset": (good_offset, "a length with unit like '-12.5 mm'"),
-}
 
 
 def read_manifest(content: dict[str, Any], toml: str, title: str, notes: Notes) -> Manifest:
@@ -165,18 +100,21 @@ def valid(
             continue
         if key in RULES and not RULES[key][0](value):
             share = (
-                f" ({value:g} % is {value / 100:g})" if key == "oil_level" and number(value) and 2 <= value <= 100 else ""
+                f" ({value:g} % is {value / 100:g})" if key == "oil_level" and is_number(value) and 2 <= value <= 100 else ""
             )
             notes.error(f"{where}{key} = {shown(value)}: must be {RULES[key][1]}{share}", key, line(key))
         else:
             good[key] = value
     if isinstance(good.get("columns"), dict):
         for header in good["columns"]:
-            if split_header(header)[0] not in UNITS:
+            if quantity_of(header) not in UNITS:
                 message = f"{where}columns: unknown {shown(header)}{suggestion(split_header(header)[0], UNITS)}"
                 notes.error(
                     f"{message}; known are {', '.join(UNITS)}, each with a unit in brackets", "columns", line("columns")
                 )
+    for message in wrong_channels(good.get("channels", {})):
+        notes.error(f"{where}channels: {message}", "channels", line("channels"))
+        good.pop("channels", None)
     return good
 
 
@@ -195,6 +133,13 @@ def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[s
     if sum(key in table for key in OIL) != 1:
         what = "both are given" if all(key in table for key in OIL) else "is missing"
         notes.error(f"{where}{' or '.join(OIL)} {what}, must be one of the two", "oil_level", line(""))
+    window = float(good.get("start_s", WHOLE[0])), float(good.get("end_s", WHOLE[1]))
+    if window[0] >= window[1]:
+        notes.error(f"{where}start_s = {window[0]:g} must be before end_s = {window[1]:g}", "start_s", line("start_s"))
+    pressure = quantity(good["gas_pressure"], "Pa") if "gas_pressure" in good else None
+    if pressure and good.get("gas_preload") is False:
+        message = f"{where}gas_pressure = {good['gas_pressure']}: must be left out where gas_preload = false"
+        notes.error(message, "gas_pressure", line("gas_pressure"))
     both = shared | good
     volume = good.get("oil_volume_mL")
     return Entry(
@@ -206,12 +151,31 @@ def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[s
         oil_level=None if "oil_level" not in good else float(good["oil_level"]),
         oil_volume=None if volume is None else volume * 1e-6,
         gas_preload=good.get("gas_preload", True),
+        gas_pressure=pressure,
+        setting=good.get("setting"),
+        temperature=good.get("temperature_degC"),
         start_temperature=good.get("start_temperature_degC"),
         split=good.get("split"),
-        form=Format(**{key: both[key] for key in Format.__dataclass_fields__ if key in both}),
+        window=window,
+        excluded=tuple((float(low), float(high)) for low, high in good.get("exclude", [])),
+        form=form_of(both),
         force_sign=both.get("force_sign", 1),
         stroke_sign=both.get("stroke_sign", 1),
         stroke_offset=quantity(both.get("stroke_offset", 0.0), "m"),
+    )
+
+
+def form_of(reading: dict[str, Any]) -> Format:
+    """How a file is to be read, by the keys of READING."""
+    return Format(
+        columns=reading.get("columns"),
+        delimiter=reading.get("delimiter"),
+        decimal=reading.get("decimal", "."),
+        encoding=reading.get("encoding", DEFAULT_ENCODING),
+        skip_rows=reading.get("skip_rows", 0),
+        sheet=reading.get("sheet"),
+        sample_rate=reading.get("sample_rate_Hz"),
+        channels=read_channels(reading.get("channels", {})),
     )
 
 
@@ -225,7 +189,7 @@ class Section:
     def line_of(self, key: str) -> int | None:
         """The line of a key, or of the header where the key is not there."""
         if key:
-            pattern = re.compile(rf"\s*(\[record\.)?[\"']?{re.escape(key)}[\"'\]]?\s*(=|$)")
+            pattern = re.compile(rf"\s*(\[record\.)?[\"']?{re.escape(key)}[\"'\]]?\s*(=|$|\.)")
             for number, line in self.lines:
                 if pattern.match(line):
                     return number

@@ -1,5 +1,6 @@
-"""The motion of a damper from a record: what a simulation needs. Columns, units and formats are those of datasets."""
+"""The motion of a damper from a single file: what a simulation needs. Columns, units and formats are those of datasets."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +16,24 @@ NEEDED = ("time", "stroke")
 MOST_MESSAGES = 5
 
 
-def read_motion(path: Path) -> tuple[Array, Array, Array]:
-    """Time [s], stroke [m] and velocity [m/s] of a record; a missing velocity is the central difference of the stroke.
+@dataclass(frozen=True)
+class Motion:
+    """Arrays (n,), SI units; a missing velocity is the central difference of the stroke."""
 
-    Raises InputError with file, row and column, and OSError.
-    """
+    time: Array
+    stroke: Array
+    velocity: Array
+    force: Array | None  # as in the file, whose sign nobody stated
+
+
+def read_motion(path: Path) -> tuple[Array, Array, Array]:
+    """Time [s], stroke [m] and velocity [m/s] of a file. Raises InputError with file, row and column, and OSError."""
+    motion = read_moved(path)
+    return motion.time, motion.stroke, motion.velocity
+
+
+def read_moved(path: Path) -> Motion:
+    """The motion in a file, and its force where there is one. Raises InputError with file, row and column, and OSError."""
     notes = Notes(path.name)
     form = Format()
     try:
@@ -39,4 +53,4 @@ def read_motion(path: Path) -> tuple[Array, Array, Array]:
         raise InputError(f"{path.name}: {text}" + (f"; and {rest} more" if rest > 0 else ""))
     time, stroke = table.columns["time"], table.columns["stroke"]
     velocity = table.columns.get("velocity")
-    return time, stroke, np.gradient(stroke, time) if velocity is None else velocity
+    return Motion(time, stroke, np.gradient(stroke, time) if velocity is None else velocity, table.columns.get("force"))

@@ -16,9 +16,11 @@ from typing import Any
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.data.column_names import assigned, name_and_unit
+from twintube.data.column_names import assigned
 from twintube.data.formats import TEXT
+from twintube.data.stamps import is_stamp, seconds
 from twintube.data.table import UNITS, in_si
+from twintube.data.units import name_and_unit
 from twintube.engine.simulate import InputError
 
 LOOK = 400  # rows in which the table must begin
@@ -30,7 +32,8 @@ EVEN = 0.8  # of the rows must have the usual number of cells
 SLOW = 5e-3  # [m/s] up to which a record is quasi-static; the paper's ramps have 1 mm/s
 ALIKE = 0.15  # spread of the turning points of a harmonic record over their mean
 NUMBER = {
-    sign: re.compile(rf"[+-]?(\d+({mark}\d*)?|{mark}\d+)([eE][+-]?\d+)?$") for sign, mark in ((".", r"\."), (",", ","))
+    ".": re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?$"),
+    ",": re.compile(r"[+-]?((\d+|[1-9]\d{0,2}(\.\d{3})+)(,\d*)?|,\d+)([eE][+-]?\d+)?$"),  # 2.189 is a thousand
 }
 
 
@@ -198,9 +201,13 @@ def header_rows(best: Shape, above: list[int], width: int) -> tuple[list[str] | 
 def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: str, result: Sniffed) -> None:
     """Complete the units from the sizes of the values, and say sampling and kind of the measurement."""
     values = {name: column(body, i, decimal) for name, (i, _) in columns.items()}
+    stamped = "time" in columns and np.isfinite(stamps := times(body, columns["time"][0])).any()
     known: dict[str, Array] = {}
     headers: dict[str, str] = {}
     for name, (_, stated) in columns.items():
+        if name == "time" and stamped:
+            known[name], headers[name] = stamps, "time"
+            continue
         unit = stated or guessed(name, values[name])
         if not stated:
             result.doubts.append(f"{name}: the file gives no unit, {unit} is guessed from the size of the values")
@@ -213,9 +220,9 @@ def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: s
             )
             known[name] = in_si(values[name], name, unit)
         headers[name] = f"{name} [{unit}]"
-    for name in ("time", "stroke", "force"):
+    for name, or_else in (("time", "set `sample_rate_Hz`"), ("stroke", "`channels`"), ("force", "`channels`")):
         if name not in known:
-            result.doubts.append(f"{name}: no column looks like it; complete `columns`")
+            result.doubts.append(f"{name}: no column looks like it; complete `columns`, or {or_else}")
     write_columns(columns, headers, result)
     if "time" in known:
         steps = np.diff(known["time"])
@@ -246,8 +253,20 @@ def write_columns(columns: dict[str, tuple[int, str]], headers: dict[str, str], 
 def column(body: list[list[str]], i: int, decimal: str) -> Array:
     """The numbers of a column, NaN where a cell is not one."""
     cells = [row[i] if i < len(row) else "" for row in body]
-    numbers = [float(cell.replace(",", ".")) if NUMBER[decimal].match(cell) else np.nan for cell in cells]
+    point = "" if decimal == "," else "."
+    numbers = [
+        float(cell.replace(".", point).replace(",", ".")) if NUMBER[decimal].match(cell) else np.nan for cell in cells
+    ]
     return np.array(numbers, dtype=float)
+
+
+def times(body: list[list[str]], i: int) -> Array:
+    """Seconds since the first stamp in a column, NaN where it holds none."""
+    cells = [row[i] if i < len(row) else "" for row in body]
+    try:
+        return seconds(cells) if any(map(is_stamp, cells[:1])) else np.full(len(cells), np.nan)
+    except ValueError:
+        return np.full(len(cells), np.nan)
 
 
 def guessed(name: str, values: Array) -> str:

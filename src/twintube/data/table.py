@@ -13,11 +13,16 @@ from twintube.arrays import Array
 from twintube.dampers.damper import suggestion
 from twintube.dampers.quantity import parsed, quantity, registry
 from twintube.data.findings import Notes, more
-from twintube.data.formats import Format, Raw
+from twintube.data.formats import Channel, Format, Raw
+from twintube.data.grouping import ungrouped
+from twintube.data.stamps import is_stamp, seconds
+from twintube.data.units import split_header, unit_of
 from twintube.words import listed, printable, shown
 
 UNITS = {"time": "s", "stroke": "m", "force": "N", "velocity": "m/s", "temperature": "degC"}
 EXAMPLES = {"time": "time [s]", "stroke": "stroke [mm]", "force": "force [N]"}
+WHOLE = (-math.inf, math.inf)  # the window of a record that is not cut
+AS_STATED = Channel()
 
 
 @dataclass(frozen=True)
@@ -29,16 +34,25 @@ class Table:
     rows: NDArray[np.int64]  # number in the file, (n,)
 
 
-def split_header(header: str) -> tuple[str, str]:
-    """Name and unit of `name [unit]`."""
-    name, _, unit = header.strip().removesuffix("]").partition("[")
-    return name.strip(), unit.strip()
+@dataclass(frozen=True)
+class Source:
+    """Where a quantity stands in a file."""
+
+    header: str  # with its unit, as in the file or in `columns`
+    column: str  # in the file
+
+
+def quantity_of(header: str) -> str:
+    """The quantity that a header names, whatever its capitals; the name itself where it is none."""
+    name = split_header(header)[0]
+    return name.lower() if name.lower() in UNITS else name
 
 
 def in_si(values: Array, name: str, unit: str) -> Array:
     """The values of a quantity in its unit of UNITS; raises ValueError."""
     if not unit:
         raise ValueError(f"no unit, must be like '{name} [{UNITS[name]}]'")
+    unit = unit_of(unit) or unit
     try:
         if name == "temperature":
             return np.asarray(registry().Quantity(values, parsed(unit)).to("degC").magnitude, dtype=float)
@@ -47,65 +61,152 @@ def in_si(values: Array, name: str, unit: str) -> Array:
         raise ValueError(f"unit {shown(unit)} is not a unit of {name}, must be one like {UNITS[name]}") from error
 
 
-def convert(raw: Raw, form: Format, notes: Notes, needed: Sequence[str] = tuple(EXAMPLES)) -> Table | None:
-    """The quantities of a record, with findings on columns, units and cells; None if a needed column is missing."""
+def scaled(values: Array, name: str, unit: str, channel: Channel) -> Array:
+    """The values (n,) of a column in SI units: as its `unit` says, or by the gain of its channel; raises ValueError."""
+    if channel.gain is None:
+        return in_si(values, name, unit) + channel.zero
+    return values * (per_unit(unit, channel.unit) * channel.gain) + channel.zero
+
+
+def per_unit(unit: str, wanted: str) -> float:
+    """A column's unit in that of its scale; 1 where the file names none, or counts in words; raises ValueError."""
+    unit = unit_of(unit) or unit
+    if unit in ("", "-") or (not wanted and not physical(unit)):
+        return 1.0
+    try:
+        return quantity(f"1 {unit}", wanted)
+    except ValueError as error:
+        raise ValueError(f"the file gives it in {printable(unit)}, its scale is per {wanted or 'count'}") from error
+
+
+def physical(unit: str) -> bool:
+    """Whether it is a unit at all."""
+    try:
+        parsed(unit)
+    except ValueError:
+        return False
+    return True
+
+
+def convert(
+    raw: Raw, form: Format, notes: Notes, needed: Sequence[str] = tuple(EXAMPLES), window: tuple[float, float] = WHOLE
+) -> Table | None:
+    """The quantities of a record within a window of time [s], with findings on columns, units and cells.
+
+    None if a needed column is missing. Cells outside the window are not looked at, but for the times.
+    """
     notes.counted = raw.counted
     before = len(notes.findings)
     sources = chosen(raw, form, notes)
-    columns: dict[str, Array] = {}
-    headers: dict[str, str] = {}
     rows = np.asarray(raw.rows, dtype=np.int64)
-    for name, (header, source) in sources.items():
-        try:
-            numbers = cells(raw.columns[source], header, rows, form.decimal, notes)
-            if len(numbers) != len(rows):
-                notes.error(f"{len(numbers)} samples where another column of the file has {len(rows)}", header)
-                continue
-            columns[name] = in_si(numbers, name, split_header(header)[1])
-            headers[name] = header
-            carried, stated = raw.units.get(source), split_header(header)[1]
-            if carried and not equal_units(name, carried, stated):
-                notes.error(f"the file gives {shown(source)} in {printable(carried)}, not in {stated}", header)
-        except ValueError as error:
-            notes.error(str(error), header)
-    for name in needed:
-        if name not in columns and not (name in sources and len(notes.findings) > before):
-            refused = next((header for header in raw.refused if split_header(header)[0] == name), None)
-            if refused is not None:
-                notes.error(f"holds {raw.refused[refused]}, must hold numbers", refused)
-                continue
-            there = listed(map(printable, raw.columns)) or "nothing"
-            hint = suggestion(name, [split_header(text)[0] for text in raw.columns])
-            notes.error(f"no column {EXAMPLES[name]!r} among {there}{hint}", name)
+    columns: dict[str, Array] = {}
+    headers = {name: source.header for name, source in sources.items()}
+    if form.sample_rate is not None:
+        if "time" in sources:
+            notes.warning("not used, because sample_rate_Hz is given", headers["time"])
+            del sources["time"]
+        columns["time"], headers["time"] = np.arange(len(rows)) / form.sample_rate, "sample_rate_Hz"
+    kept = np.arange(len(rows))
+    for name in sorted([*columns, *sources], key=lambda name: name != "time"):
+        if name in sources and (values := column(raw, name, sources[name], form, kept, notes)) is not None:
+            columns[name] = values
+        if name == "time" and name in columns and window != WHOLE:
+            kept = inside(columns["time"], window, headers["time"], notes)
+            columns["time"] = columns["time"][kept]
+    missing(raw, sources, columns, needed, len(notes.findings) > before, notes)
     if len(rows) < 2:
         notes.error(f"{len(rows)} samples, at least 2 are needed")
+    if len(kept) < 2:
         return None
-    return Table(columns, headers, rows) if set(needed) <= set(columns) else None
+    ordered = {name: columns[name] for name in UNITS if name in columns}
+    return Table(ordered, headers, rows[kept]) if set(needed) <= set(columns) else None
 
 
-def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, tuple[str, str]]:
-    """By quantity: the header with its unit, and the name in the file."""
+def inside(time: Array, window: tuple[float, float], header: str, notes: Notes) -> NDArray[np.int64]:
+    """The samples within a window of time [s]."""
+    kept = np.flatnonzero((time >= window[0]) & (time <= window[1]))
+    if len(kept) < 2:
+        span = f"{np.nanmin(time):g} to {np.nanmax(time):g} s" if np.isfinite(time).any() else "no time at all"
+        notes.error(f"{len(kept)} samples for start_s = {window[0]:g} to end_s = {window[1]:g}; the file has {span}", header)
+    return kept
+
+
+def column(raw: Raw, name: str, source: Source, form: Format, kept: NDArray[np.int64], notes: Notes) -> Array | None:
+    """The samples `kept` (n,) of a column in SI units; None with a finding where there are none."""
+    values, rows = raw.columns[source.column], np.asarray(raw.rows, dtype=np.int64)
+    if len(values) != len(rows):
+        notes.error(f"{len(values)} samples where another column of the file has {len(rows)}", source.header)
+        return None
+    if len(kept) < len(rows):
+        values, rows = values[kept] if isinstance(values, np.ndarray) else [values[i] for i in kept], rows[kept]
+    try:
+        if name == "time" and any(is_stamp(cell) for cell in values[:1]):
+            return stamped(values, source.header, rows, notes)
+        channel = form.channels.get(name, AS_STATED)
+        carried, stated = raw.units.get(source.column, ""), split_header(source.header)[1]
+        numbers = scaled(cells(values, source.header, rows, form.decimal, notes), name, stated or carried, channel)
+        if channel.gain is None and carried and stated and not equal_units(name, carried, stated):
+            notes.error(f"the file gives {shown(source.column)} in {printable(carried)}, not in {stated}", source.header)
+    except ValueError as error:
+        notes.error(str(error), source.header)
+        return None
+    return numbers
+
+
+def stamped(values: Sequence[str], header: str, rows: NDArray[np.int64], notes: Notes) -> Array:
+    """Seconds (n,) of times of day or date-time stamps; raises ValueError."""
+    numbers = seconds(values)
+    bad = np.flatnonzero(~np.isfinite(numbers))
+    if len(bad):
+        tail = more(len(bad), int(rows[bad[-1]]), notes.counted)
+        notes.error(f"{shown(values[bad[0]])} is no time like {shown(values[0])}{tail}", header, int(rows[bad[0]]))
+    return numbers
+
+
+def missing(
+    raw: Raw, sources: dict[str, Source], columns: dict[str, Array], needed: Sequence[str], failed: bool, notes: Notes
+) -> None:
+    """Findings on needed quantities without a column; on those with one there is a finding already."""
+    for name in needed:
+        if name in columns or (name in sources and failed):
+            continue
+        refused = next((header for header in raw.refused if quantity_of(header) == name), None)
+        if refused is not None:
+            notes.error(f"holds {raw.refused[refused]}, must hold numbers", refused)
+            continue
+        there = listed(map(printable, raw.columns)) or "nothing"
+        hint = suggestion(name, [split_header(text)[0] for text in raw.columns])
+        rate = "; without times set sample_rate_Hz" if name == "time" and not hint else ""
+        notes.error(f"no column {EXAMPLES[name]!r} among {there}{hint}{rate}", name)
+
+
+def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, Source]:
+    """The source of each quantity."""
     if isinstance(form.columns, dict):
         pairs = list(form.columns.items())
     else:
-        carried = {name: f"{name} [{unit}]" for name, unit in raw.units.items() if "[" not in name}
+        carried = {name: f"{name} [{unit}]" for name, unit in raw.units.items() if not split_header(name)[1]}
         pairs = [(carried.get(name, name), name) for name in raw.columns]
-    sources: dict[str, tuple[str, str]] = {}
+    named = {name: channel.column for name, channel in form.channels.items() if channel.column is not None}
+    pairs = [pair for pair in pairs if quantity_of(pair[0]) not in named and pair[1] not in named.values()]
+    sources: dict[str, Source] = {}
     unused = []
-    for header, source in pairs:
-        name = split_header(header)[0]
-        if source in raw.refused:
-            notes.error(f"{shown(source)} holds {raw.refused[source]}, must hold numbers", header)
-        elif source not in raw.columns:
+    for header, column in [*pairs, *((column, column) for column in named.values())]:
+        name = quantity_of(header)
+        if column in named.values():
+            name = next(quantity for quantity, wanted in named.items() if wanted == column)
+        if column in raw.refused:
+            notes.error(f"{shown(column)} holds {raw.refused[column]}, must hold numbers", header)
+        elif column not in raw.columns:
             there = listed(map(printable, raw.columns))
-            notes.error(f"the file has no {shown(source)} but {there}{suggestion(source, raw.columns)}", header)
+            notes.error(f"the file has no {shown(column)} but {there}{suggestion(column, raw.columns)}", header)
         elif name not in UNITS:
             unused.append(shown(header))
         elif name in sources:
-            notes.error(f"{name} is there already as {shown(sources[name][0])}", header)
+            notes.error(f"{name} is there already as {shown(sources[name].header)}", header)
         else:
-            sources[name] = header, source
-    if unused and sources and notes.counted == "row":
+            sources[name] = Source(header, column)
+    if unused and sources and raw.counted == "row":
         notes.warning(f"not used: {listed(unused)}; used are {', '.join(UNITS)}")
     return sources
 
@@ -120,16 +221,10 @@ def equal_units(name: str, unit: str, other: str) -> bool:
 
 
 def cells(values: Any, header: str, rows: NDArray[np.int64], decimal: str, notes: Notes) -> Array:
-    """Floats of a column; a finding on the cells that are not numbers."""
+    """Floats (n,) of a column; a finding on the cells that are not numbers."""
+    written = any(isinstance(cell, str) for cell in values[:1])
     try:
-        if notes.counted == "row":
-            text = "".join(values)
-            if "_" in text or (decimal == "," and "." in text):
-                raise ValueError  # numpy takes 1_000 for a number, and the point would be a thousands separator
-            values_read = [cell.replace(",", ".") for cell in values] if decimal == "," else values
-        else:
-            values_read = values
-        numbers: Array = np.asarray(values_read, dtype=float)
+        numbers = np.asarray(plain(values, header, rows, decimal, notes) if written else values, dtype=float)
     except (ValueError, TypeError, OverflowError):
         numbers = np.array([number(cell, decimal) for cell in values], dtype=float)
     bad = np.flatnonzero(~np.isfinite(numbers))
@@ -140,6 +235,24 @@ def cells(values: Any, header: str, rows: NDArray[np.int64], decimal: str, notes
             wrong_cell(cell, decimal) + more(len(bad), int(rows[min(bad[-1], len(rows) - 1)]), notes.counted), header, row
         )
     return numbers
+
+
+def plain(values: Sequence[str], header: str, rows: NDArray[np.int64], decimal: str, notes: Notes) -> Sequence[str]:
+    """The cells with a point as decimal sign and no thousands separators; raises ValueError where they may be either."""
+    text = "".join(values)
+    separator = "," if decimal == "." else "."
+    if "_" in text:
+        raise ValueError("numpy takes 1_000 for a number")
+    if separator in text:
+        without = ungrouped(values, decimal)
+        if without is None:
+            raise ValueError("a second kind of sign")
+        first = without[1]
+        read = without[0][first].replace(",", ".").strip()
+        message = f"{separator!r} is read as a thousands separator: {shown(values[first].strip())} as {read}"
+        notes.warning(message, header, int(rows[first]))
+        values = without[0]
+    return [cell.replace(",", ".") for cell in values] if decimal == "," else values
 
 
 def wrong_cell(cell: Any, decimal: str) -> str:

@@ -12,14 +12,15 @@ import tomlkit
 from twintube import dampers
 from twintube.data.dataset import FILE
 from twintube.data.formats import TEXT
-from twintube.data.manifest import READING
+from twintube.data.keys import READING
+from twintube.data.read_binary import READERS
 from twintube.data.sniff import Sniffed, sniff
 from twintube.engine.simulate import InputError
 from twintube.files import replacing, write_text
 from twintube.reading import MB, ReadError, check_regular
 from twintube.words import CONTROL
 
-ENDINGS = (*TEXT, ".parquet", ".pq", ".mat", ".mf4", ".mdf")
+ENDINGS = (*TEXT, *READERS)
 
 MOST_BYTES = 4000 * MB  # of a record
 
@@ -34,10 +35,15 @@ READING_HELP = """
 # columns = {"time [s]" = "Zeit", "stroke [mm]" = "Weg", "force [kN]" = "Kraft"}
 #     quantity [unit] = name in the file. Needed: time, stroke, force; optional: velocity, temperature.
 #     A list gives the columns of a text file without header: ["time [s]", "stroke [mm]", "", "force [N]"]
+#     Times may be date-time stamps. Units may stand in a row of their own under the header.
+# channels = {force = {column = "AI1 [V]", scale = "500 N/V", offset = "-12 N"}}
+#     For volts and counts: quantity = scale times what is in the file, plus offset. column and offset may be left out.
+# sample_rate_Hz = 500        # where the file has no times
 # delimiter = ";"             # one character, or "whitespace"; usual is a comma in .csv, a tab in .tsv
 # decimal = ","
 # encoding = "cp1252"         # where the file is not UTF-8
 # skip_rows = 3               # rows before the header, or before the numbers where `columns` is a list
+# sheet = "Data"              # of a workbook; usual is the first
 # force_sign = -1             # force must be positive when the damper is pulled
 # stroke_sign = -1            # stroke must rise when the damper is pulled (rebound)
 # stroke_offset = "12.5 mm"   # added: 0 must be the middle position
@@ -46,12 +52,18 @@ RECORD_HELP = """
 # The records, one [[record]] for each file:
 #
 # [[record]]
-# file = "oil060_1.0.csv"     # CSV, text, Parquet, MATLAB .mat or MDF 4, relative to this file
+# file = "oil060_1.0.csv"     # CSV, text, Excel, JSON, Parquet, MATLAB .mat or MDF 4, relative to this file
 # measurement = "harmonic"    # quasi-static, harmonic or stochastic
 # oil_level = 0.6             # share of the intact oil volume; or instead of it
 # oil_volume_mL = 164
 # gas_preload = false         # true: the gas is at its pressure; false: lost
+# gas_pressure = "10 bar"     # optional, of present gas: gauge, cold; bar, psi, MPa
+# setting = "C3"              # optional: of an adjustable valve
 # start_temperature_degC = 25.0   # optional
+# temperature_degC = 40.0     # optional: of the whole record; a column of temperatures counts more
+# start_s = 2.0               # optional: what is before is not read
+# end_s = 30.5                # optional: what is after is not read
+# exclude = [[12.5, 12.6]]    # optional: windows [s] whose force says nothing; their stroke is kept
 # split = "heldout"           # optional: fit or heldout; without it the program holds records out by itself
 """
 

@@ -1,0 +1,117 @@
+"""The keys of `dataset.toml`: which there are, and what their values must be."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from twintube.dampers.quantity import quantity
+from twintube.data.channels import good_channels
+from twintube.data.formats import MOST_COLUMNS, MOST_SKIPPED, known_encoding
+
+MEASUREMENTS = ("quasi-static", "harmonic", "stochastic")
+SPLITS = ("fit", "heldout")
+COLDEST, HOTTEST = -60.0, 200.0  # start temperature [degC]
+MOST_RECORDS = 1000
+MOST_UNKNOWN = 5  # unknown keys that are named
+LONGEST_TEXT = 200  # characters
+LONGEST_PATH = 1000
+LARGEST_OFFSET = 1.0  # [m]
+LARGEST_VOLUME = 100_000.0  # oil [mL]
+MOST_PRESSURE = 10e6  # gauge pressure of the gas [Pa]
+SLOWEST_RATE, FASTEST_RATE = 2.0, 100e3  # samples per second: the limits of the time step
+MOST_WINDOWS = 1000
+# How to read the files: at the top for all records, or in a record.
+READING = ("columns", "channels", "sample_rate_Hz", "delimiter", "decimal", "encoding", "skip_rows", "sheet", "force_sign",
+           "stroke_sign", "stroke_offset")  # fmt: skip
+TOP = ("title", "damper", "record", *READING)
+OIL = ("oil_level", "oil_volume_mL")
+RECORD = ("file", "measurement", *OIL, "gas_preload", "gas_pressure", "setting", "temperature_degC",
+          "start_temperature_degC", "start_s", "end_s", "exclude", "split", *READING)  # fmt: skip
+
+
+def number(value: Any) -> bool:
+    """Whether a TOML value is a finite number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def good_columns(value: Any) -> bool:
+    """A list of headers, or a table header = name in the file."""
+    texts = list(value.values()) if isinstance(value, dict) else value
+    return isinstance(texts, list) and 0 < len(texts) <= MOST_COLUMNS and all(isinstance(text, str) for text in texts)
+
+
+def good_offset(value: Any) -> bool:
+    """A length with its unit."""
+    try:
+        return isinstance(value, str) and abs(quantity(value, "m")) <= LARGEST_OFFSET
+    except ValueError:
+        return False
+
+
+def good_pressure(value: Any) -> bool:
+    """A gauge pressure with its unit."""
+    try:
+        return isinstance(value, str) and 0.0 <= quantity(value, "Pa") <= MOST_PRESSURE
+    except ValueError:
+        return False
+
+
+def good_windows(value: Any) -> bool:
+    """A list of pairs of times, each from the earlier to the later."""
+    return (
+        isinstance(value, list)
+        and 0 < len(value) <= MOST_WINDOWS
+        and all(isinstance(pair, list) and len(pair) == 2 and all(map(number, pair)) for pair in value)
+        and all(low <= high for low, high in value)
+    )
+
+
+def text(value: Any, most: int = LONGEST_TEXT) -> bool:
+    """A text of one line that is not empty."""
+    return isinstance(value, str) and 0 < len(value) <= most and "\n" not in value
+
+
+def good_path(value: Any) -> bool:
+    """A path that systems take."""
+    return text(value, LONGEST_PATH)
+
+
+def good_delimiter(value: Any) -> bool:
+    """What the csv module takes as a delimiter, or the word `whitespace`."""
+    return value == "whitespace" or (isinstance(value, str) and len(value) == 1 and value not in "\r\n\"'")
+
+
+RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "title": (text, f"a text of one line and at most {LONGEST_TEXT} characters"),
+    "damper": (good_path, "the name of a damper or of a parameter file"),
+    "file": (good_path, f"the name of a file, at most {LONGEST_PATH} characters"),
+    "measurement": (lambda x: isinstance(x, str) and x in MEASUREMENTS, f"one of {', '.join(MEASUREMENTS)}"),
+    "oil_level": (lambda x: number(x) and 0 <= x <= 1, "a number from 0 to 1, the share of the intact oil volume"),
+    "oil_volume_mL": (lambda x: number(x) and 0 <= x <= LARGEST_VOLUME, f"a number from 0 to {LARGEST_VOLUME:g}"),
+    "gas_preload": (lambda x: isinstance(x, bool), "true (present) or false (lost)"),
+    "start_temperature_degC": (lambda x: number(x) and COLDEST <= x <= HOTTEST, f"from {COLDEST:g} to {HOTTEST:g} degC"),
+    "temperature_degC": (lambda x: number(x) and COLDEST <= x <= HOTTEST, f"from {COLDEST:g} to {HOTTEST:g} degC"),
+    "gas_pressure": (good_pressure, f"a gauge pressure like '10 bar' or '150 psi', at most {MOST_PRESSURE / 1e5:g} bar"),
+    "setting": (text, "a text like 'C3'"),
+    "start_s": (number, "a time in seconds"),
+    "end_s": (number, "a time in seconds"),
+    "exclude": (good_windows, f"a list like [[1.25, 1.3]] of from and to in seconds, at most {MOST_WINDOWS}"),
+    "split": (lambda x: isinstance(x, str) and x in SPLITS, f"one of {', '.join(SPLITS)}"),
+    "columns": (
+        good_columns,
+        "a list of headers, or a table like {'stroke [mm]' = 'name in the file'}, at most " + str(MOST_COLUMNS),
+    ),
+    "channels": (good_channels, "tables like {force = {column = 'AI1', scale = '500 N/V', offset = '-12 N'}}"),
+    "sample_rate_Hz": (
+        lambda x: number(x) and SLOWEST_RATE <= x <= FASTEST_RATE,
+        f"a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}",
+    ),
+    "sheet": (text, "the name of a sheet of a workbook"),
+    "delimiter": (good_delimiter, "one character or 'whitespace'"),
+    "decimal": (lambda x: isinstance(x, str) and x in (".", ","), "'.' or ','"),
+    "encoding": (lambda x: isinstance(x, str) and known_encoding(x), "a text encoding like 'utf-8' or 'latin-1'"),
+    "skip_rows": (lambda x: type(x) is int and 0 <= x <= MOST_SKIPPED, f"an integer from 0 to {MOST_SKIPPED}"),
+    "force_sign": (lambda x: type(x) in (int, float) and x in (1, -1), "1 or -1"),
+    "stroke_sign": (lambda x: type(x) in (int, float) and x in (1, -1), "1 or -1"),
+    "stroke_offset": (good_offset, "a length with unit like '-12.5 mm'"),
+}

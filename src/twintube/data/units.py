@@ -1,0 +1,63 @@
+"""Units as test benches write them, and the name and unit in a header."""
+
+import re
+
+UNIT_NAMES = {
+    "sec": "s", "sek": "s", "second": "s", "seconds": "s", "sekunden": "s", "msec": "ms", "millisekunden": "ms",
+    "millimeter": "mm", "meter": "m", "newton": "N", "kilonewton": "kN", "kn": "kN", "n": "N", "dan": "daN", "kp": "kgf",
+    "°c": "degC", "c": "degC", "degc": "degC", "deg c": "degC", "celsius": "degC", "grad c": "degC", "k": "K", "kelvin": "K",
+    "°f": "degF", "f": "degF", "degf": "degF", "deg f": "degF", "fahrenheit": "degF",
+    "inch": "in", "inches": "in", '"': "in", "lb": "lbf", "lbs": "lbf", "mm/sec": "mm/s", "m/sec": "m/s", "in/sec": "in/s",
+    "ips": "in/s",
+}  # fmt: skip
+# Kept by their case: ms is not MS, mm not Mm.
+PLAIN_UNITS = ("s", "ms", "us", "m", "mm", "cm", "in", "N", "kN", "daN", "kgf", "lbf", "m/s", "mm/s", "cm/s", "in/s", "degC",
+               "degF", "K")  # fmt: skip
+OTHER_UNITS = ("V", "mV", "A", "mA", "%", "-", "1", "bar", "psi", "Pa", "MPa", "Hz", "rpm", "1/min", "mm/m", "J", "W")
+NUMBER = re.compile(r"\s*[+-]?[0-9]+([.,][0-9]*)?([eE][+-]?[0-9]+)?\s*")
+HEADER = re.compile(r"(.*?)\s*(?:\[(.*)\]|\((.*)\))", re.DOTALL)
+FEWEST = 2  # cells with a unit make a row of units
+
+
+def unit_of(text: str) -> str:
+    """A unit as `twintube` writes it; "" for a text that is not one."""
+    text = text.strip().replace("\N{MASCULINE ORDINAL INDICATOR}", "°").replace("\N{GREEK SMALL LETTER MU}", "u")
+    text = text.replace("\N{MICRO SIGN}", "u").replace("s^-1", "/s")
+    if text in PLAIN_UNITS:
+        return text
+    low = text.lower()
+    return UNIT_NAMES.get(low, low if low in PLAIN_UNITS else "")
+
+
+def split_header(header: str) -> tuple[str, str]:
+    """Name and unit of `name [unit]` or `name (unit)`."""
+    parts = HEADER.fullmatch(header.strip())
+    return (parts[1], (parts[2] if parts[2] is not None else parts[3]).strip()) if parts else (header.strip(), "")
+
+
+def name_and_unit(header: str) -> tuple[str, str]:
+    """Name and unit of `Kraft [kN]`, `Kraft (kN)`, `Kraft in kN`, `Kraft / kN`, `force_kN` and the like.
+
+    A unit in brackets that is not known is handed on as it is, so that it can be said.
+    """
+    text = header.strip().strip('"').strip()
+    bracketed = re.fullmatch(r"(.*?)\s*[\[(<{]\s*([^\])>}]*?)\s*[\])>}]", text)
+    if bracketed:
+        return bracketed[1], unit_of(bracketed[2]) or bracketed[2]
+    parted = re.fullmatch(r"(.+?)(?:\s*,\s*|\s+in\s+|\s*/\s*|\s+|_)([^\s,_]+)", text)
+    if parted and unit_of(parted[2]) and not unit_of(text):
+        return re.sub(r"(\s+in|\s*[/,])$", "", parted[1]), unit_of(parted[2])
+    slashed = re.fullmatch(r"([^/]+)/\s*(.+)", text)
+    if slashed and unit_of(slashed[2]):
+        return slashed[1].strip(), unit_of(slashed[2])
+    return text, ""
+
+
+def units_row(cells: list[str]) -> list[str] | None:
+    """The units in a row under the header, without their brackets; None where the row is another one."""
+    texts = [cell.strip().strip("[]()").strip() for cell in cells]
+    written = [text for text in texts if text]
+    known = [text for text in written if unit_of(text) or text in OTHER_UNITS]
+    if len(known) < FEWEST or any(NUMBER.fullmatch(text) and text != "1" for text in written):
+        return None
+    return texts

@@ -1,0 +1,78 @@
+"""`twintube simulate --record`: a listed record is read as its dataset.toml says, and compared with the simulation."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tests.data.conftest import RECORD, as_csv, good
+from twintube import load, simulate
+from twintube.cli import app
+from twintube.report.simulated_record import deviation
+
+Make = Callable[..., Path]
+RUNNER = CliRunner()
+
+
+def test_a_listed_record_needs_no_arguments(folder: Make, tmp_path: Path) -> None:
+    """A record of the model itself, with the signs of another rig, agrees but for a zero of 5 N."""
+    c = good()
+    stroke, velocity = c["stroke [mm]"] / 1e3, c["velocity [mm/s]"] / 1e3
+    damper = load("SA7").with_(oil_level=0.6, gas_preload=0)
+    force = simulate(damper, stroke, velocity, c["time [s]"]).force
+    text = as_csv({"t": c["time [s]"], "z": -c["stroke [mm]"], "v": -c["velocity [mm/s]"], "F": -(force - 5.0)})
+    toml = 'damper = "SA7"\nforce_sign = -1\nstroke_sign = -1\n' + RECORD.format("a.csv").replace("0.56", "0.6")
+    toml += 'columns = {"time [s]" = "t", "stroke [mm]" = "z", "velocity [mm/s]" = "v", "force [N]" = "F"}\n'
+    path = folder({"a.csv": text}, toml=toml)
+    arguments = ["simulate", "--record", str(path / "a.csv"), "--output", str(tmp_path / "out.csv")]
+    run = RUNNER.invoke(app, [*arguments, "--plot", str(tmp_path / "out.png")])
+    assert run.exit_code == 0, run.output
+    assert "as its dataset.toml says: SA7, 0.6 of the oil, gas lost" in run.output
+    assert re.search(
+        r"measured against simulated: 5\.0 N RMSE, \d\.\d% of the peak of \d+ N; .* mean is \+5\.0 N off", run.output
+    )
+    work = re.search(r"work per cycle: measured (\S+) J, simulated (\S+) J", run.output)
+    assert work is not None
+    assert float(work[1]) == pytest.approx(float(work[2]), abs=0.02)
+    assert (tmp_path / "out.csv").read_text(encoding="utf-8").splitlines()[0].endswith(",measured_force [N]")
+    assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
+    intact = RUNNER.invoke(app, [*arguments, "--oil-level", "1", "--gas-present"])
+    assert "SA7, 1 of the oil, gas present" in intact.output
+
+
+def test_what_it_needs_without_a_dataset(folder: Make) -> None:
+    path = folder({"a.csv": good()})
+    (path / "b.csv").write_text(as_csv(good()), encoding="utf-8")
+    run = RUNNER.invoke(app, ["simulate", "--record", str(path / "b.csv"), "--output", str(path / "o.csv")])
+    assert run.exit_code == 2
+    assert "names it; name a damper, e.g. twintube simulate SA8" in run.output
+    run = RUNNER.invoke(app, ["simulate", "SA8", "--record", str(path / "b.csv"), "--output", str(path / "o.csv")])
+    assert run.exit_code == 0, run.output
+    assert "measured against simulated: " in run.output
+
+
+def test_an_error_of_the_record_is_said_and_one_of_another_is_not(folder: Make) -> None:
+    bad = good()
+    bad["force [N]"] = -bad["force [N]"]
+    path = folder({"a.csv": good(), "b.csv": bad})
+    for name, status in (("a.csv", 0), ("b.csv", 2)):
+        run = RUNNER.invoke(app, ["simulate", "--record", str(path / name), "--output", str(path / f"{name}.out")])
+        assert run.exit_code == status, run.output
+    assert "error: b.csv: row " in run.output
+    assert "force_sign = -1" in run.output
+    assert not (path / "b.csv.out").exists()
+
+
+def test_samples_that_are_not_usable_do_not_count() -> None:
+    t = np.linspace(0.0, 3.0, 3001)
+    stroke, force = 0.03 * np.sin(2 * np.pi * t), 500.0 * np.cos(2 * np.pi * t)
+    measured = force.copy()
+    measured[1000:1100] = 9999.0
+    usable = measured < 9999.0
+    result = deviation(stroke, measured, force + 3.0, usable)
+    assert (result.rmse, result.mean) == (pytest.approx(3.0), pytest.approx(3.0))
+    assert result.peak == pytest.approx(500.0, rel=1e-3)
+    assert result.simulated_work == pytest.approx(result.measured_work, rel=0.03)
