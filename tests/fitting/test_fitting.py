@@ -5,10 +5,12 @@ import pytest
 
 from twintube.arrays import Array
 from twintube.core import effects
+from twintube.dampers import load
 from twintube.data.condition import is_intact
 from twintube.fitting.intervals import impulse, means
 from twintube.fitting.least_squares import STEP, bounded, derivatives, pulls, sandwich
 from twintube.fitting.parameters import DEGRADATION, FASTER, ranges
+from twintube.fitting.simulation import P_ATM, gas_factors
 from twintube.fitting.splits import distinct
 
 LOW, HIGH = np.array([0.0, 10.0]), np.array([1.0, 30.0])
@@ -76,3 +78,14 @@ def test_a_damper_is_intact_with_its_preload_and_all_but_half_a_percent_of_its_o
     assert is_intact(1.0, gas_preload=True) and is_intact(0.995, gas_preload=1)
     assert not is_intact(0.99, gas_preload=True)
     assert not is_intact(1.0, gas_preload=False)
+
+
+def test_the_gas_force_goes_with_the_gauge_pressure_and_its_stiffness_with_the_absolute() -> None:
+    damper = load("SA8")
+    given = damper.parameters.F_0 / (0.25 * np.pi * damper.parameters.D_PR**2)
+    assert gas_factors(damper, None) == (1.0, 1.0)
+    assert gas_factors(damper, given) == pytest.approx((1.0, 1.0))
+    force, stiffness = gas_factors(damper, given + 2 * (given + P_ATM))
+    assert stiffness == pytest.approx(3.0)
+    assert force > 3.0
+    assert gas_factors(damper, 0.0) == pytest.approx((0.0, P_ATM / (given + P_ATM)))

@@ -7,10 +7,13 @@ import pytest
 from scipy.ndimage import uniform_filter1d
 
 from tests.diagnosis.test_signature import AMPLITUDE, bench, changed
+from twintube.dampers import load
 from twintube.data import Record
 from twintube.diagnosis.signature import oscillating
 from twintube.fitting.averaging import averaged, averaged_means, averaging, period, through
 from twintube.identification import Harmonic
+from twintube.identification.sines import identify_sines
+from twintube.identification.validation import validate_harmonic
 from twintube.lab.blind_trials.trials import dataset, trial
 
 SMALL = 0.02  # [m] amplitude
@@ -90,6 +93,17 @@ def test_means_of_intervals_are_those_of_the_mean() -> None:
     for i in range(6, 34):
         inside = (fine >= time[i - 1]) & (fine <= time[i])
         assert averaged_means(time, force, window)[i] == pytest.approx(mean[inside].mean(), abs=0.2)
+
+
+def test_a_damper_identified_through_the_mean_predicts_records_that_were_not_smoothed() -> None:
+    """Of the model's own damper: on real ones other errors may be larger, see docs/diagnosis.md."""
+    measured = [r for r in bench(0.002, 1, slow=SMALL) if r.gas_preload]
+    raw, plain = blocks(measured), blocks(smoothed(measured, 0.1))
+    errors = []
+    for records in (plain, [replace(r, averaged=0.1 * period(r)) for r in plain]):
+        fit = identify_sines(load("SA8"), records)
+        errors.append([validate_harmonic(fit.damper, r, "heldout", fit.offset).force_rmse for r in raw])
+    assert np.mean(errors[1]) < 0.7 * np.mean(errors[0])
 
 
 def test_every_record_gets_its_own_length() -> None:

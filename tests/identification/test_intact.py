@@ -30,8 +30,11 @@ def test_curve_friction_and_gas_spring_come_back(name: str) -> None:
     records = intact_records(truth, noise=0.01)
     other = {"F_FrS": 10.0, "F_0": 1.0, "c_gas": 1.0, "sigma_0": 1e4, "v_re": load("SA1").parameters.v_re,
              "F_re": [2 * F for F in load("SA1").parameters.F_re]}  # fmt: skip
-    identified = identify_intact(truth.with_(**other), slow, records).parameters
+    damper, estimates = identify_intact(truth.with_(**other), slow, records)
+    identified = damper.parameters
     p = truth.parameters
+    for e in estimates:
+        assert e.low <= getattr(identified, e.name) <= e.high
     assert identified.F_FrS == pytest.approx(p.F_FrS, rel=0.03)
     assert pytest.approx(p.F_0, abs=2.0) == identified.F_0
     assert identified.c_gas == pytest.approx(p.c_gas, rel=0.02)
@@ -48,7 +51,7 @@ def test_intact_identification_predicts_a_held_out_block() -> None:
     truth = load("SA7")
     records = intact_records(truth, noise=0.01)
     held_out = records.pop(4)
-    damper = identify_intact(truth, None, records)
+    damper, _ = identify_intact(truth, None, records)
     predicted = simulate(damper, held_out.stroke, held_out.velocity).force
     rmse = np.sqrt(np.mean((predicted - held_out.force) ** 2))
     assert rmse < 0.06 * np.abs(held_out.force).max()

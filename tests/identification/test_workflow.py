@@ -215,7 +215,12 @@ def test_a_folder_is_identified_by_the_public_function(bench: Path, tmp_path: Pa
     result = identify(tmp_path, budget=QUICK, seed=3)
     assert result.identification.damper.parameters.F_FrS == pytest.approx(25.0, rel=0.1)
     assert result.identification.steps == []
-    assert "only the intact damper is identified" in result.remarks[-1]
+    assert any("only the intact damper is identified" in remark for remark in result.remarks)
+    assert any("measured up to 0.524 m/s" in remark for remark in result.remarks)
+    assert "measured up to 0.524 m/s" in result.identification.damper.sources["fv"]
+    for e in result.identification.estimates:
+        assert e.low <= e.value <= e.high
+    assert {e.name for e in result.identification.estimates} == {"F_FrS", "sigma_0", "F_0", "c_gas"}
     with pytest.raises(DataError, match=r"dataset\.toml"):
         identify(tmp_path / "nowhere")
 

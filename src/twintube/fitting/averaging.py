@@ -72,8 +72,12 @@ class Averaging:
 
 
 def spectrum(block: Harmonic) -> tuple[Array, Array, Array]:
-    """Frequencies [Hz], amplitudes and their noise [N] of the harmonics (n,) of the mean oscillation."""
-    t, marks = block.time, block.marks
+    """Frequencies [Hz], amplitudes and their noise [N] of the harmonics (n,) of the mean oscillation.
+
+    The first and the last oscillation are left out where two others remain: they may hold the start and the stop of the
+    machine, which of them and how much depends on the sign of the stroke.
+    """
+    t, marks = block.time, block.marks[1:-1] if len(block.marks) > RULES.turns + 1 else block.marks
     phase = np.arange(RULES.loop) / RULES.loop
     loops = [np.interp(t[a] + phase * (t[b] - t[a]), t, block.force) for a, b in itertools.pairwise(marks)]
     harmonics = rfft(np.array(loops), axis=1) * 2 / RULES.loop

@@ -24,6 +24,8 @@ class Harmonic:
     marks: NDArray[np.int64]
     name: str = ""
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through, see averaging.py
+    recorded: Array | None = None  # (n,) the stroke with its noise, where `stroke` is without
+    usable: NDArray[np.bool_] | None = None  # (n,) False where the force says nothing; None: everywhere it does
 
     def __post_init__(self) -> None:
         """Shared by all who read it."""
@@ -33,6 +35,18 @@ class Harmonic:
     def intact(self) -> bool:
         """Whether the record is of the full damper with its preload."""
         return is_intact(self.oil_level, self.gas_preload)
+
+    @property
+    def stroke_noise(self) -> float:
+        """Root mean square [m] of what was taken out of the recorded stroke in the measured oscillations."""
+        if self.recorded is None:
+            return 0.0
+        span = slice(int(self.marks[0]), int(self.marks[-1]) + 1)
+        return float(np.sqrt(np.mean((self.recorded[span] - self.stroke[span]) ** 2)))
+
+    def counts(self, span: slice) -> NDArray[np.bool_]:
+        """Which samples of a span say something (m,)."""
+        return np.ones(len(self.time[span]), dtype=bool) if self.usable is None else self.usable[span]
 
     @property
     def top_speed(self) -> float:
@@ -59,7 +73,12 @@ class Harmonic:
         new_marks = marks[1:] if self.marks[0] > 0 else marks
         time, stroke, velocity = (x[kept] for x in (self.time, self.stroke, self.velocity))
         force = np.concatenate([self.force[kept[:1]], means(time, impulse(self.time, self.force)[kept])])
-        return replace(self, time=time, stroke=stroke, velocity=velocity, force=force, marks=np.array(new_marks))
+        recorded = None if self.recorded is None else self.recorded[kept]
+        usable = None if self.usable is None else self.usable[kept]
+        return replace(
+            self, time=time, stroke=stroke, velocity=velocity, force=force, marks=np.array(new_marks), recorded=recorded,
+            usable=usable,
+        )  # fmt: skip
 
     def works(self) -> Array:
         """Measured work [J] of each oscillation: the area of the loop."""

@@ -1,6 +1,7 @@
 """The oscillations of a measured harmonic record: where they begin and end, without preconditioning and rests."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from twintube.arrays import Array
 from twintube.data import MEASURED, Record
 from twintube.engine.simulate import InputError
 from twintube.fitting.harmonic import Harmonic
+from twintube.fitting.strokes import quiet
 
 REST = 1.0  # a rest lasts at least so long [s] ...
 STILL = 0.004  # ... with the stroke within this share of its range, less than a ramp of 1 mm/s goes
@@ -94,8 +96,11 @@ def smooth_velocity(record: Record) -> Array:
 def harmonic(record: Record) -> Harmonic:
     """The longest run of oscillations at the record's highest speed, with what was before it as a lead.
 
-    Rests keep only their ends; what comes after the run is left out. Raises InputError where there is no full oscillation.
+    Its stroke is without noise (strokes.py), and so is a velocity that comes from the stroke. Rests keep only their ends;
+    what comes after the run is left out. Raises InputError where there is no full oscillation.
     """
+    recorded = record.stroke
+    record = replace(record, stroke=quiet(record.time, recorded))
     parts = segments(record.time, record.stroke)
     kept = np.concatenate(parts)
     time, stroke, velocity, force = (x[kept] for x in (record.time, record.stroke, smooth_velocity(record), record.force))
@@ -125,4 +130,6 @@ def harmonic(record: Record) -> Harmonic:
         force=force[:end],
         marks=block,
         name=record.name,
+        recorded=recorded[kept][:end],
+        usable=record.usable[kept][:end],
     )

@@ -6,12 +6,13 @@
     Objective, minimise equations 42 and 43 for whole swarms, and the optimisers
 
 First step: intact.py, sines.py; third and fourth: objective.py, optimise.py; what is known of the result: uncertainty.py,
-validation.py. What diagnosis needs as well is in twintube.fitting.
+intact_intervals.py, validation.py, remarks.py, figures.py. What diagnosis needs as well is in twintube.fitting.
 """
 
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.oscillations import harmonic
-from twintube.identification.dataset import Result, identify, identify_dataset, summary
+from twintube.identification.dataset import Result, identify, identify_dataset
+from twintube.identification.figures import headline, summary
 from twintube.identification.objective import Objective
 from twintube.identification.optimise import METHODS, Best, minimise
 from twintube.identification.workflow import PAPER, QUICK, Budget, Identification, identify_damper
@@ -27,6 +28,7 @@ __all__ = [
     "Objective",
     "Result",
     "harmonic",
+    "headline",
     "identify",
     "identify_damper",
     "identify_dataset",

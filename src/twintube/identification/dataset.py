@@ -1,27 +1,26 @@
 """From a dataset folder to an identified parameter set with its origin and its validation."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from twintube.arrays import Array
 from twintube.dampers import Damper
-from twintube.data import LoadedDataset, load_dataset
-from twintube.data.condition import is_intact
+from twintube.data import LoadedDataset, Record, load_dataset
 from twintube.engine.simulate import InputError
 from twintube.fitting.averaging import averaging, through
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.oscillations import harmonic
-from twintube.fitting.parameters import TABLE_6
 from twintube.fitting.splits import distinct
+from twintube.fitting.strokes import quiet
+from twintube.identification.remarks import EQUAL_SPEEDS, SINGLE, continuation, noisy, reach
 from twintube.identification.validation import Validated, intact, validate_drives, validate_harmonic
 from twintube.identification.workflow import PAPER, Budget, Identification, identify_damper
+from twintube.words import listed
 
 ENOUGH = 5  # distinct velocities from which on some are held out, where dataset.toml splits nothing
 HELD_OUT = (3, 1)  # every third velocity from the second on; not the two highest, between which cavitation begins
-EQUAL_SPEEDS = 1.03  # velocities of sines, free of noise, that differ by a smaller factor are taken for equal
 
 
 @dataclass(frozen=True)
@@ -75,7 +74,8 @@ def identify_dataset(
     drives = [r for r in dataset.records if r.measurement == "stochastic"]
     sines = [harmonic(r) for r in dataset.records if r.measurement == "harmonic"]
     if not sines:
-        raise InputError(f"{dataset.title}: no harmonic record to identify from")
+        kinds = listed(sorted({r.measurement for r in dataset.records}))
+        raise InputError(f"{dataset.title}: no harmonic record to identify from, only {kinds}")
     stated = {r.name: r.split for r in dataset.records}
     split, remarks = splits(sines, stated)
     smoothed = averaging(sines)
@@ -87,20 +87,28 @@ def identify_dataset(
         raise InputError(f"{dataset.title}: all harmonic records are held out, none is left to identify from")
     result = identify_damper(
         dataset.damper,
-        next(((r.stroke, r.force) for r in slow if intact(r) and r.split != "heldout"), None),
+        next((loop(r) for r in slow if intact(r) and r.split != "heldout"), None),
         [h for h in fitted if h.intact],
         [h for h in fitted if not h.intact],
-        slow_lost=[(r.oil_level, (r.stroke, r.force)) for r in slow if not r.gas_preload and r.split != "heldout"],
+        slow_lost=[(r.oil_level, loop(r)) for r in slow if not r.gas_preload and r.split != "heldout"],
         method=method, budget=budget, seed=seed, journal=journal, progress=progress,
     )  # fmt: skip
+    measured = [h for h in fitted if h.intact]
     levels = sorted({h.oil_level for h in sines if not h.intact}, reverse=True)
-    damper = with_origin(replace(result.damper, measured_levels=tuple(levels)), dataset, result, method, seed, len(fitted))
+    damper = with_origin(
+        replace(result.damper, measured_levels=tuple(levels)), dataset, result, method, seed, len(fitted), reach(measured)
+    )
     result = replace(result, damper=damper)
     rows = [validate_harmonic(damper, h, kind, result.offset) for h, kind in zip(sines, split, strict=True)]
     return Result(
-        dataset, list(zip(sines, split, strict=True)), result, rows + validate_drives(damper, drives),
-        remarks + result.remarks,
+        dataset, list(zip(sines, split, strict=True)), result, rows + validate_drives(damper, drives, result.offset),
+        remarks + result.remarks + continuation(damper, measured) + noisy(damper, sines),
     )  # fmt: skip
+
+
+def loop(record: Record) -> tuple[Array, Array]:
+    """Stroke [m] without its noise and force [N] of a quasi-static record."""
+    return quiet(record.time, record.stroke), record.force
 
 
 def splits(records: Sequence[Harmonic], stated: dict[str, str | None]) -> tuple[list[str], list[str]]:
@@ -116,6 +124,8 @@ def splits(records: Sequence[Harmonic], stated: dict[str, str | None]) -> tuple[
         "heldout" if counts and any(v <= r.top_speed <= EQUAL_SPEEDS * v for v in held) else "fit"
         for r, counts in zip(records, judged, strict=True)
     ]
+    if len(records) == 1:
+        return kinds, [SINGLE]
     if not held:
         count = "1 velocity" if len(speeds) == 1 else f"{len(speeds)} velocities"
         return kinds, [f"{count}, fewer than {ENOUGH}: no record is held out, the validation is of the fit"]
@@ -124,9 +134,9 @@ def splits(records: Sequence[Harmonic], stated: dict[str, str | None]) -> tuple[
 
 
 def with_origin(
-    damper: Damper, dataset: LoadedDataset, result: Identification, method: str, seed: int, fitted: int
+    damper: Damper, dataset: LoadedDataset, result: Identification, method: str, seed: int, fitted: int, top: float
 ) -> Damper:
-    """The damper with where its values come from."""
+    """The damper with where its values come from; its F-v curve was measured up to `top` [m/s]."""
     origin = f"identified from '{dataset.title}': {fitted} harmonic records"
     sources, assumed = dict(damper.sources), dict(damper.assumed)
     changed = [
@@ -138,14 +148,17 @@ def with_origin(
         changed += ["degradation", "foam", "cavitation"]
     for group in changed:
         sources[group] = f"{origin}, {method}, seed {seed}" if group not in ("fv", "friction", "gas_spring") else origin
+        if group == "fv":
+            sources[group] += f"; measured up to {top:.3g} m/s, beyond by the last slope"
         known = parameters_of(dataset.damper, group)
         for key in [key for key in assumed if key.split(".")[0] == group]:
             name = key.partition(".")[2]
             if not name or parameters_of(damper, group).get(name) != known.get(name):
                 del assumed[key]
+    groups = {item.name: item.metadata["group"] for item in fields(type(damper.parameters))}
     for estimate in result.estimates:
         if not estimate.determined:
-            group = "degradation" if estimate.name in TABLE_6 else "cavitation" if "cav" in estimate.name else "foam"
+            group = groups[estimate.name]
             assumed[f"{group}.{estimate.name}"] = "not determined by the records it was identified from"
     return replace(damper, name=f"{damper.name}-identified", title=dataset.title, sources=sources, assumed=assumed)
 
@@ -154,67 +167,3 @@ def parameters_of(damper: Damper, group: str) -> dict[str, Any]:
     """The parameters of a group by name."""
     table = damper.parameters
     return {n: getattr(table, n) for n, f in type(table).__dataclass_fields__.items() if f.metadata["group"] == group}
-
-
-def summary(result: Result) -> dict[str, Any]:
-    """The result as JSON takes it."""
-    identified = result.identification
-    return {
-        "dataset": result.dataset.title,
-        "damper": identified.damper.name,
-        "remarks": result.remarks,
-        "steps": [
-            {
-                "title": s.title, "parameters": s.names, "error": s.best.error, "unit": s.unit,
-                "evaluations": s.best.evaluations,
-            }
-            for s in identified.steps
-        ],
-        "parameters": {
-            e.name: {
-                "value": e.value, "interval": [e.low, e.high], "bounds": e.bounds,
-                "determined": e.determined, "at_bound": e.at_bound,
-            }
-            for e in identified.estimates
-        },
-        "not_told_apart": [{"parameters": [a, b], "correlation": c} for a, b, c in identified.pairs],
-        "force_offset_N": identified.offset,
-        "validation": [asdict(row) for row in result.validation],
-        "heldout": totals(result.validation, "heldout"),
-        "fit": totals(result.validation, "fit"),
-    }  # fmt: skip
-
-
-def totals(rows: Sequence[Validated], split: str) -> dict[str, float | None] | None:
-    """Errors over the harmonic records of a split: force as RMSE, works relative to the measured and to the intact work.
-
-    The latter says more where a degraded damper does little work: 3 J of 10 J are little against the intact 100 J.
-    """
-    harmonics = [row for row in rows if row.measurement == "harmonic" and row.split == split]
-    if not harmonics:
-        return None
-    errors = np.array([
-        [abs(s - m) / abs(m) for s, m in zip(row.work_simulated, row.work_measured, strict=True)] for row in harmonics
-    ])  # fmt: skip
-    figures: dict[str, float | None] = {
-        "records": len(harmonics),
-        "force_rmse_N": float(np.sqrt(np.mean([row.force_rmse**2 for row in harmonics]))),
-        "force_rmse_of_peak": float(np.mean([row.force_rmse / row.force_peak for row in harmonics])),
-    }
-    for i, which in enumerate(("first", "last")):
-        figures[f"work_error_{which}"] = float(np.median(errors[:, i]))
-        figures[f"work_error_{which}_worst"] = float(errors[:, i].max())
-        relative = [of_intact(row, rows, i) for row in harmonics]
-        known = [value for value in relative if value is not None]
-        figures[f"work_error_{which}_of_intact"] = float(np.median(known)) if known else None
-        figures[f"work_error_{which}_of_intact_worst"] = max(known) if known else None
-    return figures
-
-
-def of_intact(row: Validated, rows: Sequence[Validated], i: int) -> float | None:
-    """Error of a record's first or last work relative to that of the intact damper at an equal velocity."""
-    for other in rows:
-        full = is_intact(other.oil_level, other.gas_preload) and other.measurement == "harmonic"
-        if full and row.top_speed / EQUAL_SPEEDS <= other.top_speed <= EQUAL_SPEEDS * row.top_speed:
-            return abs(row.work_simulated[i] - row.work_measured[i]) / abs(other.work_measured[i])
-    return None

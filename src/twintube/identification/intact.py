@@ -14,10 +14,14 @@ from twintube.dampers import Damper
 from twintube.dampers.toml import continued
 from twintube.engine.simulate import InputError
 from twintube.fitting.harmonic import Harmonic
+from twintube.fitting.strokes import direction, turns
+from twintube.identification.intact_intervals import scattered
+from twintube.identification.uncertainty import Estimate
 
 # The middle of the stroke, in which friction is saturated and no stop is near [share of the largest stroke].
 MIDDLE = 0.6
 NOISE = 0.01  # of the stroke's range: a reversal is more than that
+MEDIAN = 1.25  # standard error of a median over that of a mean
 V_SLOW = 1e-3  # velocity of the quasi-static measurement [m/s]
 
 
@@ -29,27 +33,12 @@ class QuasiStatic:
     F_0: float  # gas force at stroke 0, pushes the rod out [N]
     F_FrS: float  # half the width of the hysteresis at stroke 0 [N]
     sigma_0: float  # slope of the hysteresis at reversal [N/m]
-
-
-def turns(stroke: Array) -> list[int]:
-    """The samples of all reversals by more than the noise of a stroke, the first and the last sample included."""
-    least = NOISE * float(np.ptp(stroke))
-    reversals, extreme, rising = [0], 0, 0
-    for i, z in enumerate(stroke.tolist()):
-        if (rising >= 0 and z > stroke[extreme]) or (rising <= 0 and z < stroke[extreme]):
-            if rising == 0 and abs(z - stroke[0]) > least:
-                rising = 1 if z > stroke[0] else -1
-            if rising != 0:
-                extreme = i
-        elif rising != 0 and abs(z - stroke[extreme]) > least:
-            reversals.append(extreme)
-            extreme, rising = i, -rising
-    return [*reversals, len(stroke) - 1]
+    errors: dict[str, tuple[float, int]]  # standard errors from the scatter of the strokes, with degrees of freedom
 
 
 def branches(stroke: Array) -> list[slice]:
     """The strokes of one direction between reversals, those that cross the middle only."""
-    strokes = [slice(a, b + 1) for a, b in itertools.pairwise(turns(stroke)) if b > a]
+    strokes = [slice(a, b + 1) for a, b in itertools.pairwise(turns(stroke, NOISE * float(np.ptp(stroke)))) if b > a]
     reach = MIDDLE * np.abs(stroke).max()
     return [s for s in strokes if np.abs(stroke[s]).max() >= reach and stroke[s].min() < 0 < stroke[s].max()]
 
@@ -68,18 +57,28 @@ def quasi_static(stroke: Array, force: Array) -> QuasiStatic:
             lines[bool(z[-1] > z[0])].append(np.polyfit(z[inner], F[inner], 1))
     if not lines[True] or not lines[False]:
         raise InputError("quasi-static record: no full stroke in both directions")
-    up, down = (np.mean(lines[direction], axis=0) for direction in (True, False))
+    up, down = (np.mean(lines[way], axis=0) for way in (True, False))
     F_FrS = float(up[1] - down[1]) / 2
     if F_FrS <= 0:
         raise InputError(f"quasi-static record: half the hysteresis is {F_FrS:g} N, it must be above 0; check the signs")
     middle = (up + down) / 2
-    return QuasiStatic(
-        c_gas=float(middle[0]), F_0=float(-middle[1]), F_FrS=F_FrS, sigma_0=reversal_slope(stroke, force, middle, F_FrS)
-    )
+    counts = [len(lines[way]) for way in (True, False)]
+    free = sum(counts) - 2
+    # Pooled over both ways, as each may have few strokes.
+    squares = sum(np.sum((np.array(lines[way]) - np.mean(lines[way], axis=0)) ** 2, axis=0) for way in (True, False))
+    slope, height = np.sqrt(squares / max(1, free) * sum(1 / n for n in counts)) / 2
+    sigma_0, spread, reversals = reversal_slope(stroke, force, middle, F_FrS)
+    errors = {
+        "c_gas": (float(slope), free), "F_0": (float(height), free), "F_FrS": (float(height), free),
+        "sigma_0": (spread, reversals - 1),
+    }  # fmt: skip
+    return QuasiStatic(c_gas=float(middle[0]), F_0=float(-middle[1]), F_FrS=F_FrS, sigma_0=sigma_0, errors=errors)
 
 
-def reversal_slope(stroke: Array, force: Array, line: Array, F_FrS: float) -> float:
+def reversal_slope(stroke: Array, force: Array, line: Array, F_FrS: float) -> tuple[float, float, int]:
     """sigma_0 [N/m] from the stroke after a reversal that the friction needs to change its sign (delta_D = 1).
+
+    Also its standard error and the number of reversals.
 
     After a reversal F = F_FrS (1 - 2 exp(-sigma_0 x / F_FrS)), which is zero at x = F_FrS ln 2 / sigma_0.
     """
@@ -94,15 +93,9 @@ def reversal_slope(stroke: Array, force: Array, line: Array, F_FrS: float) -> fl
             lengths.append(abs(z[i] + share * (z[i + 1] - z[i]) - z[0]))
     if not lengths or np.median(lengths) <= 0:
         raise InputError("quasi-static record: the friction reverses within a single interval; sample more densely")
-    return float(F_FrS * np.log(2) / np.median(lengths))
-
-
-def direction(stroke: Array) -> NDArray[np.bool_]:
-    """Whether the stroke rises (n,), reversals by its noise apart."""
-    rising = np.zeros(len(stroke), dtype=bool)
-    for a, b in itertools.pairwise(turns(stroke)):
-        rising[a : b + 1] = stroke[b] > stroke[a]
-    return rising
+    sigma_0 = float(F_FrS * np.log(2) / np.median(lengths))
+    spread = float(np.std(lengths) / np.median(lengths) / np.sqrt(max(1, len(lengths) - 1)))
+    return sigma_0, sigma_0 * MEDIAN * spread, len(lengths)
 
 
 def fv_points(damper: Damper, records: Sequence[Harmonic]) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
@@ -126,8 +119,10 @@ def fv_points(damper: Damper, records: Sequence[Harmonic]) -> tuple[list[tuple[f
     return sorted(points[True]), sorted(points[False])
 
 
-def identify_intact(damper: Damper, slow: tuple[Array, Array] | None, records: Sequence[Harmonic]) -> Damper:
-    """The damper with F-v curve, friction and gas spring from its intact records.
+def identify_intact(
+    damper: Damper, slow: tuple[Array, Array] | None, records: Sequence[Harmonic]
+) -> tuple[Damper, list[Estimate]]:
+    """The damper with F-v curve, friction and gas spring from its intact records, and intervals of the latter.
 
     `slow` is stroke [m] and force [N] of the quasi-static record; without it friction and gas spring stay. The Stribeck
     scaling stays: these records do not determine it. Raises InputError, and ParameterError where the curve is not monotone.
@@ -135,16 +130,16 @@ def identify_intact(damper: Damper, slow: tuple[Array, Array] | None, records: S
     if not 2 <= len(records) <= FV_POINTS:
         raise InputError(f"{len(records)} intact harmonic records, from 2 to {FV_POINTS} are needed for the F-v curve")
     if slow is None:
-        return with_curve(damper, records)
+        return with_curve(damper, records), []
     stroke, force = slow
     for _ in range(3):  # the curve needs the friction, the friction the little fluid force at 1 mm/s
         q = quasi_static(stroke, force)
-        damper = damper.with_(c_gas=max(0.0, q.c_gas), F_0=max(0.0, q.F_0), F_FrS=q.F_FrS, sigma_0=q.sigma_0)
-        damper = with_curve(damper, records)
-        rising = direction(stroke)
+        values = {"c_gas": max(0.0, q.c_gas), "F_0": max(0.0, q.F_0), "F_FrS": q.F_FrS, "sigma_0": q.sigma_0}
+        damper = with_curve(damper.with_(**values), records)
+        rising = direction(stroke, NOISE * float(np.ptp(stroke)))
         p = damper.parameters
         force = slow[1] - np.where(rising, fluid_force(p, V_SLOW), fluid_force(p, -V_SLOW))
-    return damper
+    return damper, scattered(values, q.errors)
 
 
 def with_curve(damper: Damper, records: Sequence[Harmonic]) -> Damper:

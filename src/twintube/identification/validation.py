@@ -1,7 +1,7 @@
 """How a parameter set does on measured records: force, work per oscillation, and work of drives relative to intact."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from twintube.fitting.averaging import averaged
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.oscillations import smooth_velocity
 from twintube.fitting.simulation import tolerant
+from twintube.fitting.strokes import quiet
 
 ALIKE = 0.05  # of path length and duration, by which drives of equal strokes may differ
 
@@ -34,6 +35,9 @@ class Validated:
     work_simulated: tuple[float, ...]
     relative_measured: float | None = None  # drives: work relative to that of the intact damper in this drive
     relative_simulated: float | None = None
+    amplitude: float = 0.0  # [m], half the range of the stroke
+    stroke_noise: float = 0.0  # [m] RMS, taken out of the stroke before anything is simulated
+    force_rmse_recorded: float | None = None  # [N] simulated over the stroke as recorded, where that has noise
 
 
 def state(damper: Damper, level: float, preload: bool | int) -> Damper:
@@ -48,40 +52,59 @@ def predicted(damper: Damper, record: Harmonic, offset: float) -> Array:
     return averaged(record.time, force + offset, record.averaged)
 
 
+def recorded(record: Harmonic) -> Harmonic:
+    """The record with the noise of its stroke."""
+    return record if record.recorded is None else replace(record, stroke=record.recorded)
+
+
 def validate_harmonic(damper: Damper, record: Harmonic, split: str, offset: float = 0.0) -> Validated:
     """Force and works of a harmonic record; `offset` is the zero of the load cell [N]."""
     force = predicted(damper, record, offset)
     span = slice(int(record.marks[0]), int(record.marks[-1]) + 1)
     measured = record.works()
+    noise, usable = record.stroke_noise, record.counts(span)
+    over_noise = predicted(damper, recorded(record), offset) if noise else force
     cycles = [slice(a, b + 1) for a, b in zip(record.marks[:-1], record.marks[1:], strict=True)]
     simulated = [float(np.trapezoid(force[c], record.stroke[c])) for c in cycles]
     return Validated(
         record.name, "harmonic", record.oil_level, bool(record.gas_preload), split, record.top_speed,
-        rms(force[span] - record.force[span]), float(np.abs(record.force[span]).max()),
+        rms((force - record.force)[span][usable]), float(np.abs(record.force[span][usable]).max()),
         (float(measured[0]), float(measured[-1])), (simulated[0], simulated[-1]),
+        amplitude=float(np.ptp(record.stroke[span])) / 2, stroke_noise=noise,
+        force_rmse_recorded=rms((over_noise - record.force)[span][usable]) if noise else None,
     )  # fmt: skip
 
 
-def validate_drives(damper: Damper, records: Sequence[Record]) -> list[Validated]:
-    """Force and work of the drives; relative to the record of the intact damper over an equal stroke, where there is one."""
-    forces = [
-        simulate(state(damper, r.oil_level, r.gas_preload), r.stroke, smooth_velocity(r), r.time).force for r in records
-    ]
+def validate_drives(damper: Damper, records: Sequence[Record], offset: float = 0.0) -> list[Validated]:
+    """Force and work of the drives; relative to the record of the intact damper over an equal stroke, where there is one.
+
+    `offset` is the zero of the load cell [N].
+    """
+    calm = [replace(r, stroke=quiet(r.time, r.stroke)) for r in records]
+    forces = [driven(damper, r) + offset for r in calm]
     works = [
-        [float(np.trapezoid(F, r.stroke)) for F in (r.force, simulated)]
-        for r, simulated in zip(records, forces, strict=True)
+        [float(np.trapezoid(F, r.stroke)) for F in (r.force, simulated)] for r, simulated in zip(calm, forces, strict=True)
     ]
     rows = []
-    for r, force, (measured, simulated) in zip(records, forces, works, strict=True):
+    for r, still, force, (measured, simulated) in zip(records, calm, forces, works, strict=True):
         twin = next((i for i, other in enumerate(records) if intact(other) and equal_drives(other, r)), None)
         degraded = twin is not None and not intact(r)
+        noise = rms(r.stroke - still.stroke)
         rows.append(Validated(
             r.name, r.measurement, r.oil_level, r.gas_preload, "heldout", float(np.abs(r.velocity).max()),
-            rms(force - r.force), float(np.abs(r.force).max()), (measured,), (simulated,),
+            rms((force - r.force)[r.usable]), float(np.abs(r.force[r.usable]).max()), (measured,), (simulated,),
             measured / works[twin][0] if twin is not None and degraded else None,
             simulated / works[twin][1] if twin is not None and degraded else None,
+            amplitude=float(np.ptp(still.stroke)) / 2, stroke_noise=noise,
+            force_rmse_recorded=rms((driven(damper, r) + offset - r.force)[r.usable]) if noise else None,
         ))  # fmt: skip
     return rows
+
+
+def driven(damper: Damper, record: Record) -> Array:
+    """Force (n,) [N] of the model over a record's stroke."""
+    condition = state(damper, record.oil_level, record.gas_preload)
+    return simulate(condition, record.stroke, smooth_velocity(record), record.time).force
 
 
 def intact(record: Record) -> bool:

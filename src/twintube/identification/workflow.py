@@ -99,11 +99,10 @@ def identify_damper(
     if not intact and not degraded:
         raise InputError("no harmonic record to identify from")
     remarks: list[str] = []
-    damper, offset = first_step(damper, slow, intact, slow_lost, remarks)
+    damper, offset, known = first_step(damper, slow, intact, slow_lost, remarks)
     if not degraded:
-        return Identification(
-            damper, [], [], [], offset, [*remarks, "no degraded record: only the intact damper is identified"]
-        )
+        remarks.append("no degraded record: only the intact damper is identified")
+        return Identification(damper, [], known, [], offset, remarks)
     calm = [r for r in degraded if r.top_speed <= SLOW]
     steps: list[Step] = []
 
@@ -160,7 +159,7 @@ def identify_damper(
         for j in range(i)
         if abs(related[i, j]) > 0.9 and intervals[i].determined and intervals[j].determined
     ]
-    return Identification(every.damper_at(x), steps, intervals, pairs, offset, remarks)
+    return Identification(every.damper_at(x), steps, known + intervals, pairs, offset, remarks)
 
 
 def journal_file(folder: Path | None, number: int, objective: Objective) -> Path | None:
@@ -177,14 +176,15 @@ def first_step(
     intact: Sequence[Harmonic],
     slow_lost: Sequence[tuple[float, Slow]],
     remarks: list[str],
-) -> tuple[Damper, float]:
-    """F-v curve, friction and gas spring, and the zero of the load cell [N] where only sines show it."""
+) -> tuple[Damper, float, list[Estimate]]:
+    """F-v curve, friction and gas spring, the zero of the load cell [N] where only sines show it, and intervals."""
     offset = 0.0
+    known: list[Estimate] = []
     if slow is not None and len(intact) >= 2:
-        damper = identify_intact(damper, slow, intact)
+        damper, known = identify_intact(damper, slow, intact)
     elif intact:
         fit = identify_sines(damper, intact)
-        damper, offset = fit.damper, fit.offset
+        damper, offset, known = fit.damper, fit.offset, fit.estimates
         remarks.append(
             "friction and gas spring from the harmonic records, as there is no quasi-static record of the intact damper"
         )
@@ -203,4 +203,4 @@ def first_step(
             rises.append((q.F_FrS / damper.parameters.F_FrS - 1.0) / (1.0 - level))
     if rises:
         damper = damper.with_(oil_loss_gain=float(np.clip(np.mean(rises), 0.0, 5.0)))
-    return damper, offset
+    return damper, offset, known

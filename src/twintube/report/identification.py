@@ -2,19 +2,24 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from twintube.core.kernel import fluid_force
 from twintube.files import write_bytes, write_text
+from twintube.fitting.parameters import DEGRADATION
+from twintube.fitting.splits import distinct
 from twintube.identification import Harmonic, Result
-from twintube.identification.dataset import totals
+from twintube.identification.figures import totals
 from twintube.identification.intact import fv_points
+from twintube.identification.remarks import reach
 from twintube.identification.validation import Validated, predicted
 from twintube.report import style
 from twintube.report.page import Picture, Section, Table, html
 
+EQUAL_AMPLITUDES = 1.1  # amplitudes that differ by a smaller factor belong to a line
 LOOPS = 8  # records of which the loops are drawn
 
 
@@ -48,13 +53,19 @@ def works(rows: Sequence[Validated]) -> Figure:
     """Work of the first and the last oscillation over the velocity, per oil level."""
     figure, axes = style.canvas(1, 2, (10.0, 4.2))
     levels = sorted({(row.oil_level, row.gas_preload) for row in rows}, reverse=True)
+    sizes = distinct((row.amplitude for row in rows), EQUAL_AMPLITUDES)
     palette = [style.INK, style.ORANGE, style.RED, style.BLUE, style.GREEN, style.VIOLET]
     for i, (ax, text) in enumerate(zip(axes[0], ("first oscillation", "last oscillation"), strict=True)):
         for colour, level in zip(palette * 9, levels, strict=False):
             here = sorted((r for r in rows if (r.oil_level, r.gas_preload) == level), key=lambda r: r.top_speed)
-            v = [r.top_speed for r in here]
             name = f"{level[0]:.0%} oil, {'with' if level[1] else 'without'} preload"
-            ax.plot(v, [r.work_simulated[i] for r in here], "-", color=colour, lw=1.3, label=f"simulated, {name}")
+            label: str | None = f"simulated, {name}"
+            # A line per amplitude: the work at a velocity is proportional to it.
+            for size in sizes:
+                line = [r for r in here if size <= r.amplitude <= EQUAL_AMPLITUDES * size]
+                v, W = [r.top_speed for r in line], [r.work_simulated[i] for r in line]
+                ax.plot(v, W, "-" if len(line) > 1 else "_", color=colour, lw=1.3, ms=9, label=label if line else None)
+                label = None if line else label
             for fitted in (True, False):
                 some = [r for r in here if (r.split != "heldout") is fitted]
                 label = f"measured, {'fitted' if fitted else 'held out'}, {name}" if some else None
@@ -90,7 +101,7 @@ def curve(result: Result) -> Figure:
 
 def intervals(result: Result) -> Figure:
     """Every parameter with its interval within its allowed range."""
-    estimates = result.identification.estimates
+    estimates = [e for e in result.identification.estimates if e.name in DEGRADATION]
     figure, axes = style.canvas(1, 1, (8.0, 0.3 * len(estimates) + 1.0))
     ax = axes[0, 0]
     for i, e in enumerate(estimates):
@@ -131,20 +142,28 @@ def drives(rows: Sequence[Validated]) -> Figure:
     return figure
 
 
-def percent(part: dict[str, float | None] | None, what: str) -> list[str]:
+def percent(part: dict[str, Any] | None, what: str) -> list[str]:
     """A row of the table of errors."""
     if part is None:
         return [what, "none", "", "", ""]
 
     def work(which: str) -> str:
+        if f"work_error_{which}" not in part:
+            return ""
         text = f"{part[f'work_error_{which}']:.1%} (worst {part[f'work_error_{which}_worst']:.1%})"
         of_intact = part[f"work_error_{which}_of_intact"]
         if of_intact is not None:
             text += f"; of the intact work {of_intact:.1%} (worst {part[f'work_error_{which}_of_intact_worst']:.1%})"
         return text
 
-    force = f"{part['force_rmse_N']:.1f} N, {part['force_rmse_of_peak']:.1%} of the peak"
-    return [what, f"{part['records']:.0f}", force, work("first"), work("last")]
+    force = (
+        f"{part['force_rmse_N']:.1f} N, {part['force_rmse_of_peak']:.1%} of the peak "
+        f"(worst {part['force_rmse_of_peak_worst']:.1%}, {part['worst']})"
+    )
+    if "force_rmse_recorded_N" in part:
+        force += f"; {part['force_rmse_recorded_N']:.1f} N over the strokes with their noise"
+    drives = f", {part['stochastic']} stochastic" if part["stochastic"] else ""
+    return [what, f"{part['records']}{drives}", force, work("first"), work("last")]
 
 
 def parameter_table(result: Result) -> Table:
@@ -181,19 +200,23 @@ def write_report(result: Result, folder: Path) -> list[Path]:
         ],
         "Error of the identified model; works as median",
     )  # fmt: skip
+    top = reach([h for h, split in result.harmonics if h.intact and split == "fit"])
+    continued = f"Measured up to {top:.3g} m/s; the parameter file continues it by its last slope." if top else ""
     pictures = {"works": works(harmonics), "loops": loops(result, chosen), "fv_curve": curve(result)}
     sections = [
         section("works", "Work per oscillation", pictures, "Filled: fitted, open: held out."),
         section("loops", "Force over stroke", pictures, "First and last oscillation of some records, those held out first."),
-        section("fv_curve", "F-v curve", pictures, "The first step of the identification."),
+        section("fv_curve", "F-v curve", pictures, f"The first step of the identification. {continued}"),
     ]
     if identified.estimates:
-        pictures |= {"intervals": intervals(result), "convergence": convergence(result)}
+        if identified.steps:
+            pictures |= {"intervals": intervals(result), "convergence": convergence(result)}
         alike = [f"{a} and {b} act alike on these records (correlation {c:.2f})" for a, b, c in identified.pairs]
         sections.insert(0, Section(
-            "parameters", "Parameters", text=alike, pictures=[picture(pictures["intervals"], "intervals")],
-            tables=[parameter_table(result)],
+            "parameters", "Parameters", text=alike, tables=[parameter_table(result)],
+            pictures=[picture(pictures[name], name) for name in ("intervals",) if name in pictures],
         ))  # fmt: skip
+    if identified.steps:
         steps = Table(
             ["step", "parameters", "error", "evaluations"],
             [

@@ -1,0 +1,85 @@
+"""Strokes lose their noise and nothing else."""
+
+import numpy as np
+import pytest
+from scipy.signal import sawtooth
+
+from twintube.arrays import Array
+from twintube.fitting.strokes import noise, quiet, turns
+from twintube.rig.signals import harmonic_block
+
+NOISE = 2e-5  # [m]
+
+
+def block(v: float = 0.262, dt: float = 1e-3) -> tuple[Array, Array]:
+    signal = harmonic_block(v, 0.04, dt=dt)
+    return signal.time, signal.stroke
+
+
+def noisy(stroke: Array, seed: int = 0) -> Array:
+    return stroke + np.random.default_rng(seed).normal(0.0, NOISE, len(stroke))
+
+
+def reversals(stroke: Array) -> int:
+    way = np.diff(stroke)
+    return int(np.count_nonzero(np.diff(np.sign(way[way != 0.0]))))
+
+
+@pytest.mark.parametrize("dt", [4e-4, 1e-3, 4e-3])
+@pytest.mark.parametrize("v", [0.05, 0.524, 1.572])
+def test_a_clean_stroke_stays(v: float, dt: float) -> None:
+    time, stroke = block(v, dt)
+    assert np.array_equal(quiet(time, stroke), stroke)
+    rounded = np.round(stroke, 8)
+    assert np.abs(quiet(time, rounded) - stroke).max() < 1e-6
+
+
+def test_a_clean_stroke_with_uneven_times_stays() -> None:
+    time = np.arange(0.0, 10.0, 1e-3) + np.random.default_rng(1).uniform(-1e-4, 1e-4, 10_000)
+    stroke = 0.02 * np.sin(2 * np.pi * time)
+    assert np.abs(quiet(time, stroke) - stroke).max() < 1e-6
+
+
+@pytest.mark.parametrize("v", [0.05, 0.262, 0.524])
+def test_white_noise_goes_and_no_reversal_of_it_is_left(v: float) -> None:
+    time, stroke = block(v)
+    result = quiet(time, noisy(stroke))
+    assert noise(noisy(stroke))[0] == pytest.approx(NOISE, rel=0.05)
+    assert np.sqrt(np.mean((result - stroke) ** 2)) < 0.25 * NOISE
+    assert reversals(noisy(stroke)) > 10 * reversals(stroke)
+    assert reversals(result) <= reversals(stroke) + 1
+
+
+def test_a_sharp_reversal_keeps_its_time_and_size() -> None:
+    """Ramps of 1 mm/s: a window blind to the corner would blunt it."""
+    time = np.arange(0.0, 40.0, 1e-3)
+    stroke = 4e-3 * sawtooth(2 * np.pi * time / 16.0, 0.5)
+    result = quiet(time, noisy(stroke))
+    at = turns(result, 1e-3)[1:-1]
+    assert len(at) == 4
+    assert time[at] == pytest.approx([8.0, 16.0, 24.0, 32.0], abs=2 * NOISE / 1e-3)
+    assert np.abs(result[at]) == pytest.approx(4e-3, abs=1.5 * NOISE)
+
+
+def test_the_result_does_not_depend_on_the_sign() -> None:
+    time, stroke = block()
+    assert -quiet(time, -noisy(stroke)) == pytest.approx(quiet(time, noisy(stroke)), abs=1e-12)
+
+
+def test_a_vibration_that_goes_on_is_motion() -> None:
+    """As large as the noise and so fast that any window would take it for noise."""
+    time = np.arange(0.0, 20.0, 1e-2)
+    stroke = 0.012 * np.sin(2 * np.pi * time) + NOISE * np.sin(2 * np.pi * 12.3 * time)
+    result = quiet(time, noisy(stroke))
+    assert np.sqrt(np.mean((result - stroke) ** 2)) < 0.6 * NOISE  # without the vibration at least 0.71
+
+
+def test_a_drive_sampled_too_coarsely_is_left_alone() -> None:
+    rng = np.random.default_rng(3)
+    time, stroke = np.arange(0.0, 20.0, 1e-2), rng.normal(0.0, 5e-3, 2000)
+    assert np.array_equal(quiet(time, stroke), stroke)
+
+
+def test_few_samples_are_left_alone() -> None:
+    time = np.arange(5.0)
+    assert np.array_equal(quiet(time, time), time)
