@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations f64607fdb11a7b58, body 41411b271cb12a09; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations af002b215bea9b01, body 923174f9f1789e2f; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -71,6 +71,10 @@ struct kernel_Parameters {
     double fade_heat;
     double cooling_time;
     double H_start;
+    double fade_kelvin;
+    double friction_kelvin;
+    double gas_kelvin;
+    double gas_heat;
     double friction_slope;
     double friction_bow;
     double leak_film;
@@ -83,6 +87,8 @@ struct kernel_Parameters {
     double carry_over;
     double wear_re;
     double wear_co;
+    double bleed_re;
+    double bleed_co;
 };
 
 struct kernel_Derived {
@@ -137,6 +143,7 @@ struct kernel_State {
     double F_mean;
     double k_mean;
     double W_step;
+    double warm;
     double elapsed;
     double F_held_re;
     double F_held_co;
@@ -147,6 +154,19 @@ struct kernel_State {
     double F_open;
     double F_mount;
     double F_rod;
+    double x_begun;
+    double z_begun;
+    double z_end;
+    double F_D_begun;
+    double F_before;
+    double k_used_re;
+    double k_used_co;
+    double F_middle;
+    double rubbing;
+    double end_share;
+    double F_even;
+    double moved;
+    double felt_slope;
     double heat;
     double V_lost;
     double k_side;
@@ -281,7 +301,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if (p->fade_heat != 0.0)
+    if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
     {
         return 1;
     }
@@ -301,7 +321,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if ((p->wear_re != 0.0) || (p->wear_co != 0.0))
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
     {
         return 1;
     }
@@ -392,6 +412,7 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->F_mean = 0.0;
     s->k_mean = 1.0;
     s->W_step = 0.0;
+    s->warm = 0.0;
     s->elapsed = 0.0;
     s->F_held_re = 0.0;
     s->F_held_co = 0.0;
@@ -402,6 +423,19 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->F_open = 0.0;
     s->F_mount = 0.0;
     s->F_rod = 0.0;
+    s->x_begun = 0.0;
+    s->z_begun = 0.0;
+    s->z_end = 0.0;
+    s->F_D_begun = 0.0;
+    s->F_before = 0.0;
+    s->k_used_re = 1.0;
+    s->k_used_co = 1.0;
+    s->F_middle = 0.0;
+    s->rubbing = 1.0;
+    s->end_share = 1.0;
+    s->F_even = 0.0;
+    s->moved = 1.0;
+    s->felt_slope = 0.0;
     s->heat = 0.0;
     s->V_lost = 0.0;
     s->k_side = 0.0;
@@ -425,32 +459,38 @@ static double kernel_end_stop_press(struct kernel_Parameters* p, double force, d
 }
 
 /* Force [N] at the stroke `z` [m]. */
-static double kernel_end_stop_elastic(struct kernel_Parameters* p, double z)
+static double kernel_end_stop_elastic(struct kernel_Parameters* p, struct kernel_State* s, double z)
 {
     return kernel_end_stop_press(p, p->F_stop_re, z - p->onset_re) - kernel_end_stop_press(p, p->F_stop_co, (-z) - p->onset_co);
 }
 
-/* Force [N] at the stroke `z` [m]; with preload the gas spring of the parameter set is measured, not assumed. */
-static double kernel_gas_spring_elastic(struct kernel_Parameters* p, double z)
+/* Force [N] at the stroke `z` [m]. */
+static double kernel_gas_spring_elastic(struct kernel_Parameters* p, struct kernel_State* s, double z)
 {
-    if (p->gas_preload > 0)
-    {
-        return 0.0;
-    }
     return p->c_residual * z - p->F_residual;
 }
 
-static double kernel_effects_elastic(struct kernel_Parameters* p, double z)
+/* Force [N] by which that of the preload changes at the stroke `z` [m]. */
+static double kernel_oil_temperature_elastic(struct kernel_Parameters* p, struct kernel_State* s, double z)
+{
+    return p->gas_preload * (p->gas_kelvin * s->warm + p->gas_heat * (p->H_start + s->heat)) * (p->c_gas * z - p->F_0);
+}
+
+static double kernel_effects_elastic(struct kernel_Parameters* p, struct kernel_State* s, double z)
 {
     double value;
     value = 0.0;
     if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
     {
-        value += kernel_end_stop_elastic(p, z);
+        value += kernel_end_stop_elastic(p, s, z);
     }
     if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
     {
-        value += kernel_gas_spring_elastic(p, z);
+        value += kernel_gas_spring_elastic(p, s, z);
+    }
+    if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
+    {
+        value += kernel_oil_temperature_elastic(p, s, z);
     }
     return value;
 }
@@ -482,14 +522,14 @@ static void kernel_start(struct kernel_Parameters* p, struct kernel_Derived* d, 
     kernel_pour(d, s, z, kernel_effects_level(p, p->oil_level) * p->V_oil);
     kernel_effects_reset(s);
     s->z_rod = z;
-    s->F_gas += kernel_effects_elastic(p, z);
+    s->F_gas += kernel_effects_elastic(p, s, z);
 }
 
 /* Number of parts for a step of `dt` [s]. */
 static int64_t kernel_parts_of(double dt)
 {
     /* The smaller one first: C has no integer for the number of parts of a very long step. */
-    return int64_t_max(2, 1, (int64_t)ceil(double_min(2, 8.0, dt / 0.0002 - 1e-06)));
+    return int64_t_max(2, 1, (int64_t)ceil(double_min(2, 4.0, dt / 0.0006 - 1e-06)));
 }
 
 /* The force settles within milliseconds. */
@@ -498,7 +538,7 @@ static int64_t kernel_fluid_lag_parts(struct kernel_Parameters* p, double dt)
     return kernel_parts_of(dt);
 }
 
-/* The deflection settles within milliseconds, and k_degr is that of the part before. */
+/* The deflection settles within milliseconds, and the phases lag by a part where k_degr steps. */
 static int64_t kernel_mount_compliance_parts(struct kernel_Parameters* p, double dt)
 {
     return kernel_parts_of(dt);
@@ -571,6 +611,131 @@ static double kernel_valve_force(struct kernel_Parameters* p, double u, double k
     return kernel_fluid_force(p, u) * ((u >= 0.0 ? k_re : k_co));
 }
 
+/* Force of one branch at the speed `u` > 0 [m/s] over that without leak [1]; the leak takes `b` sqrt(F). */
+static double kernel_valve_wear_share(double u, double b, array_double_1d velocities, array_double_1d forces)
+{
+    int64_t i;
+    double v;
+    double F;
+    double slope;
+    double rest;
+    double bend;
+    double whole;
+    double y;
+    i = 0;
+    while((i < 20 - 1) && ((*cspan_at(&velocities, i)) + b * sqrt((*cspan_at(&forces, i))) < u))
+    {
+        i += 1;
+    }
+    v = 0.0;
+    F = 0.0;
+    if (i > 0)
+    {
+        v = (*cspan_at(&velocities, i - 1));
+        F = (*cspan_at(&forces, i - 1));
+    }
+    slope = ((*cspan_at(&forces, i)) - F) / ((*cspan_at(&velocities, i)) - v);
+    /* y = sqrt(force): y^2 = F + slope (u - b y - v) has the positive root */
+    rest = F + slope * (u - v);
+    bend = slope * b;
+    whole = kernel_branch(u, velocities, forces);
+    if ((rest <= 0.0) || (whole <= 0.0))
+    {
+        return 1.0;
+    }
+    y = 2.0 * rest / (bend + sqrt(bend * bend + 4.0 * rest));
+    return y * y / whole;
+}
+
+/* Factor of the intact fluid force [1] that the leak leaves at the speed `u` [m/s]. */
+static double kernel_valve_wear_scale_valve(struct kernel_Parameters* p, double u)
+{
+    double result;
+    if (u > 0.0)
+    {
+        result = (p->bleed_re > 0.0 ? kernel_valve_wear_share(u, p->bleed_re / sqrt(1000.0), p->v_re, p->F_re) : 1.0);
+        return result;
+    }
+    if (u < 0.0)
+    {
+        result = (p->bleed_co > 0.0 ? kernel_valve_wear_share(-u, p->bleed_co / sqrt(1000.0), p->v_co, p->F_co) : 1.0);
+        return result;
+    }
+    return 1.0;
+}
+
+static double kernel_effects_scale_valve(struct kernel_Parameters* p, double u)
+{
+    double value;
+    value = 1.0;
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
+    {
+        value *= kernel_valve_wear_scale_valve(p, u);
+    }
+    return value;
+}
+
+/* Fluid force [N] at the speed `u` [m/s] at the valves, with what passes beside them. */
+static double kernel_mount_compliance_valves(struct kernel_Parameters* p, double u, double k_re, double k_co)
+{
+    return kernel_valve_force(p, u, k_re, k_co) * kernel_effects_scale_valve(p, u);
+}
+
+/* Scaling k_FrS [1] of the friction at the velocity `v` [m/s]; the shape of Figure 12 is assumed. */
+static double kernel_stribeck(struct kernel_Parameters* p, double v)
+{
+    return p->k_high + (1.0 - p->k_high) * exp((-fabs(v)) / p->v_S);
+}
+
+/* Weight [1] of the rate at the end of a step of `q` time constants: the linear decay is met exactly (0.5 at 0, 1 late).
+   Exponentially fitted theta method: Liniger and Willoughby 1970, SIAM Journal on Numerical Analysis 7. */
+static double kernel_end_weight(double q)
+{
+    if (q < 0.001)
+    {
+        return 0.5 + q / 12.0;
+    }
+    if (q > 500.0)
+    {
+        return 1.0;
+    }
+    return 1.0 / (1.0 - exp(-q)) - 1.0 / q;
+}
+
+/* Fix what the search of a step needs; `rate` [m/s] is that of the deflection at its start.
+   The mean rate of the step is (1 - end_share) rate + end_share times that at its end. */
+static void kernel_mount_compliance_begin(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double rate, double dt)
+{
+    double settling;
+    s->z_end = z;
+    s->z_begun = s->z;
+    s->F_D_begun = s->F_D;
+    s->F_middle = kernel_effects_elastic(p, s, 0.0);
+    s->rubbing = kernel_stribeck(p, v);
+    settling = p->tau_mount + p->C_mount * s->felt_slope / s->moved;
+    s->end_share = (settling > 0.0 ? kernel_end_weight(dt / settling) : 1.0);
+    s->x_begun = s->x_mount + (1.0 - s->end_share) * rate * dt;
+}
+
+/* Force [N] behind late valves after `dt` [s] in which that of the columns was `F` [N]. */
+static double kernel_fluid_lag_felt(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
+{
+    if ((p->tau_fluid <= 0.0) || (dt <= 0.0))
+    {
+        return F;
+    }
+    return F + (s->F_late - F) * exp((-dt) / p->tau_fluid);
+}
+
+static double kernel_effects_felt(struct kernel_Parameters* p, struct kernel_State* s, double value, double dt)
+{
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
+    {
+        value = kernel_fluid_lag_felt(p, s, value, dt);
+    }
+    return value;
+}
+
 /* Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N]. */
 static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0001, double* result_2_0001, struct kernel_Parameters* p, double F)
 {
@@ -613,25 +778,6 @@ static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_S
     return value;
 }
 
-/* Force [N] of the rubber's hysteresis at the stroke `z` [m] and the velocity `v` [m/s]. */
-static double kernel_end_stop_rub(struct kernel_Parameters* p, double z, double v)
-{
-    double pressed;
-    pressed = kernel_end_stop_press(p, p->F_stop_re, z - p->onset_re) + kernel_end_stop_press(p, p->F_stop_co, (-z) - p->onset_co);
-    return p->loss_stop * pressed * tanh(v / 0.01);
-}
-
-static double kernel_effects_rub(struct kernel_Parameters* p, double z, double v)
-{
-    double value;
-    value = 0.0;
-    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
-    {
-        value += kernel_end_stop_rub(p, z, v);
-    }
-    return value;
-}
-
 /* Dahl friction force [N] after the stroke `dz` [m]: the exact solution of equation 2 over the stroke. */
 static double kernel_dahl(struct kernel_Parameters* p, struct kernel_Derived* d, double F_D, double dz)
 {
@@ -668,131 +814,137 @@ static double kernel_dahl(struct kernel_Parameters* p, struct kernel_Derived* d,
     return direction * d->F_FrS * (1.0 - side * size);
 }
 
+/* Share of the friction that is left [1]. */
+static double kernel_oil_temperature_scale_friction(struct kernel_Parameters* p, struct kernel_State* s, double z, double v)
+{
+    return exp((-p->friction_kelvin) * s->warm);
+}
+
 /* Factor of the friction force [1] at the stroke `z` [m]. */
-static double kernel_position_friction_scale_friction(struct kernel_Parameters* p, double z, double v)
+static double kernel_position_friction_scale_friction(struct kernel_Parameters* p, struct kernel_State* s, double z, double v)
 {
     return double_max(2, 0.0, 1.0 + z * (p->friction_slope + z * p->friction_bow));
 }
 
 /* Factor of the friction force [1] at the velocity `v` [m/s]. */
-static double kernel_side_load_friction_scale_friction(struct kernel_Parameters* p, double z, double v)
+static double kernel_side_load_friction_scale_friction(struct kernel_Parameters* p, struct kernel_State* s, double z, double v)
 {
     double x;
     x = v / p->v_side;
     return 1.0 + p->side_load * (1.0 - exp((-x) * x)) / (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
 }
 
-static double kernel_effects_scale_friction(struct kernel_Parameters* p, double z, double v)
+static double kernel_effects_scale_friction(struct kernel_Parameters* p, struct kernel_State* s, double z, double v)
 {
     double value;
     value = 1.0;
+    if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
+    {
+        value *= kernel_oil_temperature_scale_friction(p, s, z, v);
+    }
     if ((p->friction_slope != 0.0) || (p->friction_bow != 0.0))
     {
-        value *= kernel_position_friction_scale_friction(p, z, v);
+        value *= kernel_position_friction_scale_friction(p, s, z, v);
     }
     if (p->side_load != 0.0)
     {
-        value *= kernel_side_load_friction_scale_friction(p, z, v);
+        value *= kernel_side_load_friction_scale_friction(p, s, z, v);
     }
     return value;
 }
 
-/* Scaling k_FrS [1] of the friction at the velocity `v` [m/s]; the shape of Figure 12 is assumed. */
-static double kernel_stribeck(struct kernel_Parameters* p, double v)
+/* Force [N] of the rubber's hysteresis at the stroke `z` [m] and the velocity `v` [m/s]. */
+static double kernel_end_stop_rub(struct kernel_Parameters* p, double z, double v)
 {
-    return p->k_high + (1.0 - p->k_high) * exp((-fabs(v)) / p->v_S);
+    double pressed;
+    pressed = kernel_end_stop_press(p, p->F_stop_re, z - p->onset_re) + kernel_end_stop_press(p, p->F_stop_co, (-z) - p->onset_co);
+    return p->loss_stop * pressed * tanh(v / 0.01);
 }
 
-/* Force [N] behind late valves after `dt` [s] in which that of the columns was `F` [N]. */
-static double kernel_fluid_lag_felt(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
+static double kernel_effects_rub(struct kernel_Parameters* p, double z, double v)
 {
-    if ((p->tau_fluid <= 0.0) || (dt <= 0.0))
+    double value;
+    value = 0.0;
+    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
     {
-        return F;
-    }
-    return F + (s->F_late - F) * exp((-dt) / p->tau_fluid);
-}
-
-static double kernel_effects_felt(struct kernel_Parameters* p, struct kernel_State* s, double value, double dt)
-{
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
-    {
-        value = kernel_fluid_lag_felt(p, s, value, dt);
+        value += kernel_end_stop_rub(p, z, v);
     }
     return value;
 }
 
-/* Force of the rubber beyond that of the damper [N] if the step ends with the speed `u` [m/s] at the valves. */
-static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt, double u)
+/* Force of the rubber beyond that of the damper [N] if the step ends with the speed `u` [m/s] at the valves.
+   Sets what belongs to that speed: the forces at the valves and behind them and the speed of the piston. */
+static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double v, double dt, double u)
 {
-    double F;
-    double speed;
     double rate;
     double x;
     double goal;
     double friction;
     double gas;
-    F = kernel_valve_force(p, u, s->k_re, s->k_co);
-    speed = u + kernel_effects_series(p, s, F, dt);
-    rate = v - speed;
-    x = s->x_mount + rate * dt;
-    goal = z - x;
-    friction = kernel_effects_scale_friction(p, goal, v) * kernel_stribeck(p, v) * kernel_dahl(p, d, s->F_D, goal - s->z) + kernel_effects_rub(p, goal, v);
-    gas = d->c_gas * goal + kernel_effects_elastic(p, goal) - kernel_effects_elastic(p, 0.0);
-    return (x + p->tau_mount * rate) / p->C_mount - kernel_effects_felt(p, s, F, dt) - friction - gas - p->m_rod * (speed - s->v_piston) / dt;
+    s->F_open = kernel_mount_compliance_valves(p, u, s->k_re, s->k_co);
+    s->F_mount = kernel_effects_felt(p, s, s->F_open, dt);
+    s->goal_v1 = u + kernel_effects_series(p, s, s->F_open, dt);
+    rate = v - s->goal_v1;
+    x = s->x_begun + rate * s->end_share * dt;
+    goal = s->z_end - x;
+    friction = kernel_effects_scale_friction(p, s, goal, v) * s->rubbing * kernel_dahl(p, d, s->F_D_begun, goal - s->z_begun);
+    gas = d->c_gas * goal + kernel_effects_elastic(p, s, goal) - s->F_middle;
+    return (x + p->tau_mount * rate) / p->C_mount - s->F_mount - friction - kernel_effects_rub(p, goal, v) - gas - p->m_rod * (s->goal_v1 - s->v_piston) / dt;
 }
 
-/* The speed [m/s] at the valves for which rubber and damper agree: bracketed about the last one, then regula falsi. */
-static double kernel_mount_compliance_speed(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v, double dt)
+/* The speed at the valves for which rubber and damper agree: secants between bounds that close in on it. */
+static void kernel_mount_compliance_solve(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double v, double dt)
 {
-    double r_low;
-    double way;
+    double stiffness;
+    double slope;
+    double low;
     double high;
-    double r_high;
-    int64_t n;
     double u;
     double r;
-    double low;
-    low = s->u_valve;
-    r_low = kernel_mount_compliance_excess(p, d, s, z, v, dt, low);
-    if (r_low == 0.0)
-    {
-        return low;
-    }
-    /* The excess falls with the speed. */
-    way = ((r_low > 0.0 ? 1.0 : -1.0)) * double_max(2, 0.05 * fabs(v - low), 0.001);
-    high = low + way;
-    r_high = kernel_mount_compliance_excess(p, d, s, z, v, dt, high);
+    int64_t n;
+    double before;
+    double r_before;
+    double F;
+    double speed;
+    stiffness = 1.0 / p->C_mount + d->c_gas + s->rubbing * p->sigma_0;
+    slope = s->moved * (stiffness * s->end_share * dt + p->tau_mount / p->C_mount + p->m_rod / dt) + s->felt_slope;
+    low = -50.0;
+    high = 50.0;
+    u = s->u_valve;
+    r = kernel_mount_compliance_excess(p, d, s, v, dt, u);
     n = 0;
-    while((r_high * r_low > 0.0) && (n < 60))
+    while((n < 60) && (fabs(r) > 0.0001) && (low < high))
     {
-        low = high;
-        r_low = r_high;
-        way *= 3.0;
-        high += way;
-        r_high = kernel_mount_compliance_excess(p, d, s, z, v, dt, high);
-        n += 1;
-    }
-    n = 0;
-    while((n < 60) && (fabs(r_high) > 1e-06) && (r_low != r_high))
-    {
-        u = high - r_high * (high - low) / (r_high - r_low);
-        r = kernel_mount_compliance_excess(p, d, s, z, v, dt, u);
-        if (r * r_high < 0.0)
+        /* The excess falls with the speed. */
+        if (r > 0.0)
         {
-            low = high;
-            r_low = r_high;
+            low = u;
         }
         else
         {
-            r_low *= 0.5;
+            high = u;
         }
-        high = u;
-        r_high = r;
+        before = u;
+        r_before = r;
+        F = s->F_mount;
+        speed = s->goal_v1;
+        u += r / double_max(2, slope, 1e-09);
+        if (!((low < u) && (u < high)))
+        {
+            u = 0.5 * (low + high);
+        }
+        r = kernel_mount_compliance_excess(p, d, s, v, dt, u);
+        if ((r != r_before) && (u != before))
+        {
+            slope = (r_before - r) / (u - before);
+            s->moved = double_max(2, 1.0, (s->goal_v1 - speed) / (u - before));
+            s->felt_slope = double_max(2, 0.0, (s->F_mount - F) / (u - before));
+        }
         n += 1;
     }
-    /* An undamped mount on late valves, whose force cannot follow, would have to move in no time. */
-    return double_max(2, -50.0, double_min(2, 50.0, high));
+    /* An undamped mount on late valves, whose force cannot follow, would have to move in no time: not beyond the bounds. */
+    s->u_valve = u;
+    s->x_mount = s->x_begun + (v - s->goal_v1) * s->end_share * dt;
 }
 
 /* Largest stroke [m] to each side that keeps the piston inside the tube. */
@@ -812,18 +964,25 @@ static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct k
     else
     {
         s->v_piston = v0;
+        s->F_open = kernel_mount_compliance_valves(p, v0, s->k_re, s->k_co);
+        s->F_mount = s->F_open;
     }
+    s->F_before = s->F_mount;
+    s->k_used_re = s->k_re;
+    s->k_used_co = s->k_co;
     if (dt > 0.0)
     {
-        s->u_valve = kernel_mount_compliance_speed(p, d, s, z, v1, dt);
-        s->F_open = kernel_valve_force(p, s->u_valve, s->k_re, s->k_co);
-        s->F_mount = kernel_effects_felt(p, s, s->F_open, dt);
-        s->goal_v1 = s->u_valve + kernel_effects_series(p, s, s->F_open, dt);
-        s->x_mount += (v1 - s->goal_v1) * dt;
-        s->F_rod = p->m_rod * (s->goal_v1 - s->v_piston) / dt;
+        kernel_mount_compliance_begin(p, d, s, z, v1, v0 - s->v_piston, dt);
+        s->u_valve = double_max(2, -50.0, double_min(2, 50.0, s->u_valve + v1 - v0));
+        kernel_mount_compliance_solve(p, d, s, v1, dt);
     }
     /* An elastic mount cannot push the piston out of the tube. */
     s->goal_z = double_max(2, -kernel_stroke_limit(d), double_min(2, kernel_stroke_limit(d), z - s->x_mount));
+    if (((s->goal_z - s->z) * s->goal_v1 < 0.0) && (s->goal_v0 * s->goal_v1 > 0.0))
+    {
+        /* What is left of the deflection before a step of k_degr does not turn the piston round. */
+        s->goal_z = s->z;
+    }
 }
 
 static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
@@ -947,7 +1106,7 @@ static void kernel_effects_phases(struct kernel_Parameters* p, struct kernel_Sta
     {
         kernel_gas_redissolution_phases(p, s, way, dt);
     }
-    if (p->fade_heat != 0.0)
+    if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
     {
         kernel_oil_temperature_phases(p, s, way, dt);
     }
@@ -1517,6 +1676,7 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
         /* The kernel has settled k_degr for the new direction. */
         kernel_smooth_transition_turn(p, s, turned, settled);
         s->k_degr = settled + s->k_carried;
+        f->k_degr = s->k_degr;
     }
 }
 
@@ -1532,7 +1692,7 @@ static void kernel_effects_transition(struct kernel_Parameters* p, struct kernel
 /* Share of the fluid force that is left [1]. */
 static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
 {
-    return exp((-p->fade_heat) * (p->H_start + s->heat));
+    return exp((-p->fade_heat) * (p->H_start + s->heat) - p->fade_kelvin * s->warm);
 }
 
 /* Factor of the fluid force [1] in the direction of `v`. */
@@ -1545,15 +1705,73 @@ static double kernel_effects_scale_fluid(struct kernel_Parameters* p, struct ker
 {
     double value;
     value = 1.0;
-    if (p->fade_heat != 0.0)
+    if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
     {
         value *= kernel_oil_temperature_scale_fluid(p, s, v);
     }
-    if ((p->wear_re != 0.0) || (p->wear_co != 0.0))
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
     {
         value *= kernel_valve_wear_scale_fluid(p, s, v);
     }
     return value;
+}
+
+/* Where k_degr has stepped, balance the part of the step after it again: deflection and piston's speed at its end. */
+static void kernel_mount_compliance_rebalance(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double v, double dt)
+{
+    double k_used;
+    double k;
+    double after;
+    s->F_even = 0.5 * (s->F_before + s->F_mount);
+    k_used = (s->u_valve >= 0.0 ? s->k_used_re : s->k_used_co);
+    k = (s->u_valve >= 0.0 ? s->k_re : s->k_co);
+    if ((dt > 0.0) && (k != k_used))
+    {
+        /* The kernel's mean over the step tells where. */
+        after = double_max(2, 0.0, double_min(2, 1.0, (s->k_degr - k_used) / (k - k_used)));
+        s->x_begun = s->x_mount - after * dt * (v - s->goal_v1);
+        s->end_share = after;
+        kernel_mount_compliance_solve(p, d, s, v, dt);
+        s->F_even += after * (s->F_mount - s->F_even);
+    }
+}
+
+static void kernel_effects_rebalance(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double v, double dt)
+{
+    if (p->C_mount != 0.0)
+    {
+        kernel_mount_compliance_rebalance(p, d, s, v, dt);
+    }
+    return;
+}
+
+/* Speed [m/s] at which the valves of one branch make the force `F` >= 0 [N], and the slope there [N s/m]. */
+static int64_t kernel_fluid_lag_valves(double* result_0_0001, double* result_1, double F, double k, array_double_1d velocities, array_double_1d forces)
+{
+    int64_t i;
+    double slope;
+    if (k < 1e-12)
+    {
+        (*result_0_0001) = 0.0;
+        (*result_1) = 0.0;
+        return 0;
+    }
+    i = 0;
+    while((i < 20 - 1) && (k * (*cspan_at(&forces, i)) < F))
+    {
+        i += 1;
+    }
+    if (i == 0)
+    {
+        slope = k * (*cspan_at(&forces, 0)) / (*cspan_at(&velocities, 0));
+        (*result_0_0001) = (slope > 0.0 ? F / slope : 0.0);
+        (*result_1) = slope;
+        return 0;
+    }
+    slope = k * ((*cspan_at(&forces, i)) - (*cspan_at(&forces, i - 1))) / ((*cspan_at(&velocities, i)) - (*cspan_at(&velocities, i - 1)));
+    (*result_0_0001) = (*cspan_at(&velocities, i - 1)) + ((slope > 0.0 ? (F - k * (*cspan_at(&forces, i - 1))) / slope : 0.0));
+    (*result_1) = slope;
+    return 0;
 }
 
 /* The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
@@ -1597,16 +1815,136 @@ static double kernel_fluid_lag_inverse(struct kernel_Parameters* p, double w, do
     return double_max(2, 0.0, w - (C + way / (found + F_half)) * found / dt);
 }
 
+/* Speed [m/s] in the direction of the force `F` [N] that passes beside the valves. */
+static double kernel_valve_wear_bypass(struct kernel_Parameters* p, double F)
+{
+    if (F >= 0.0)
+    {
+        return p->bleed_re * sqrt(F / 1000.0);
+    }
+    return (-p->bleed_co) * sqrt((-F) / 1000.0);
+}
+
+static double kernel_effects_bypass(struct kernel_Parameters* p, double F)
+{
+    double value;
+    value = 0.0;
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
+    {
+        value += kernel_valve_wear_bypass(p, F);
+    }
+    return value;
+}
+
+/* As `fluid_lag_inverse`, with what passes beside the valves: secants for its speed between bounds that close in. */
+static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double w, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
+{
+    double low;
+    double high;
+    double r_low;
+    double past;
+    double r_high;
+    int64_t n;
+    double r;
+    double u;
+    u = kernel_fluid_lag_inverse(p, w, k, side, velocities, forces, dt);
+    low = 0.0;
+    high = side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
+    if (high <= 0.0)
+    {
+        return u;
+    }
+    /* The faster the leak, the less force is left that drives it: `past` less what that force makes of it rises. */
+    r_low = -high;
+    past = double_min(2, high, w);
+    u = kernel_fluid_lag_inverse(p, w - past, k, side, velocities, forces, dt);
+    r_high = past - side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
+    high = past;
+    n = 0;
+    while((n < 40) && (high - low > 1e-09))
+    {
+        past = double_min(2, double_max(2, low - r_low * (high - low) / (r_high - r_low), low + 0.05 * (high - low)), high - 0.05 * (high - low));
+        u = kernel_fluid_lag_inverse(p, w - past, k, side, velocities, forces, dt);
+        r = past - side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
+        if (r < 0.0)
+        {
+            low = past;
+            r_low = r;
+        }
+        else
+        {
+            high = past;
+            r_high = r;
+        }
+        n += 1;
+    }
+    return u;
+}
+
+/* Force [N] of a column at the end of a step, mean force [N] and mean speed [m/s] at the valves, all magnitudes.
+   `held` >= 0 [N] is the force at the start, `v0` and `v1` [m/s] the speeds of the piston, positive towards the column. */
+static int64_t kernel_fluid_lag_press(double* result_0, double* result_1_0001, double* result_2, struct kernel_Parameters* p, double held, double v0, double v1, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
+{
+    double begun;
+    double pressed;
+    double C;
+    double way;
+    double F_half;
+    double u;
+    double slope;
+    double settling;
+    double share;
+    double before;
+    double w;
+    double F;
+    double through;
+    double even;
+    double stiff;
+    begun = v0;
+    pressed = dt;
+    if ((held <= 0.0) && (v0 < 0.0))
+    {
+        /* The column is pressed from the reversal on. */
+        begun = 0.0;
+        pressed = (v1 > 0.0 ? dt * v1 / (v1 - v0) : 0.0);
+    }
+    if (pressed < 1e-12)
+    {
+        (*result_0) = 0.0;
+        (*result_1_0001) = 0.0;
+        (*result_2) = 0.0;
+        return 0;
+    }
+    kernel_fluid_lag_column(&C, &way, &F_half, p, side);
+    kernel_fluid_lag_valves(&u, &slope, held, k, velocities, forces);
+    if (k >= 1e-12)
+    {
+        u += side * kernel_effects_bypass(p, side * held / k);
+    }
+    settling = (C + way * F_half / ((held + F_half) * (held + F_half))) * slope;
+    share = (settling > 0.0 ? kernel_end_weight(pressed / settling) : 1.0);
+    before = C * held + way * held / (held + F_half);
+    w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share;
+    u = (w > 0.0 ? kernel_fluid_lag_leaking(p, w, k, side, velocities, forces, share * pressed) : 0.0);
+    F = k * kernel_branch(u, velocities, forces);
+    through = double_max(2, 0.0, 0.5 * (begun + v1) * pressed + before - C * F - way * F / (F + F_half)) / dt;
+    /* A stiff column lets the steps of k_degr through, a soft one does not. */
+    even = 0.5 * (held + F) * pressed / dt;
+    stiff = k * kernel_branch(through, velocities, forces) * kernel_effects_scale_valve(p, side * through);
+    (*result_0) = F;
+    (*result_1_0001) = even + (2.0 * share - 1.0) * (stiff - even);
+    (*result_2) = through;
+    return 0;
+}
+
 /* The fluid force with the memory of the oil columns; a step without time leaves it, but for the first. */
 static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
 {
-    double half;
-    double before;
-    double w;
-    double u;
+    double k_re;
+    double k_co;
     double F;
-    double through;
     double mean;
+    double through;
     if (dt <= 0.0)
     {
         if (s->elapsed > 0.0)
@@ -1617,30 +1955,18 @@ static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_St
         }
         return;
     }
-    half = 0.5 * (s->goal_v0 + s->goal_v1);
-    before = kernel_fluid_lag_given(p, s->F_held_re) / dt;
-    w = s->goal_v1 + before;
-    u = (w > 0.0 ? kernel_fluid_lag_inverse(p, w, s->k_re, 1.0, p->v_re, p->F_re, dt) : 0.0);
-    F = kernel_valve_force(p, u, s->k_re, s->k_co);
-    /* The valves see what the column does not give; k_degr may have jumped in between. */
-    through = double_max(2, 0.0, half + before - kernel_fluid_lag_given(p, F) / dt);
-    s->F_mean = kernel_fluid_force(p, through) * ((dz > 0.0 ? s->k_mean : s->k_re));
-    s->F_fluid = F;
-    s->W_step = F * u * dt;
-    before = kernel_fluid_lag_given(p, -s->F_held_co) / dt;
-    w = s->goal_v1 + before;
-    u = (w < 0.0 ? -kernel_fluid_lag_inverse(p, -w, s->k_co, -1.0, p->v_co, p->F_co, dt) : 0.0);
-    F = kernel_valve_force(p, u, s->k_re, s->k_co);
-    through = double_min(2, 0.0, half + before - kernel_fluid_lag_given(p, F) / dt);
-    if (through < 0.0)
-    {
-        s->F_mean += kernel_fluid_force(p, through) * ((dz < 0.0 ? s->k_mean : s->k_co));
-    }
-    s->F_held_re = s->F_fluid;
-    s->F_held_co = -F;
-    s->F_fluid += F;
+    k_re = (dz > 0.0 ? s->k_mean : s->k_re);
+    k_co = (dz < 0.0 ? s->k_mean : s->k_co);
+    kernel_fluid_lag_press(&F, &mean, &through, p, s->F_held_re, s->goal_v0, s->goal_v1, k_re, 1.0, p->v_re, p->F_re, dt);
+    s->F_held_re = F;
+    s->F_mean = mean;
+    s->W_step = mean * through * dt;
+    kernel_fluid_lag_press(&F, &mean, &through, p, s->F_held_co, -s->goal_v0, -s->goal_v1, k_co, -1.0, p->v_co, p->F_co, dt);
+    s->F_held_co = F;
+    s->F_mean -= mean;
+    s->W_step += mean * through * dt;
+    s->F_fluid = s->F_held_re - s->F_held_co;
     s->F_valve = s->F_fluid;
-    s->W_step += F * u * dt;
     if (p->tau_fluid > 0.0)
     {
         mean = s->F_mean;
@@ -1660,12 +1986,15 @@ static void kernel_mount_compliance_force(struct kernel_Parameters* p, struct ke
         return;
     }
     s->F_valve = s->F_open;
-    s->F_fluid = s->F_mount + s->F_rod;
-    s->F_mean += s->F_rod;
     if (dt <= 0.0)
     {
+        s->F_fluid = s->F_mount + s->F_rod;
+        s->F_mean += s->F_rod;
         return;
     }
+    s->F_rod = p->m_rod * (s->goal_v1 - s->v_piston) / dt;
+    s->F_fluid = s->F_mount + s->F_rod;
+    s->F_mean = s->F_even + s->F_rod;
     rate = v - s->goal_v1;
     s->v_piston = s->goal_v1;
     s->W_step = s->F_mount * (dz - (s->goal_v1 - s->u_valve) * dt) + p->tau_mount / p->C_mount * rate * rate * dt;
@@ -1715,7 +2044,7 @@ static void kernel_effects_finish(struct kernel_Parameters* p, struct kernel_Sta
     {
         kernel_fluid_lag_finish(p, s, dt);
     }
-    if (p->fade_heat != 0.0)
+    if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
     {
         kernel_oil_temperature_finish(p, s, dt);
     }
@@ -1731,6 +2060,7 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     double dz;
     double v;
     double scale;
+    double bled;
     double F_1;
     bool done;
     if (dt <= 1e-09)
@@ -1752,22 +2082,25 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     v = s->goal_v1;
     kernel_effects_transition(p, s, f, v, dz);
     scale = kernel_effects_scale_fluid(p, s, v);
-    s->k_degr *= scale;
+    bled = kernel_effects_scale_valve(p, v);
+    s->k_degr *= scale * bled;
     if ((v > 0.0) || ((v == 0.0) && (dz > 0.0)))
     {
-        s->k_re = s->k_degr;
+        s->k_re = f->k_degr * scale;
     }
     else if ((v < 0.0) || (dz < 0.0))
     {
-        s->k_co = s->k_degr;
+        s->k_co = f->k_degr * scale;
     }
+    kernel_effects_rebalance(p, d, s, v1, dt);
     F_1 = kernel_fluid_force(p, v);
     s->F_fluid = F_1 * s->k_degr;
-    s->F_friction = s->F_friction * kernel_effects_scale_friction(p, s->z, v) + kernel_effects_rub(p, s->z, v);
-    s->F_gas += kernel_effects_elastic(p, s->z);
+    F_1 *= bled;
+    s->F_friction = s->F_friction * kernel_effects_scale_friction(p, s, s->z, v) + kernel_effects_rub(p, s->z, v);
+    s->F_gas += kernel_effects_elastic(p, s, s->z);
     /* As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end. */
     s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, dz);
-    s->F_mean = 0.5 * (kernel_fluid_force(p, s->goal_v0) + F_1) * s->k_mean;
+    s->F_mean = 0.5 * (kernel_fluid_force(p, s->goal_v0) * kernel_effects_scale_valve(p, s->goal_v0) + F_1) * s->k_mean;
     s->W_step = s->F_mean * dz;
     s->F_valve = s->F_fluid;
     kernel_effects_force(p, s, v1, dz, dt);

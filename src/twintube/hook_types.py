@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from twintube.core.effects import smooth_transition
     from twintube.core.effects import valve_wear
 
-    end_stop_elastic: Callable[[end_stop.Parameters, float], float] = end_stop.end_stop_elastic
+    end_stop_elastic: Callable[[end_stop.Parameters, Frame, float], float] = end_stop.end_stop_elastic
     end_stop_rub: Callable[[end_stop.Parameters, float, float], float] = end_stop.end_stop_rub
     fluid_lag_parts: Callable[[fluid_lag.Parameters, float], int] = fluid_lag.fluid_lag_parts
     fluid_lag_series: Callable[[fluid_lag.Parameters, fluid_lag.State, float, float], float] = fluid_lag.fluid_lag_series
@@ -32,18 +32,23 @@ if TYPE_CHECKING:
     foam_decay_phases: Callable[[foam_decay.Parameters, Frame, float, float], None] = foam_decay.foam_decay_phases
     gas_exhaustion_motion: Callable[[gas_exhaustion.Parameters, Derived, Frame, float, float, float, float], None] = gas_exhaustion.gas_exhaustion_motion
     gas_redissolution_phases: Callable[[gas_redissolution.Parameters, Frame, float, float], None] = gas_redissolution.gas_redissolution_phases
-    gas_spring_elastic: Callable[[gas_spring.Parameters, float], float] = gas_spring.gas_spring_elastic
+    gas_spring_elastic: Callable[[gas_spring.Parameters, Frame, float], float] = gas_spring.gas_spring_elastic
     mount_compliance_parts: Callable[[mount_compliance.Parameters, float], int] = mount_compliance.mount_compliance_parts
     mount_compliance_motion: Callable[[mount_compliance.Parameters, Derived, mount_compliance.State, float, float, float, float], None] = mount_compliance.mount_compliance_motion
+    mount_compliance_rebalance: Callable[[mount_compliance.Parameters, Derived, mount_compliance.State, float, float], None] = mount_compliance.mount_compliance_rebalance
     mount_compliance_force: Callable[[mount_compliance.Parameters, mount_compliance.State, float, float, float], None] = mount_compliance.mount_compliance_force
     oil_displacement_derive: Callable[[oil_displacement.Parameters, Derived], None] = oil_displacement.oil_displacement_derive
     oil_level_error_derive: Callable[[oil_level_error.Parameters, Derived], None] = oil_level_error.oil_level_error_derive
     oil_level_error_level: Callable[[oil_level_error.Parameters, float], float] = oil_level_error.oil_level_error_level
     oil_temperature_phases: Callable[[oil_temperature.Parameters, oil_temperature.State, float, float], None] = oil_temperature.oil_temperature_phases
     oil_temperature_scale_fluid: Callable[[oil_temperature.Parameters, oil_temperature.State, float], float] = oil_temperature.oil_temperature_scale_fluid
+    oil_temperature_scale_friction: Callable[[oil_temperature.Parameters, oil_temperature.State, float, float], float] = oil_temperature.oil_temperature_scale_friction
+    oil_temperature_elastic: Callable[[oil_temperature.Parameters, oil_temperature.State, float], float] = oil_temperature.oil_temperature_elastic
     oil_temperature_finish: Callable[[oil_temperature.Parameters, oil_temperature.State, float], None] = oil_temperature.oil_temperature_finish
-    position_friction_scale_friction: Callable[[position_friction.Parameters, float, float], float] = position_friction.position_friction_scale_friction
+    position_friction_scale_friction: Callable[[position_friction.Parameters, Frame, float, float], float] = position_friction.position_friction_scale_friction
     seal_leak_phases: Callable[[seal_leak.Parameters, seal_leak.State, float, float], None] = seal_leak.seal_leak_phases
-    side_load_friction_scale_friction: Callable[[side_load_friction.Parameters, float, float], float] = side_load_friction.side_load_friction_scale_friction
+    side_load_friction_scale_friction: Callable[[side_load_friction.Parameters, Frame, float, float], float] = side_load_friction.side_load_friction_scale_friction
     smooth_transition_transition: Callable[[smooth_transition.Parameters, smooth_transition.State, Flow, float, float], None] = smooth_transition.smooth_transition_transition
     valve_wear_scale_fluid: Callable[[valve_wear.Parameters, Frame, float], float] = valve_wear.valve_wear_scale_fluid
+    valve_wear_scale_valve: Callable[[valve_wear.Parameters, float], float] = valve_wear.valve_wear_scale_valve
+    valve_wear_bypass: Callable[[valve_wear.Parameters, float], float] = valve_wear.valve_wear_bypass

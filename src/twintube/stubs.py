@@ -46,6 +46,7 @@ def stub() -> str:
         lines.append(f"def effects_{hook}({arguments}) -> {result}: ...")
     lines += [
         "def effects_active(p: variables.Parameters) -> int: ...",
+        "def effects_remember(p: variables.Parameters) -> int: ...",
         "def effects_reset(s: Frame) -> None: ...",
         "def neutral(p: variables.Parameters) -> dict[str, float]: ...",
         "def active(p: variables.Parameters) -> tuple[str, ...]: ...",

@@ -45,3 +45,25 @@ def test_rubber_loses_a_share_of_what_it_takes(sa8: Damper, power: float, loss: 
     assert np.array_equal(stopped.F_fluid, plain.F_fluid)
     outside = block.stroke < onset
     assert np.array_equal(stopped.F_friction[outside], plain.F_friction[outside])
+
+
+def test_a_wrong_preload_shows_on_the_intact_damper(sa8: Damper) -> None:
+    """Gas at another pressure: the rod's cross-section times the difference, and the stiffness of enclosed gas with it."""
+    intact = sa8.with_(oil_level=1.0, gas_preload=1)
+    p = intact.parameters
+    rod = np.pi / 4 * p.D_PR**2
+    extra = 2e5 * rod
+    z = np.linspace(-0.04, 0.04, 9)
+    plain, pressed = (simulate(x, z, 0 * z) for x in (intact, intact.with_(F_surplus=extra)))
+    stiffness = p.c_gas * 2e5 / (p.F_0 / rod + 1e5)  # goes with the absolute pressure
+    assert pressed.F_gas - plain.F_gas == pytest.approx(stiffness * z - extra)
+    assert np.array_equal(pressed.F_fluid, plain.F_fluid)
+
+
+def test_each_state_has_its_own_wrong_pressure(sa8: Damper) -> None:
+    """F_surplus is of the charge, c_residual and F_residual of what a lost charge has left."""
+    z = np.linspace(-0.04, 0.04, 9)
+    lost, charged = sa8, sa8.with_(oil_level=1.0, gas_preload=1)
+    for damper, foreign in ((lost, {"F_surplus": 80.0}), (charged, {"c_residual": 3000.0, "F_residual": 80.0})):
+        plain, other = (simulate(x, z, 0 * z).F_gas for x in (damper, damper.with_(**foreign)))
+        assert np.array_equal(plain, other)

@@ -1,12 +1,15 @@
-"""Fade by retained heat, recovery at rest."""
+"""Fade by retained heat, recovery at rest; what a measured temperature does to oil, friction and gas."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
+from twintube.arrays import Array
 from twintube.dampers import load
 from twintube.engine.simulate import simulate
+from twintube.fitting.simulation import SimulatedRecords
 from twintube.rig.signals import harmonic_block
 
 
@@ -43,3 +46,52 @@ def test_a_warm_start_thins_the_oil_from_the_beginning() -> None:
     plain = simulate(base, block.stroke, block.velocity)
     warm = simulate(base.with_(fade_heat=1e-4, H_start=500.0, cooling_time=5.0), block.stroke, block.velocity, block.time)
     assert warm.F_fluid[0] == pytest.approx(plain.F_fluid[0] * math.exp(-0.05))
+
+
+@dataclass
+class Warmed:
+    """A record of the intact damper, `warm` [K] beyond the temperature of its parameters."""
+
+    time: Array
+    stroke: Array
+    velocity: Array
+    warm: Array
+    oil_level: float = 1.0
+    gas_preload: int = 1
+
+
+def means(warm: float, **changes: float) -> Array:
+    """Mean forces [N] of a slow triangle at a temperature that is measured."""
+    z = np.concatenate([np.linspace(-0.03, 0.03, 61), np.linspace(0.03, -0.03, 61)[1:]])
+    v = np.where(np.arange(121) < 60, 0.2, -0.2)
+    record = Warmed(np.arange(121) * 5e-3, z, v, np.full(121, warm))
+    problem = SimulatedRecords(load("SA8"), [record], parts=4, failed=np.inf)
+    return problem.run(problem.rows(), changes.items())[0][5:55]
+
+
+def test_a_measured_temperature_acts_on_oil_friction_and_gas() -> None:
+    frictionless = {"F_FrS": 0.0, "gas_kelvin": 0.0}
+    plain = means(0.0, **frictionless, fade_kelvin=0.01)
+    p = load("SA8").parameters
+    gas = p.c_gas * (np.linspace(-0.03, 0.03, 61)[5:55] - 0.0005) - p.F_0
+    assert means(20.0, **frictionless, fade_kelvin=0.01) - gas == pytest.approx(math.exp(-0.2) * (plain - gas), rel=1e-3)
+    # The pressure of an enclosed gas goes with its absolute temperature.
+    enclosed = means(29.6, fade_kelvin=1e-9) - means(0.0, fade_kelvin=1e-9)
+    assert enclosed == pytest.approx(0.1 * gas, rel=2e-3)
+    rubbing = means(0.0) - means(0.0, F_FrS=0.0)
+    eased = means(20.0, friction_kelvin=0.01, gas_kelvin=0.0) - means(0.0)
+    assert eased == pytest.approx((math.exp(-0.2) - 1.0) * rubbing, rel=1e-6)
+
+
+def test_a_temperature_is_nothing_to_a_damper_without_the_effect() -> None:
+    assert np.array_equal(means(40.0), means(0.0))
+    assert np.array_equal(means(0.0, fade_kelvin=0.02, friction_kelvin=0.02)[5:], means(0.0, fade_kelvin=1e-12)[5:])
+
+
+def test_gas_follows_the_retained_heat_where_nothing_is_measured() -> None:
+    block = harmonic_block(1.048)
+    base = load("SA8").with_(fade_heat=1e-9, cooling_time=2000.0)
+    cold, warm = (simulate(x, block.stroke, block.velocity, block.time) for x in (base, base.with_(gas_heat=1e-5)))
+    heat = cold.work  # 40 s against 2000 s
+    assert warm.F_gas[-1] / cold.F_gas[-1] == pytest.approx(1.0 + 1e-5 * heat[-1], rel=0.02)
+    assert np.array_equal(warm.F_fluid, cold.F_fluid)

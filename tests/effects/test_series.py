@@ -1,10 +1,15 @@
 """Mount and oil columns, in series with the valves: the mount against the complex impedance of a linear one."""
 
+import math
 from typing import Any
 
 import numpy as np
 import pytest
 
+from twintube.core import model
+from twintube.core.effects import State
+from twintube.core.frame import end_weight
+from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper
 from twintube.engine.simulate import simulate
 from twintube.rig.signals import harmonic_block, oscillations
@@ -81,3 +86,46 @@ def test_the_rod_s_mass_lies_between_rubber_and_valves(dashpot: Damper, omega: f
     rubber = 1j * omega * 5e-6 / (1 + 1j * omega * 0.002)
     exact = 0.02 * omega / (1 / (D + 1j * omega * MASS) + rubber)
     assert abs(found / exact - 1) < 0.01
+
+
+def test_the_weight_of_the_end_meets_the_exponential_decay() -> None:
+    """y1 = y0 - q ((1 - w) y0 + w y1) has to be y0 exp(-q), whatever the step of q time constants."""
+    for q in (1e-9, 1e-4, 0.9e-3, 1.1e-3, 0.1, 1.0, 10.0, 400.0):
+        w = end_weight(q)
+        assert (1.0 - (1.0 - w) * q) / (1.0 + w * q) == pytest.approx(math.exp(-q), rel=1e-9, abs=1e-12)
+    assert end_weight(1e9) == 1.0
+
+
+@pytest.mark.parametrize("tau", [0.0, 0.001])
+def test_halved_parts_have_a_quarter_of_the_error(dashpot: Damper, tau: float) -> None:
+    """The mount is met to second order: in parts of 48 and 96 to an oscillation, its impedance to 0.2 and 0.05 %."""
+    omega, amplitude, C = 20.0, 0.03, 5e-6
+    p = dashpot.with_(C_mount=C, tau_mount=tau).parameters
+    errors = []
+    for n in (48, 96):
+        t, z, v = oscillations(omega * amplitude, amplitude, 6, 2 * np.pi / omega / n)
+        d, s, f = blank(Derived), blank(State), blank(Flow)
+        model.set_up(p, d)
+        model.start(p, d, s, 0.0)
+        force = []
+        for i in range(len(t)):
+            before = max(0, i - 1)
+            model.advance_whole(p, d, s, f, float(z[i]), float(v[before]), float(v[i]), float(t[i] - t[before]))
+            force.append(s.F_fluid)
+        last = t > t[-1] * 4 / 6
+        found = 2 * np.mean(np.array(force)[last] * np.exp(-1j * omega * t[last]))
+        exact = omega * amplitude / (1 / D + 1j * omega * C / (1 + 1j * omega * tau))
+        errors.append(abs(found / exact - 1))
+    assert errors[0] < 0.002
+    assert errors[1] < 0.3 * errors[0]
+
+
+@pytest.mark.parametrize("element", [{"C_mount": 1e-6}, {"C_fluid": 1e-6, "C_fluid_co": 2e-6, "V_air": 5e-7}])
+def test_a_step_of_k_degr_within_an_interval_is_met(sa8: Damper, element: dict[str, Any]) -> None:
+    """48 intervals to a fast cavitating oscillation, whose phases run out somewhere in between."""
+    damper = sa8.with_(**element)
+    t, z, v = oscillations(1.572, 0.045, 4, 5e-5)
+    fine = simulate(damper, z, v, t).force
+    times, z, v = oscillations(1.572, 0.045, 4, t[-1] / 192)
+    error = simulate(damper, z, v, times).force - np.interp(times, t, fine)
+    assert np.sqrt(np.mean(error**2)) < 0.03 * np.sqrt(np.mean(fine**2))

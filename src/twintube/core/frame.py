@@ -11,8 +11,8 @@ from twintube.core.kernel.forces import fluid_force
 from twintube.core.variables import Derived, Parameters, State, var
 
 # Longest part of a step [s] for effects whose force has a memory of milliseconds, and the most parts of a step.
-PART = 2e-4
-MAX_PARTS = 8.0
+PART = 6e-4
+MAX_PARTS = 4.0
 # The piston may come this close [m] to the ends of its chambers.
 CLEARANCE = 1e-6
 
@@ -33,6 +33,8 @@ class Frame(State):
     F_mean: float = var("frame", "F_Fl", "N", "mean of the fluid force over the time of the step", default=0.0)
     k_mean: float = var("frame", "k_degr", "1", "mean of k_degr over the step, all effects", default=1.0)
     W_step: float = var("frame", "W", "J", "work dissipated in the step", default=0.0)
+    warm: float = var("frame", "", "K", "measured temperature beyond that of the parameter set, set from outside; 0 unknown",
+                      default=0.0)  # fmt: skip
     elapsed: float = var("frame", "t", "s", "time since the start", default=0.0)
 
 
@@ -44,6 +46,18 @@ def stroke_limit(d: Derived) -> float:
 def valve_force(p: Parameters, u: float, k_re: float, k_co: float) -> float:
     """Fluid force [N] while the oil passes the valves as at the piston speed `u` [m/s]; it rises with `u`."""
     return fluid_force(p, u) * (k_re if u >= 0.0 else k_co)
+
+
+def end_weight(q: float) -> float:
+    """Weight [1] of the rate at the end of a step of `q` time constants: the linear decay is met exactly (0.5 at 0, 1 late).
+
+    Exponentially fitted theta method: Liniger and Willoughby 1970, SIAM Journal on Numerical Analysis 7.
+    """
+    if q < 1e-3:
+        return 0.5 + q / 12.0
+    if q > 500.0:
+        return 1.0
+    return 1.0 / (1.0 - math.exp(-q)) - 1.0 / q
 
 
 def parts_of(dt: float) -> int:

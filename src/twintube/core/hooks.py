@@ -12,10 +12,13 @@ the kernel's subset of Python. Every parameter says its role (ROLES); an effect 
     phases          (p, s, way, dt)                   changes of the phases, before kernel.step
     transition      (p, s, f, v, dz)                  s.k_degr, f.k_degr, f.k_mean after kernel.step
     scale_fluid     (p, s, v) -> factor               of the fluid force in the direction of v
-    scale_friction  (p, z, v) -> factor               of the friction force at the stroke z and the velocity v
-    elastic         (p, z) -> force [N]               added to the gas force, no work
+    scale_valve     (p, u) -> factor                  of the intact fluid force at the speed u at the valves
+    bypass          (p, F) -> speed [m/s]             past the valves at their intact force F, as scale_valve says
+    scale_friction  (p, s, z, v) -> factor            of the friction force at the stroke z and the velocity v
+    elastic         (p, s, z) -> force [N]            added to the gas force, no work
     rub             (p, z, v) -> force [N]            added to the friction, with the sign of v
     series          (p, s, F, dt) -> speed [m/s]      taken up in series with the valves at the fluid force F
+    rebalance       (p, d, s, v, dt)                  s.goal_v1 after the step has changed s.k_re or s.k_co
     felt            (p, s, F, dt) -> force [N]        after the step, if the fluid force at the valves is F
     force           (p, s, v, dz, dt)                 s.F_fluid, s.F_valve, s.F_mean, s.W_step of a force with memory
     finish          (p, s, dt)                        what follows from forces and work
@@ -42,10 +45,13 @@ HOOKS = {
     "phases": ("p: Parameters, s: State, way: float, dt: float", "None", "call"),
     "transition": ("p: Parameters, s: State, f: Flow, v: float, dz: float", "None", "call"),
     "scale_fluid": ("p: Parameters, s: State, v: float", "float", "product"),
-    "scale_friction": ("p: Parameters, z: float, v: float", "float", "product"),
-    "elastic": ("p: Parameters, z: float", "float", "sum"),
+    "scale_valve": ("p: Parameters, u: float", "float", "product"),
+    "bypass": ("p: Parameters, F: float", "float", "sum"),
+    "scale_friction": ("p: Parameters, s: State, z: float, v: float", "float", "product"),
+    "elastic": ("p: Parameters, s: State, z: float", "float", "sum"),
     "rub": ("p: Parameters, z: float, v: float", "float", "sum"),
     "series": ("p: Parameters, s: State, F: float, dt: float", "float", "sum"),
+    "rebalance": ("p: Parameters, d: Derived, s: State, v: float, dt: float", "None", "call"),
     "felt": ("p: Parameters, s: State, value: float, dt: float", "float", "chain"),
     "force": ("p: Parameters, s: State, v: float, dz: float, dt: float", "None", "call"),
     "finish": ("p: Parameters, s: State, dt: float", "None", "call"),
@@ -115,7 +121,7 @@ def names_of(arguments: str) -> str:
 
 
 def dispatch_source() -> str:
-    """The text of the functions `effects_<hook>`, and of `effects_active`, which says whether any effect acts."""
+    """The text of the functions `effects_<hook>`, and of two that say whether any effect acts, or has a force of its own."""
     texts = sources()
     guard = {name: " or ".join(f"p.{item} != 0.0" for item in strengths(text)) for name, text in texts.items()}
     parts = [
@@ -123,6 +129,12 @@ def dispatch_source() -> str:
         + "".join(f"    if {condition}:\n        return 1\n" for condition in guard.values())
         + "    return 0\n"
     ]
+    memory = [guarded for name, guarded in guard.items() if re.search(rf"^def {name}_force\(", texts[name], re.M)]
+    parts.append(
+        "def effects_remember(p):\n"
+        + "".join(f"    if {condition}:\n        return 1\n" for condition in memory)
+        + "    return 0\n"
+    )
     for hook, (typed, _, kind) in HOOKS.items():
         arguments, body = names_of(typed), FIRST[kind]
         for name, text in texts.items():

@@ -15,10 +15,12 @@ from twintube.core.effects import (
     effects_motion,
     effects_parts,
     effects_phases,
+    effects_rebalance,
     effects_reset,
     effects_rub,
     effects_scale_fluid,
     effects_scale_friction,
+    effects_scale_valve,
     effects_transition,
 )
 from twintube.core.kernel import fill, fluid_force, pour, prepare, step
@@ -45,7 +47,7 @@ def start(p: Parameters, d: Derived, s: State, z: float) -> None:
     pour(d, s, z, effects_level(p, p.oil_level) * p.V_oil)
     effects_reset(s)
     s.z_rod = z
-    s.F_gas += effects_elastic(p, z)
+    s.F_gas += effects_elastic(p, s, z)
 
 
 def advance(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
@@ -101,18 +103,21 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     v = s.goal_v1
     effects_transition(p, s, f, v, dz)
     scale = effects_scale_fluid(p, s, v)
-    s.k_degr *= scale
+    bled = effects_scale_valve(p, v)
+    s.k_degr *= scale * bled
     if v > 0.0 or (v == 0.0 and dz > 0.0):
-        s.k_re = s.k_degr
+        s.k_re = f.k_degr * scale
     elif v < 0.0 or dz < 0.0:
-        s.k_co = s.k_degr
+        s.k_co = f.k_degr * scale
+    effects_rebalance(p, d, s, v1, dt)
     F_1 = fluid_force(p, v)
     s.F_fluid = F_1 * s.k_degr
-    s.F_friction = s.F_friction * effects_scale_friction(p, s.z, v) + effects_rub(p, s.z, v)
-    s.F_gas += effects_elastic(p, s.z)
+    F_1 *= bled
+    s.F_friction = s.F_friction * effects_scale_friction(p, s, s.z, v) + effects_rub(p, s.z, v)
+    s.F_gas += effects_elastic(p, s, s.z)
     # As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end.
     s.k_mean = f.k_mean * effects_scale_fluid(p, s, dz)
-    s.F_mean = 0.5 * (fluid_force(p, s.goal_v0) + F_1) * s.k_mean
+    s.F_mean = 0.5 * (fluid_force(p, s.goal_v0) * effects_scale_valve(p, s.goal_v0) + F_1) * s.k_mean
     s.W_step = s.F_mean * dz
     s.F_valve = s.F_fluid
     effects_force(p, s, v1, dz, dt)

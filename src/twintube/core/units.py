@@ -19,6 +19,8 @@ UNITS: dict[str, tuple[str, dict[str, str]]] = {
     "N.s/m": ("Damping", {"kg": "1", "s": "-1"}),
     "s/m": ("Slowness", {"m": "-1", "s": "1"}),
     "N/m3": ("StiffnessPerSquareLength", {"kg": "1", "m": "-2", "s": "-2"}),
+    "K": ("TemperatureDifference", {"K": "1"}),
+    "1/K": ("RelativeChangePerTemperature", {"K": "-1"}),
     "J": ("Energy", {"kg": "1", "m": "2", "s": "-2"}),
 }
 

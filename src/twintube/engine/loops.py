@@ -3,9 +3,10 @@
 `p`, `d`, `s`, `f` are records of `variables.py`: dataclasses in the interpreter, rows of structured arrays in numba.
 """
 
+import math
 from typing import Any
 
-from twintube.core.effects import effects_parts
+from twintube.core.effects import effects_parts, effects_remember
 from twintube.core.model import advance, advance_whole, set_up, start
 from twintube.core.outputs import reserve_gas, total_force
 
@@ -95,31 +96,58 @@ def run_held(p: Any, d: Any, s: Any, f: Any, z: Any, dt: float) -> int:
 
 
 def run_means(
-    p: Any, d: Any, s: Any, f: Any, states: Any, t: Any, z: Any, v: Any, starts: Any, parts: int, force: Any, work: Any
+    p: Any,
+    d: Any,
+    s: Any,
+    f: Any,
+    states: Any,
+    t: Any,
+    z: Any,
+    v: Any,
+    warm: Any,
+    starts: Any,
+    parts: int,
+    samples: Any,
+    force: Any,
+    point: Any,
+    work: Any,
 ) -> int:
     """Records laid end to end: the mean force [N] over the time since the sample before and the work [J] since the start.
 
-    `states` (r, 2) are the records' oil level and preload, `starts` (r + 1,) where they begin; `force` and `work` (n,) are
-    written. Between two samples the stroke follows the cubic of their strokes and velocities in `parts` steps, but across
-    a rest. Returns the number of records done.
+    `states` (r, 4) are the records' oil level, preload and factors of the gas force and of its stiffness, `starts` (r + 1,)
+    where they begin, `warm` (n,) [K] how much
+    warmer the damper is than at the temperature of its parameters, 0 where unknown, and `samples` (n,) how many measured
+    samples an interval has, 0 where unknown; `force`, `point` and `work` (n,) are written. `point` is the mean of the forces
+    at the measured samples by trapezoids, which misses where between two of them the force jumps. Between two samples the
+    stroke follows the cubic of their strokes and velocities in `parts` steps, but across a rest. Returns the number of
+    records done.
     """
     for r in range(len(states)):
         p.oil_level = states[r, 0]
         p.gas_preload = int(states[r, 1])
         set_up(p, d)
+        d.F_0 *= states[r, 2]
+        d.c_gas *= states[r, 3]
         first = starts[r]
         start(p, d, s, z[first])
         before = v[first]
         time = t[first]
         at = z[first]
+        memory = effects_remember(p)
+        last = total_force(s)
         for i in range(first, starts[r + 1]):
             dt = t[i] - time
+            s.warm = warm[i]
             n = max(parts, effects_parts(p, dt)) if d.extended > 0 else parts
             if dt <= 0.0 or (dt > REST and abs(z[i] - at) < UNMOVED * dt * max(abs(before), abs(v[i]))):
                 n = 1
+            gaps = samples[i] if samples[i] < n else 0
+            if gaps > 0:
+                n = gaps * math.ceil(n / gaps)
             v0 = before
             z0 = at
             total = 0.0
+            sampled = 0.5 * last
             for j in range(1, n + 1):
                 x = j / n
                 goal = z[i]
@@ -141,7 +169,17 @@ def run_means(
                     total += total_force(s) / n
                 at = goal
                 v0 = speed
+                if gaps > 0 and (j * gaps) % n == 0:
+                    now = total_force(s)
+                    if memory == 0 and s.k_degr > 0.0:
+                        # `s.k_degr` is the mean over the step, a sample sees the end.
+                        now += (f.k_degr / s.k_degr - 1.0) * s.F_fluid
+                    last = now
+                    sampled += now if j < n else 0.5 * now
+            if gaps == 0:
+                last = total_force(s)
             force[i] = total
+            point[i] = sampled / gaps if gaps > 0 else total
             work[i] = s.work
             before = v[i]
             time = t[i]

@@ -13,6 +13,7 @@ from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper
 from twintube.engine import compiled
 
+P_ATM = 1e5  # [Pa]
 MARGIN = 1.02  # of the velocity threshold of foam
 
 
@@ -45,10 +46,20 @@ def tolerant(damper: Damper) -> Damper:
     return damper.with_(v_foam=MARGIN * damper.parameters.v_foam)
 
 
+def gas_factors(damper: Damper, pressure: float | None) -> tuple[float, float]:
+    """Factors [1] of the gas force and of its stiffness for a gauge pressure [Pa] other than that of the parameter set."""
+    p = damper.parameters
+    if pressure is None or p.F_0 <= 0.0:
+        return 1.0, 1.0
+    given = p.F_0 / (0.25 * np.pi * p.D_PR**2)
+    return pressure / given, (pressure + P_ATM) / (given + P_ATM)
+
+
 class SimulatedRecords:
     """Records laid end to end, and the damper that they drive.
 
-    `starts` (r + 1,) where each record begins; `states` (r, 2) oil level and preload; `t`, `z`, `v` (n,) time, stroke and
+    `starts` (r + 1,) where each record begins; `states` (r, 4) oil level, preload and factors of the gas; `t`, `z`, `v` (n,)
+    time, stroke and
     velocity. `parts` are the steps of the model per interval; the forces behind a step that fails are `failed` [N].
     `threads` serve several parameter sets at once, as numba releases the interpreter's lock.
     """
@@ -58,8 +69,14 @@ class SimulatedRecords:
         self.damper = tolerant(damper)
         self.parts, self.failed = parts, failed
         self.starts = np.concatenate([[0], np.cumsum([len(r.time) for r in records])]).astype(np.int64)
-        self.states = np.array([[r.oil_level, r.gas_preload] for r in records], dtype=float)
+        self.states = np.array(
+            [[r.oil_level, r.gas_preload, *gas_factors(damper, getattr(r, "gas_pressure", None))] for r in records],
+            dtype=float,
+        )
         self.t, self.z, self.v = (np.concatenate([getattr(r, n) for r in records]) for n in ("time", "stroke", "velocity"))
+        self.samples = np.concatenate([getattr(r, "samples", np.zeros(len(r.time), dtype=np.int64)) for r in records])
+        # How much warmer than the parameter set [K], of records that know it; 0 elsewhere.
+        self.warm = np.concatenate([getattr(r, "warm", np.zeros(len(r.time))) for r in records])
         self.workers = os.cpu_count() or 1
         self.threads = ThreadPoolExecutor(self.workers)
 
@@ -70,11 +87,23 @@ class SimulatedRecords:
 
     def run(self, rows: list[Any], changes: Iterable[tuple[str, float]]) -> tuple[Array, Array]:
         """Mean forces [N] and works since the start of the record [J], both (n,), with parameters changed in `rows`."""
+        force, _, work = self.sampled(rows, changes)
+        return force, work
+
+    def sampled(
+        self, rows: list[Any], changes: Iterable[tuple[str, float]], motion: tuple[Array, Array] | None = None
+    ) -> tuple[Array, Array, Array]:
+        """As `run`, with the means of the forces at the measured samples alone [N] between force and work.
+
+        `motion` are strokes [m] and velocities [m/s] (n,) in place of those of the records.
+        """
         for name, value in changes:
             rows[0][name] = value
-        force, work = np.empty(len(self.z)), np.empty(len(self.z))
+        force, point, work = np.empty(len(self.z)), np.empty(len(self.z)), np.empty(len(self.z))
+        z, v = motion or (self.z, self.v)
         done = compiled.module().run_means(
-            *rows, self.states, self.t, self.z, self.v, self.starts, self.parts, force, work
+            *rows, self.states, self.t, z, v, self.warm, self.starts, self.parts, self.samples, force, point, work
         )  # fmt: skip
-        force[self.starts[done] :] = self.failed
-        return force, work
+        for some in (force, point):
+            some[self.starts[done] :] = self.failed
+        return force, point, work

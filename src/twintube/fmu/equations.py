@@ -24,7 +24,7 @@ ENTRIES = (
     "set_up", "start", "advance", "publish", "curve_rule", "fit_rule", "stroke_limit", "time_slack", "stroke_jump",
     "possible",
 )  # fmt: skip
-INTEGERS = ("effects_active", "effects_parts")  # of the functions generated from the effects' files
+INTEGERS = ("effects_active", "effects_parts", "effects_remember")  # of the functions generated from the effects' files
 
 
 def record_source(name: str, record: type) -> str:

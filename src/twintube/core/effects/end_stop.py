@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 
 from twintube.core import variables
+from twintube.core.frame import Frame
 from twintube.core.variables import var
 
 TITLE = "Bump or rebound stop engaged"
@@ -45,7 +46,7 @@ def end_stop_press(p: Parameters, force: float, over: float) -> float:
     return force * math.exp(p.power_stop * math.log(over / REFERENCE))
 
 
-def end_stop_elastic(p: Parameters, z: float) -> float:
+def end_stop_elastic(p: Parameters, s: Frame, z: float) -> float:
     """Force [N] at the stroke `z` [m]."""
     return end_stop_press(p, p.F_stop_re, z - p.onset_re) - end_stop_press(p, p.F_stop_co, -z - p.onset_co)
 

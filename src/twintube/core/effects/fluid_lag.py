@@ -1,10 +1,19 @@
 """Compressible oil with trapped air, and late valves: oil columns in series with the valves, Maxwell elements, and a delay.
 
-There is one column for each direction; while the pressure of one is still being relieved, that of the other builds up. A
-column gives by x(F) under its force F, which obeys dx(F)/dt = v - u(F), u being the speed at which the valves make F, as
-long as that is positive. Oil and walls give linearly. Trapped air gives as an ideal gas at constant temperature:
-V_air (1/p_0 - 1/p), which is soft at small forces only. Rebound presses on the annulus, compression on the rod's area. One
-implicit Euler step is solved exactly, segment by segment of the F-v curve. The phases still follow the stroke.
+There is a column for each direction. A column gives by x(F) under its force F, which obeys dx(F)/dt = v - u(F), u being the
+speed at which the valves make F, as long as that is positive. Rebound presses the oil above the piston on the annulus,
+compression that of both chambers, whose pressures are equal then, on the rod's area. Oil and walls give linearly,
+C = V / (K A^2). Trapped air gives as an ideal gas at constant temperature: V_air (1/p_0 - 1/p), which is soft at small
+forces only. V and V_air are those of the chambers at the piston's stroke.
+
+How two columns meet at a reversal is a law of its own. Either the force of the new one builds up at once, beside what is
+left of the old one, or the piston's stroke has to relieve the old one first, as in a single Maxwell element. An element in
+series with the columns (`mount_compliance`) meets the latter.
+
+The mean rate of a step is weighted so that the linear decay is exact (`frame.end_weight`), its end solved exactly, segment
+by segment of the F-v curve. The phases still follow the stroke. What a column stores less because its oil becomes less
+leaves with that oil and counts as dissipated. With an element in series that share is neglected: of the work, F C / 2 over
+the length of the column, 0.5 % at most with the compliance of oil.
 
 Valves that open and close late let the fluid force F follow that of the columns with a time constant of their own,
 tau_fluid dF/dt = F_columns - F, solved exactly for a step in which F_columns has its mean.
@@ -14,8 +23,9 @@ import math
 from dataclasses import dataclass
 
 from twintube.core import variables
-from twintube.core.frame import Frame, parts_of, valve_force
-from twintube.core.kernel.forces import fluid_force
+from twintube.core.effects import effects_bypass, effects_scale_valve
+from twintube.core.frame import Frame, end_weight, parts_of
+from twintube.core.kernel.forces import branch
 from twintube.core.variables import FV_POINTS, var
 
 TITLE = "Compressible oil and late check valves"
@@ -24,23 +34,33 @@ ABSENCE = "The measured F-v curve opens to a loop that the model does not have, 
 DECIDES = "small amplitudes at the same velocity: a lag grows with the frequency, a mount with the force"
 NEEDS_TIME = True
 P_ATM = 1e5  # [Pa]
+FAINT = 1e-12  # [1, s] k_degr that makes no force, time in which nothing moves
 
 
 @dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
     """Compliance of the oil column."""
 
-    C_fluid: float = var("fluid_lag", "", "m/N", "compliance of the oil in series with the valves, rebound", lower=0,
-                         upper=2e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
+    C_fluid: float = var("fluid_lag", "", "m/N", "compliance of the oil in series with the valves, rebound, stroke 0",
+                         lower=0, upper=2e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
                          default=0.0, role="strength")  # fmt: skip
     C_fluid_co: float = var("fluid_lag", "", "m/N", "the same in compression, which presses on the rod's area", lower=0,
                             upper=5e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
                             default=0.0, role="strength")  # fmt: skip
-    V_air: float = var("fluid_lag", "", "m3", "air trapped in the oil, at ambient pressure", lower=0, upper=5e-6,
-                       source="ideal gas at constant temperature; Manring, Hydraulic Control Systems",
+    V_air: float = var("fluid_lag", "", "m3", "air trapped in the oil of both chambers at stroke 0, at ambient pressure",
+                       lower=0, upper=5e-6, source="ideal gas at constant temperature; Manring, Hydraulic Control Systems",
                        default=0.0, role="strength")  # fmt: skip
     tau_fluid: float = var("fluid_lag", "", "s", "time constant with which late valves change the fluid force", lower=0,
                            upper=0.02, source="first-order lag", default=0.0, role="strength")  # fmt: skip
+    relief_first: float = var("fluid_lag", "", "1", "share of a column's force that is relieved before the other builds up",
+                              lower=0, upper=1, source="1: a single Maxwell element; Duym 2000", default=0.0,
+                              role="law")  # fmt: skip
+    air_at_rest: float = var("fluid_lag", "", "1", "0: as much air with preload as without; 1: as much volume at rest",
+                             lower=0, upper=1, source="1: bubbles of the reserve's gas, entrained at its pressure",
+                             default=0.0, role="law")  # fmt: skip
+    column_share: float = var("fluid_lag", "", "1", "share of the columns' compliance that goes with their length", lower=0,
+                              upper=1, source="V / K; Manring, Hydraulic Control Systems", default=1.0,
+                              role="law")  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -49,6 +69,8 @@ class State(Frame):
 
     F_held_re: float = var("fluid_lag", "F_Fl", "N", "force of the rebound column at the end of the last step", default=0.0)
     F_held_co: float = var("fluid_lag", "F_Fl", "N", "force of the compression column, a magnitude", default=0.0)
+    F_turn_re: float = var("fluid_lag", "F_Fl", "N", "force of the rebound column, last pressed by the piston", default=0.0)
+    F_turn_co: float = var("fluid_lag", "F_Fl", "N", "the same of the compression column", default=0.0)
     F_late: float = var("fluid_lag", "F_Fl", "N", "force of both behind late valves", default=0.0)
 
 
@@ -57,23 +79,48 @@ def fluid_lag_parts(p: Parameters, dt: float) -> int:
     return parts_of(dt)
 
 
-def fluid_lag_column(p: Parameters, F: float) -> tuple[float, float, float]:
-    """Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N]."""
+def fluid_lag_length(p: Parameters, F: float, z: float) -> float:
+    """Oil [1] of the column on the side of the force `F` at the stroke `z` [m], in terms of that at stroke 0."""
+    out = p.column_share * z / (0.5 * (p.h_l - p.dead_length))
+    if F >= 0.0:
+        return 1.0 - out
+    rod = p.D_PR * p.D_PR
+    return 1.0 + out * rod / (2.0 * p.D_li * p.D_li - rod)
+
+
+def fluid_lag_column(p: Parameters, F: float, z: float) -> tuple[float, float, float]:
+    """Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N].
+
+    `z` [m] is the stroke of the piston.
+    """
     rod = 0.25 * math.pi * p.D_PR * p.D_PR
-    pressure = P_ATM + (p.F_0 / rod if p.gas_preload > 0 else 0.0)
-    area = 0.25 * math.pi * p.D_li * p.D_li - rod if F >= 0.0 else rod
-    return p.C_fluid if F >= 0.0 else p.C_fluid_co, p.V_air * P_ATM / (pressure * area), pressure * area
+    bore = 0.25 * math.pi * p.D_li * p.D_li
+    pressure = P_ATM
+    length = fluid_lag_length(p, F, z)
+    air = p.V_air * length
+    if p.gas_preload > 0:
+        pressure += p.F_0 / rod
+        air *= p.air_at_rest + (1.0 - p.air_at_rest) * P_ATM / pressure
+    if F >= 0.0:
+        # The share of the air that is above the piston, on the annulus.
+        return p.C_fluid * length, air / (2.0 * bore - rod), pressure * (bore - rod)
+    return p.C_fluid_co * length, air / rod, pressure * rod
 
 
-def fluid_lag_given(p: Parameters, F: float) -> float:
+def fluid_lag_stored(C: float, way: float, F_half: float, F: float) -> float:
+    """Elastic energy [J] of a column under the force `F` >= 0 [N]."""
+    return 0.5 * C * F * F + way * F_half * (math.log(1.0 + F / F_half) - F / (F + F_half))
+
+
+def fluid_lag_given(p: Parameters, F: float, z: float) -> float:
     """Stroke [m] by which the column gives under the force `F` [N], with its sign."""
-    C, way, F_half = fluid_lag_column(p, F)
+    C, way, F_half = fluid_lag_column(p, F, z)
     return C * F + way * F / (abs(F) + F_half)
 
 
 def fluid_lag_series(p: Parameters, s: State, F: float, dt: float) -> float:
     """Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]; for an element in series."""
-    return (fluid_lag_given(p, F) - fluid_lag_given(p, s.F_held_re - s.F_held_co)) / dt
+    return (fluid_lag_given(p, F, s.z) - fluid_lag_given(p, s.F_held_re - s.F_held_co, s.z)) / dt
 
 
 def fluid_lag_felt(p: Parameters, s: State, F: float, dt: float) -> float:
@@ -83,14 +130,34 @@ def fluid_lag_felt(p: Parameters, s: State, F: float, dt: float) -> float:
     return F + (s.F_late - F) * math.exp(-dt / p.tau_fluid)
 
 
+def fluid_lag_valves(F: float, k: float, velocities: tuple[float, ...], forces: tuple[float, ...]) -> tuple[float, float]:
+    """Speed [m/s] at which the valves of one branch make the force `F` >= 0 [N], and the slope there [N s/m]."""
+    if k < FAINT:
+        return 0.0, 0.0
+    i = 0
+    while i < FV_POINTS - 1 and k * forces[i] < F:
+        i += 1
+    if i == 0:
+        slope = k * forces[0] / velocities[0]
+        return (F / slope if slope > 0.0 else 0.0), slope
+    slope = k * (forces[i] - forces[i - 1]) / (velocities[i] - velocities[i - 1])
+    return velocities[i - 1] + ((F - k * forces[i - 1]) / slope if slope > 0.0 else 0.0), slope
+
+
 def fluid_lag_inverse(
-    p: Parameters, w: float, k: float, side: float, velocities: tuple[float, ...], forces: tuple[float, ...], dt: float
+    C: float,
+    way: float,
+    F_half: float,
+    w: float,
+    k: float,
+    velocities: tuple[float, ...],
+    forces: tuple[float, ...],
+    dt: float,
 ) -> float:
     """The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
 
-    `side` is 1 in rebound and -1 in compression, `k` the degradation of the branch.
+    `C`, `way` and `F_half` are those of `fluid_lag_column`, `k` the degradation of the branch.
     """
-    C, way, F_half = fluid_lag_column(p, side)
     i = 0
     while i < FV_POINTS - 1 and velocities[i] + (C + way / (k * forces[i] + F_half)) * k * forces[i] / dt < w:
         i += 1
@@ -110,6 +177,100 @@ def fluid_lag_inverse(
     return max(0.0, w - (C + way / (found + F_half)) * found / dt)
 
 
+def fluid_lag_leaking(
+    p: Parameters, C: float, way: float, F_half: float, w: float, k: float, side: float, velocities: tuple[float, ...],
+    forces: tuple[float, ...], dt: float,
+) -> float:  # fmt: skip
+    """As `fluid_lag_inverse`, with what passes beside the valves: secants for its speed between bounds that close in."""
+    u = fluid_lag_inverse(C, way, F_half, w, k, velocities, forces, dt)
+    low = 0.0
+    high = side * effects_bypass(p, side * branch(u, velocities, forces))
+    if high <= 0.0:
+        return u
+    # The faster the leak, the less force is left that drives it: `past` less what that force makes of it rises.
+    r_low = -high
+    past = min(high, w)
+    u = fluid_lag_inverse(C, way, F_half, w - past, k, velocities, forces, dt)
+    r_high = past - side * effects_bypass(p, side * branch(u, velocities, forces))
+    high = past
+    n = 0
+    while n < 40 and high - low > 1e-9:
+        past = min(max(low - r_low * (high - low) / (r_high - r_low), low + 0.05 * (high - low)), high - 0.05 * (high - low))
+        u = fluid_lag_inverse(C, way, F_half, w - past, k, velocities, forces, dt)
+        r = past - side * effects_bypass(p, side * branch(u, velocities, forces))
+        if r < 0.0:
+            low = past
+            r_low = r
+        else:
+            high = past
+            r_high = r
+        n += 1
+    return u
+
+
+def fluid_lag_press(
+    p: Parameters, s: State, side: float, k: float, free: float, dz: float, velocities: tuple[float, ...],
+    forces: tuple[float, ...], dt: float,
+) -> float:  # fmt: skip
+    """Carry one column over a step: its force at the end, and its part of `F_mean` and `W_step` of the state.
+
+    A column without force is pressed in the share `free` [1] of the step. Returns that share for the other column.
+    """
+    held = s.F_held_re if side > 0.0 else s.F_held_co
+    turn = s.F_turn_re if side > 0.0 else s.F_turn_co
+    v0 = side * s.goal_v0
+    v1 = side * s.goal_v1
+    begun = v0
+    pressed = dt
+    if held <= 0.0:
+        if v0 < 0.0:
+            # The column is pressed from the reversal on.
+            begun = 0.0
+            pressed = dt * v1 / (v1 - v0) if v1 > 0.0 else 0.0
+        begun = v1 - free * (v1 - begun)
+        pressed *= free
+    if pressed < FAINT:
+        return 1.0
+    C, way, F_half = fluid_lag_column(p, side, s.z)
+    u, slope = fluid_lag_valves(held, k, velocities, forces)
+    if k >= FAINT:
+        u += side * effects_bypass(p, side * held / k)
+    settling = (C + way * F_half / ((held + F_half) * (held + F_half))) * slope
+    share = end_weight(pressed / settling) if settling > 0.0 else 1.0
+    before = C * held + way * held / (held + F_half)
+    w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share
+    u = fluid_lag_leaking(p, C, way, F_half, w, k, side, velocities, forces, share * pressed) if w > 0.0 else 0.0
+    F = k * branch(u, velocities, forces)
+    after = C * F + way * F / (F + F_half)
+    travelled = 0.5 * (begun + v1) * pressed
+    through = max(0.0, travelled + before - after) / dt
+    # A stiff column lets the steps of k_degr through, a soft one does not.
+    even = 0.5 * (held + F) * pressed / dt
+    stiff = k * branch(through, velocities, forces) * effects_scale_valve(p, side * through)
+    mean = even + (2.0 * share - 1.0) * (stiff - even)
+    s.F_mean += side * mean
+    s.W_step += mean * through * dt
+    if held > 0.0 and p.column_share > 0.0:
+        shorter = fluid_lag_length(p, side, s.z - dz) / fluid_lag_length(p, side, s.z) - 1.0
+        s.W_step += shorter * fluid_lag_stored(C, way, F_half, held)
+    if side > 0.0:
+        s.F_held_re = F
+    else:
+        s.F_held_co = F
+    if v1 >= 0.0:
+        if side > 0.0:
+            s.F_turn_re = F
+        else:
+            s.F_turn_co = F
+    bound = (1.0 - p.relief_first) * turn
+    if held <= bound:
+        return 1.0
+    bound = C * bound + way * bound / (bound + F_half)
+    if F <= 0.0:
+        after = min(0.0, before + travelled)
+    return min(1.0, max(0.0, (bound - after) / (before - after))) if before > after else 0.0
+
+
 def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:
     """The fluid force with the memory of the oil columns; a step without time leaves it, but for the first."""
     if dt <= 0.0:
@@ -118,28 +279,19 @@ def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> 
             s.F_fluid = s.F_late if p.tau_fluid > 0.0 else s.F_valve
             s.F_mean = s.F_fluid
         return
-    half = 0.5 * (s.goal_v0 + s.goal_v1)
-    before = fluid_lag_given(p, s.F_held_re) / dt
-    w = s.goal_v1 + before
-    u = fluid_lag_inverse(p, w, s.k_re, 1.0, p.v_re, p.F_re, dt) if w > 0.0 else 0.0
-    F = valve_force(p, u, s.k_re, s.k_co)
-    # The valves see what the column does not give; k_degr may have jumped in between.
-    through = max(0.0, half + before - fluid_lag_given(p, F) / dt)
-    s.F_mean = fluid_force(p, through) * (s.k_mean if dz > 0.0 else s.k_re)
-    s.F_fluid = F
-    s.W_step = F * u * dt
-    before = fluid_lag_given(p, -s.F_held_co) / dt
-    w = s.goal_v1 + before
-    u = -fluid_lag_inverse(p, -w, s.k_co, -1.0, p.v_co, p.F_co, dt) if w < 0.0 else 0.0
-    F = valve_force(p, u, s.k_re, s.k_co)
-    through = min(0.0, half + before - fluid_lag_given(p, F) / dt)
-    if through < 0.0:
-        s.F_mean += fluid_force(p, through) * (s.k_mean if dz < 0.0 else s.k_co)
-    s.F_held_re = s.F_fluid
-    s.F_held_co = -F
-    s.F_fluid += F
+    k_re = s.k_mean if dz > 0.0 else s.k_re
+    k_co = s.k_mean if dz < 0.0 else s.k_co
+    s.F_mean = 0.0
+    s.W_step = 0.0
+    # The column that the piston leaves comes first.
+    if s.goal_v1 >= 0.0:
+        free = fluid_lag_press(p, s, -1.0, k_co, 1.0, dz, p.v_co, p.F_co, dt)
+        fluid_lag_press(p, s, 1.0, k_re, free, dz, p.v_re, p.F_re, dt)
+    else:
+        free = fluid_lag_press(p, s, 1.0, k_re, 1.0, dz, p.v_re, p.F_re, dt)
+        fluid_lag_press(p, s, -1.0, k_co, free, dz, p.v_co, p.F_co, dt)
+    s.F_fluid = s.F_held_re - s.F_held_co
     s.F_valve = s.F_fluid
-    s.W_step += F * u * dt
     if p.tau_fluid > 0.0:
         mean = s.F_mean
         s.F_fluid = fluid_lag_felt(p, s, mean, dt)

@@ -1,33 +1,43 @@
-"""Residual preload: a gas force c_residual z - F_residual in the states whose preload is taken as lost.
+"""Gas pressure that is not the one of the parameter set.
 
-A constant force alone (c_residual = 0) cannot be told from an offset of the force sensor.
+With preload the gas is charged too much or too little: F_surplus at stroke 0, and stiffness with it, as that of enclosed
+gas goes with its absolute pressure. Where the preload is taken as lost some is left: a gas force c_residual z - F_residual.
+There a constant force alone (c_residual = 0) cannot be told from an offset of the force sensor.
 """
 
+import math
 from dataclasses import dataclass
 
 from twintube.core import variables
+from twintube.core.frame import Frame
 from twintube.core.variables import var
 
 TITLE = "Residual or wrong gas preload"
-CAUSE = "Gas pressure is left where it is taken as lost, or the preload differs from the one of the parameter set."
+CAUSE = "The gas pressure differs from that of the parameter set, or some is left where it is taken as lost."
 ABSENCE = "The residual is a straight line over the stroke, the same in both directions and at every velocity."
-DECIDES = "a quasi-static record of the degraded damper over the whole stroke"
+DECIDES = "a quasi-static record over the whole stroke, and the gas pressure read at the valve"
 NEEDS_TIME = False
+P_AMBIENT = 1e5  # [Pa]
 
 
 @dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
-    """Stiffness and force."""
+    """Force with preload; stiffness and force without."""
 
-    c_residual: float = var("gas_spring", "", "N/m", "gas spring stiffness beyond c_gas", lower=-2e4, upper=2e4,
-                            source="linearised polytropic compression", default=0.0, role="strength")  # fmt: skip
-    F_residual: float = var("gas_spring", "", "N", "gas force at stroke 0 beyond F_0 (pushes the rod out)", lower=-2000,
-                            upper=2000, source="pressure times the rod's cross-section", default=0.0,
+    F_surplus: float = var("gas_spring", "", "N", "gas force at stroke 0 beyond that of the parameter set (pushes the rod "
+                           "out), with preload", lower=-1000, upper=1000, source="pressure times the rod's cross-section",
+                           default=0.0, role="strength")  # fmt: skip
+    c_residual: float = var("gas_spring", "", "N/m", "gas spring stiffness beyond that of the parameter set, preload lost",
+                            lower=-2e4, upper=2e4, source="linearised polytropic compression", default=0.0,
+                            role="strength")  # fmt: skip
+    F_residual: float = var("gas_spring", "", "N", "gas force at stroke 0 beyond that of the parameter set, preload lost",
+                            lower=-2000, upper=2000, source="pressure times the rod's cross-section", default=0.0,
                             role="strength")  # fmt: skip
 
 
-def gas_spring_elastic(p: Parameters, z: float) -> float:
-    """Force [N] at the stroke `z` [m]; with preload the gas spring of the parameter set is measured, not assumed."""
+def gas_spring_elastic(p: Parameters, s: Frame, z: float) -> float:
+    """Force [N] at the stroke `z` [m]."""
     if p.gas_preload > 0:
-        return 0.0
+        whole = p.F_0 + P_AMBIENT * 0.25 * math.pi * p.D_PR * p.D_PR
+        return p.F_surplus * (p.c_gas * z / whole - 1.0)
     return p.c_residual * z - p.F_residual

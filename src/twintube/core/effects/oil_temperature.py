@@ -1,9 +1,14 @@
-"""Self-heating: the dissipated work thins the oil, the fluid force fades and recovers at rest.
+"""Heat: the oil thins, so that the fluid force fades; the gas presses harder and the friction falls.
 
 The damper is one heat store with one way out (lumped capacity, Newton cooling); H is the heat in it beyond that of the
 start: dH/dt = P - H / cooling_time. Viscosity falls exponentially with temperature (Reynolds), and so does the force:
 F_Fl exp(-fade_heat (H + H_start)), H_start being the heat at the start beyond that at the temperature of the F-v curve.
 Heat capacity and viscosity index act only through their ratio `fade_heat`.
+
+Where the temperature is measured, it is `s.warm` [K] beyond that of the parameter set, set from outside; it acts by
+fade_kelvin and friction_kelvin in the same exponential way. The gas is enclosed: force and stiffness of the preload rise by
+gas_kelvin per kelvin, which is 1 / 296 K of the absolute pressure and more of the pressure above ambient. Where nothing is
+measured gas_heat makes the gas follow the retained heat.
 """
 
 import math
@@ -13,16 +18,16 @@ from twintube.core import variables
 from twintube.core.frame import Frame
 from twintube.core.variables import var
 
-TITLE = "Self-heating of the oil"
-CAUSE = "The dissipated work heats the oil, whose viscosity falls exponentially with temperature and recovers at rest."
-ABSENCE = "The measured fluid force falls from oscillation to oscillation below the model's and comes back after a rest."
-DECIDES = "a rest of ten minutes within a record: heat goes, lost oil does not come back"
+TITLE = "Heat of oil and gas"
+CAUSE = "Heat, of the dissipated work or from outside, thins the oil, eases the friction and raises the gas pressure."
+ABSENCE = "The measured fluid force falls below the model's while the damper gets warm, and comes back after a rest."
+DECIDES = "the tube's temperature, or a rest of ten minutes within a record: heat goes, lost oil does not come back"
 NEEDS_TIME = True
 
 
 @dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
-    """Fade and cooling."""
+    """Fade and cooling; what a kelvin changes."""
 
     fade_heat: float = var("oil_temperature", "", "1/J", "relative loss of fluid force per retained heat", lower=0,
                            upper=1e-3, source="Reynolds 1886 (viscosity), lumped heat capacity", default=0.0,
@@ -32,6 +37,15 @@ class Parameters(variables.Parameters):
     H_start: float = var("oil_temperature", "", "J", "heat at the start beyond that of the F-v curve's temperature",
                          lower=-2000, upper=2000, source="some kelvins of a rig's room", default=0.0,
                          role="scale")  # fmt: skip
+    fade_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of fluid force per kelvin measured", lower=0,
+                             upper=0.03, source="Reynolds 1886 (viscosity)", default=0.0, role="strength")  # fmt: skip
+    friction_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of friction per kelvin measured", lower=0,
+                                 upper=0.03, source="seals soften, the film thins", default=0.0,
+                                 role="strength")  # fmt: skip
+    gas_kelvin: float = var("oil_temperature", "", "1/K", "relative rise of the preload per kelvin measured", lower=0,
+                            upper=0.01, source="ideal gas, enclosed: 1/296 K", default=0.00338, role="scale")  # fmt: skip
+    gas_heat: float = var("oil_temperature", "", "1/J", "relative rise of the preload per retained heat", lower=0,
+                          upper=1e-3, source="ideal gas, lumped heat capacity", default=0.0, role="law")  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -48,7 +62,17 @@ def oil_temperature_phases(p: Parameters, s: State, way: float, dt: float) -> No
 
 def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
     """Share of the fluid force that is left [1]."""
-    return math.exp(-p.fade_heat * (p.H_start + s.heat))
+    return math.exp(-p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * s.warm)
+
+
+def oil_temperature_scale_friction(p: Parameters, s: State, z: float, v: float) -> float:
+    """Share of the friction that is left [1]."""
+    return math.exp(-p.friction_kelvin * s.warm)
+
+
+def oil_temperature_elastic(p: Parameters, s: State, z: float) -> float:
+    """Force [N] by which that of the preload changes at the stroke `z` [m]."""
+    return p.gas_preload * (p.gas_kelvin * s.warm + p.gas_heat * (p.H_start + s.heat)) * (p.c_gas * z - p.F_0)
 
 
 def oil_temperature_finish(p: Parameters, s: State, dt: float) -> None:

@@ -7,6 +7,7 @@ two and the longer the overhang. A tube worn where the piston usually runs rubs 
 from dataclasses import dataclass
 
 from twintube.core import variables
+from twintube.core.frame import Frame
 from twintube.core.variables import var
 
 TITLE = "Friction that depends on the position"
@@ -28,6 +29,6 @@ class Parameters(variables.Parameters):
                               role="strength")  # fmt: skip
 
 
-def position_friction_scale_friction(p: Parameters, z: float, v: float) -> float:
+def position_friction_scale_friction(p: Parameters, s: Frame, z: float, v: float) -> float:
     """Factor of the friction force [1] at the stroke `z` [m]."""
     return max(0.0, 1.0 + z * (p.friction_slope + z * p.friction_bow))

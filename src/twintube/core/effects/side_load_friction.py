@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 from twintube.core import variables
+from twintube.core.frame import Frame
 from twintube.core.variables import var
 
 TITLE = "Friction above the quasi-static value"
@@ -27,7 +28,7 @@ class Parameters(variables.Parameters):
                         source="rigs align themselves in slow ramps", default=0.02, role="scale")  # fmt: skip
 
 
-def side_load_friction_scale_friction(p: Parameters, z: float, v: float) -> float:
+def side_load_friction_scale_friction(p: Parameters, s: Frame, z: float, v: float) -> float:
     """Factor of the friction force [1] at the velocity `v` [m/s]."""
     x = v / p.v_side
     return 1.0 + p.side_load * (1.0 - math.exp(-x * x)) / (1.0 + p.oil_loss_gain * (1.0 - p.oil_level))

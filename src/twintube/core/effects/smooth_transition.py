@@ -126,3 +126,4 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
         # The kernel has settled k_degr for the new direction.
         smooth_transition_turn(p, s, turned, settled)
         s.k_degr = settled + s.k_carried
+        f.k_degr = s.k_degr

@@ -1,28 +1,82 @@
-"""Worn or clogged valves: the F-v curve is scaled, rebound and compression each by itself."""
+"""Worn or clogged valves: the F-v curve is scaled, and a leak lets oil past the valves, each direction by itself.
 
+The leak is an orifice parallel to the valves. At the force F it passes bleed sqrt(F / 1000 N), in terms of the speed of the
+piston, so that u = u_valve(F) + bleed sqrt(F / 1000 N): much force is lost at low speed, little at high speed. Within a
+segment of the F-v curve this is a quadratic equation for sqrt(F). The scale acts on what remains.
+"""
+
+import math
 from dataclasses import dataclass
 
 from twintube.core import variables
 from twintube.core.frame import Frame
-from twintube.core.variables import var
+from twintube.core.kernel.forces import branch
+from twintube.core.variables import FV_POINTS, var
 
 TITLE = "Change of the F-v curve"
-CAUSE = "Worn, set or clogged valves make less or more force than the F-v curve of the parameter set."
-ABSENCE = "The residual is proportional to the fluid force, with a factor for each direction, from the first oscillation."
-DECIDES = "an intact reference measured on the same day"
+CAUSE = "Worn, set, clogged or leaking valves make less or more force than the F-v curve of the parameter set."
+ABSENCE = (
+    "The residual goes with the fluid force, each direction by itself, from the first oscillation: in proportion to it, or "
+    "most of it at low velocity."
+)
+DECIDES = "an intact reference measured on the same day, slow and fast"
 NEEDS_TIME = False
+F_BLEED = 1000.0  # [N]
 
 
 @dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
-    """Relative change of each branch."""
+    """Relative change of each branch, and leak beside its valves."""
 
     wear_re: float = var("valve_wear", "", "1", "relative change of the fluid force in rebound", lower=-0.8, upper=1,
                          source="scaled F-v curve", default=0.0, role="strength")  # fmt: skip
     wear_co: float = var("valve_wear", "", "1", "relative change of the fluid force in compression", lower=-0.8, upper=1,
                          source="scaled F-v curve", default=0.0, role="strength")  # fmt: skip
+    bleed_re: float = var("valve_wear", "", "m/s", "piston speed that a leak beside the valves takes at 1000 N, rebound",
+                          lower=0, upper=0.5, source="turbulent orifice; Dixon, The Shock Absorber Handbook", default=0.0,
+                          role="strength", nominal=0.05)  # fmt: skip
+    bleed_co: float = var("valve_wear", "", "m/s", "the same in compression", lower=0, upper=0.5,
+                          source="turbulent orifice; Dixon, The Shock Absorber Handbook", default=0.0, role="strength",
+                          nominal=0.05)  # fmt: skip
 
 
 def valve_wear_scale_fluid(p: Parameters, s: Frame, v: float) -> float:
     """Factor of the fluid force [1] in the direction of `v`."""
     return 1.0 + (p.wear_re if v >= 0.0 else p.wear_co)
+
+
+def valve_wear_bypass(p: Parameters, F: float) -> float:
+    """Speed [m/s] in the direction of the force `F` [N] that passes beside the valves."""
+    if F >= 0.0:
+        return p.bleed_re * math.sqrt(F / F_BLEED)
+    return -p.bleed_co * math.sqrt(-F / F_BLEED)
+
+
+def valve_wear_share(u: float, b: float, velocities: tuple[float, ...], forces: tuple[float, ...]) -> float:
+    """Force of one branch at the speed `u` > 0 [m/s] over that without leak [1]; the leak takes `b` sqrt(F)."""
+    i = 0
+    while i < FV_POINTS - 1 and velocities[i] + b * math.sqrt(forces[i]) < u:
+        i += 1
+    v = 0.0
+    F = 0.0
+    if i > 0:
+        v = velocities[i - 1]
+        F = forces[i - 1]
+    slope = (forces[i] - F) / (velocities[i] - v)
+    # y = sqrt(force): y^2 = F + slope (u - b y - v) has the positive root
+    rest = F + slope * (u - v)
+    bend = slope * b
+    whole = branch(u, velocities, forces)
+    if rest <= 0.0 or whole <= 0.0:
+        return 1.0
+    y = 2.0 * rest / (bend + math.sqrt(bend * bend + 4.0 * rest))
+    return y * y / whole
+
+
+def valve_wear_scale_valve(p: Parameters, u: float) -> float:
+    """Factor of the intact fluid force [1] that the leak leaves at the speed `u` [m/s]."""
+    if u > 0.0:
+        return valve_wear_share(u, p.bleed_re / math.sqrt(F_BLEED), p.v_re, p.F_re) if p.bleed_re > 0.0 else 1.0
+    if u < 0.0:
+        return valve_wear_share(-u, p.bleed_co / math.sqrt(F_BLEED), p.v_co, p.F_co) if p.bleed_co > 0.0 else 1.0
+    return 1.0
