@@ -1,4 +1,4 @@
-"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, identify, diagnosis, detection."""
+"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, identify, diagnosis, detection, challenge."""
 
 import json
 import os
@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from benchmarks.challenge import bench_challenge
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.identify import bench_identify
@@ -25,7 +26,7 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,
     "detection": bench_detection,
 }
-NAMES = ", ".join((*BENCHMARKS, *SEEDED))
+NAMES = ", ".join((*BENCHMARKS, *SEEDED, "challenge"))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
@@ -38,16 +39,23 @@ def main(
         Path | None,
         typer.Option(help="File that outcomes of diagnosis or detection are added to; those in it are not run again."),
     ] = None,
+    first_seed: Annotated[int, typer.Option(min=0, help="First seed of the challenge.")] = 0,
+    causes: Annotated[str, typer.Option(help="Causes of the challenge, joined by commas; by default the seed draws.")] = "",
+    plot: Annotated[Path | None, typer.Option(help="Picture of the challenge's reliability.")] = None,
 ) -> None:
     """Measure speed and print a table; short jobs are run several times, the shortest time counts.
 
     diagnosis and detection measure hit rates on hidden causes and take hours with 10 seeds.
     """
-    if name not in (*BENCHMARKS, *SEEDED):
+    if name not in (*BENCHMARKS, *SEEDED, "challenge"):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
     compiled.module()
-    figures: dict[str, Any] = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds, keep)
+    figures: dict[str, Any]
+    if name == "challenge":
+        figures = bench_challenge(seeds, keep, first_seed, causes, plot)
+    else:
+        figures = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds, keep)
     typer.echo(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}")
     for key, value in figures.items():
         if isinstance(value, float):
