@@ -50,11 +50,13 @@ def with_interval(value: float, low: float, high: float, unit: str, share: bool 
 
 
 def percent(value: float) -> str:
-    """A share as text; a gain far below zero is only called that."""
+    """A share as text; only the whole is 100 %, and a gain far below zero is only called that."""
     if not math.isfinite(value):
         return MISSING
     if value < -9.995:
         return "below −999 %"
+    if 0.9995 <= value < 1.0:
+        return "99.9 %"
     near = abs(value) < 0.0995 or 0.99 <= abs(value) < 0.9995
     return f"{round(value * 100, 1 if near else 0) + 0.0:.{1 if near else 0}f} %".replace("-", "−")
 

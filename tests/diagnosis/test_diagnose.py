@@ -8,12 +8,17 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from tests.diagnosis import small
 from twintube.cli import app
 from twintube.dampers import load
+from twintube.data import Record
 from twintube.diagnosis import Diagnosis, diagnose
+from twintube.diagnosis.edges import with_edges, with_noise
+from twintube.diagnosis.engine import split
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.prepare import prepare
 from twintube.diagnosis.result import Estimate, RecordResult
+from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.where import structured
 from twintube.diagnosis.zeros import zero_drift
 from twintube.engine.simulate import InputError
@@ -23,75 +28,56 @@ BLOCKS = (0.131, 0.262, 0.524, 0.786, 1.048)
 
 
 @pytest.fixture(scope="module")
-def nothing() -> Trial:
-    return trial("none", 2001, blocks=BLOCKS)
+def nothing() -> Problem:
+    """Records of another scheme, with nothing hidden in them."""
+    data = dataset(trial("none", 2001, blocks=(0.262, 0.524, 1.048)))
+    return Problem(data.damper, prepare(data))
 
 
-def answered(kind: str, folder: Path, seed: int = 2001) -> Diagnosis:
-    return diagnose(write(trial(kind, seed, blocks=BLOCKS), folder))
+@pytest.fixture(scope="module")
+def good() -> list[Record]:
+    return small.records()
 
 
-def test_a_prepared_record_keeps_the_force_s_impulse_and_knows_its_noise(nothing: Trial) -> None:
-    for prepared, record in zip(prepare(dataset(nothing)), nothing.records, strict=True):
-        parts = np.diff(prepared.time) * prepared.measured()[1:]
-        whole = np.interp(prepared.time[[0, -1]], prepared.dense_time, prepared.impulse)
-        assert parts.sum() == pytest.approx(whole[1] - whole[0], rel=1e-9)
-        assert len(prepared.time) < len(record.time)
-        if record.measurement == "harmonic":
-            per = len(record.time) / len(prepared.time)
-            assert 0.3 < np.median(prepared.noise) / (record.noise_N / np.sqrt(per)) < 4.0
+def hidden(kind: str) -> Trial:
+    return trial(kind, 2001, blocks=BLOCKS)
 
 
-def test_the_model_is_at_the_noise_where_nothing_is_hidden(nothing: Trial) -> None:
+def answered(kind: str, folder: Path) -> Diagnosis:
+    return diagnose(write(hidden(kind), folder))
+
+
+def worn(r: small.Run) -> np.ndarray:
+    return r.force - np.where(r.velocity > 0, 0.1, 0.06) * r.fluid
+
+
+def test_the_model_is_at_the_noise_where_nothing_is_hidden(nothing: Problem) -> None:
     """Another scheme made the records: sampling, thinning and the model's steps cost less than the noise."""
-    data = dataset(nothing)
-    problem, _ = zero_drift(Problem(data.damper, prepare(data)))
-    offset = Free("force_offset", 0.0, -50.0, 50.0)
-    fit = problem.fit([offset])
+    problem, _ = zero_drift(with_edges(with_noise(nothing)))
+    fit = problem.fit([Free("force_offset", 0.0, -50.0, 50.0)])
     assert np.median(fit.misfit) < 1.5
     assert fit.misfit.max() < 4.0
 
 
-def test_structure_is_more_than_white_noise_with_the_stated_false_alarms(nothing: Trial) -> None:
+def test_structure_is_more_than_white_noise_with_the_stated_false_alarms(nothing: Problem) -> None:
     rng = np.random.default_rng(3)
-    records = prepare(dataset(nothing))
 
     def results(size: float) -> list[RecordResult]:
         several = []
-        for record in records:
+        for record in nothing.records:
             zero = np.zeros(len(record.time))
             wave = size * np.sin(np.linspace(0.0, 20.0, len(zero)))
-            several.append(RecordResult(record, "fit", wave + rng.standard_normal(len(zero)), zero, zero, zero))
+            noisy = wave + rng.standard_normal(len(zero))
+            several.append(RecordResult(record, "fit", noisy, zero, zero, zero, np.ones(len(zero))))
         return several
 
     assert sum(bool(structured(results(0.0), "base")) for _ in range(200)) <= 8
-    assert len(structured(results(1.0), "base")) == len(records)
+    assert len(structured(results(1.0), "base")) == len(nothing.records)
 
 
-def test_fit_recovers_a_parameter(nothing: Trial) -> None:
-    data = dataset(nothing)
-    problem = Problem(data.damper, prepare(data))
+def test_fit_recovers_a_parameter(nothing: Problem) -> None:
     free = [Free("X_Co2", 0.85, 0.0, 1.0), Free("force_offset", 0.0, -50.0, 50.0)]
-    fit = problem.fit(free)
-    assert fit.values["X_Co2"] == pytest.approx(data.damper.parameters.X_Co2, abs=0.01)
-
-
-def test_nothing_hidden_is_nothing_named(nothing: Trial, tmp_path: Path) -> None:
-    answer = diagnose(write(nothing, tmp_path))
-    assert answer.verdict == "none"
-    assert answer.causes == []
-    assert len(answer.structure["base"]) <= 1
-    assert answer.extended.parameters == load("SA8").parameters
-
-
-def test_valve_wear_is_named_and_gains_on_held_out_records(tmp_path: Path) -> None:
-    answer = answered("valve_wear", tmp_path)
-    assert (answer.verdict, answer.causes[0].effect) == ("cause", "valve_wear")
-    assert answer.causes[0].gain.heldout > 0.8
-    assert len(answer.structure["extended"]) < len(answer.structure["base"]) / 2
-    assert answer.errors["heldout"]["extended"].force_rmse_N < answer.errors["heldout"]["base"].force_rmse_N
-    assert answer.extended.parameters.wear_re != 0.0  # type: ignore[attr-defined]
-    assert answer.extended.sources["valve_wear"] == "added by diagnosis"
+    assert nothing.fit(free).values["X_Co2"] == pytest.approx(nothing.given.parameters.X_Co2, abs=0.01)
 
 
 def test_values_at_the_end_of_their_range_and_undetermined_values_are_doubted() -> None:
@@ -108,63 +94,87 @@ def test_values_at_the_end_of_their_range_and_undetermined_values_are_doubted() 
     assert Estimate(0.03, 0.0299, 0.03, "s", (-0.03, 0.03), 0.0).doubt == "at the end of its range, -0.03 to 0.03 s"
 
 
-@pytest.mark.slow
-def test_what_no_effect_makes_is_unexplained_and_described(tmp_path: Path) -> None:
-    answer = answered("backlash", tmp_path)
-    assert (answer.verdict, answer.causes) == ("unexplained", [])
-    assert "play" in answer.sentence
-    assert answer.extended.parameters == load("SA8").parameters
-
-
-def test_what_the_records_cannot_tell_apart_is_ambiguous(tmp_path: Path) -> None:
-    """Without the intact state, which has its preload, a zero of the load cell is the force of a residual pressure."""
-    hidden = trial("force_offset", 2001, blocks=BLOCKS)
-    records = [r for r in hidden.records if not r.gas_preload]
-    answer = diagnose(write(replace(hidden, records=records), tmp_path))
-    assert answer.verdict == "ambiguous"
-    named = {answer.causes[0].effect, *(other.effect for other in answer.alternatives)}
-    assert {"gas_spring", "force_offset"} <= named
-    assert answer.next_measurements
-    assert any("no record of the intact damper" in remark for remark in answer.remarks)
-
-
-def test_zero_of_the_load_cell_is_a_fault_of_the_measurement(tmp_path: Path) -> None:
-    answer = answered("force_offset", tmp_path)
-    assert (answer.verdict, answer.causes[0].effect) == ("measurement_fault", "force_offset")
-    value = answer.causes[0].parameters["force_offset"]
-    assert value.low <= value.value <= value.high
-
-
-def test_turned_sign_is_named_by_the_command(tmp_path: Path) -> None:
-    folder = write(trial("sign_flip", 2001, blocks=BLOCKS[2:]), tmp_path / "data")
+def test_turned_sign_is_named_by_the_command_and_nothing_else(tmp_path: Path) -> None:
+    records = small.records(speeds=(0.2, 0.4, 0.8), levels=(small.INTACT, small.DEGRADED))
+    folder = small.write([replace(r, force=-r.force) for r in records], tmp_path / "data")
     result = CliRunner().invoke(app, ["diagnose", str(folder), "--output", str(tmp_path / "out")])
     assert result.exit_code == 0, result.output
     answer = json.loads((tmp_path / "out" / "diagnosis.json").read_text())
     assert answer["verdict"] == "measurement_fault"
-    assert answer["causes"][0]["effect"] == "sign_flip"
+    assert [cause["effect"] for cause in answer["causes"]] == ["sign_flip"]
     assert 0.9 < answer["causes"][0]["gain"]["heldout"] <= 1.0
-    assert load(tmp_path / "out" / "extended.toml").name == "SA8"
+    assert "Nothing is missing" in answer["sentence"]
+    assert sum(answer["probabilities"].values()) == pytest.approx(1.0)
+    assert answer["error"]["noise_floor"]["force_rmse_N"] <= answer["error"]["extended"]["force_rmse_N"]
+    assert not (tmp_path / "out" / "extended.toml").exists()  # the damper is as given
     assert "sign" in (tmp_path / "out" / "report.html").read_text()
 
 
+def test_records_of_a_single_velocity_are_split_and_judged(tmp_path: Path) -> None:
+    stop = lambda r: r.force + 1.2e5 * np.maximum(r.stroke - 0.8 * small.AMPLITUDE, 0.0)  # noqa: E731
+    runs = [small.run(0.5, turns=12), small.run(0.5, small.DEGRADED, slow=2)]
+    answer = diagnose(small.write([small.record(r, stop(r), seed=i) for i, r in enumerate(runs)], tmp_path))
+    assert (answer.verdict, [cause.effect for cause in answer.causes]) == ("cause", ["end_stop"])
+    assert any("all records have one velocity" in remark for remark in answer.remarks)
+    assert {r.split for r in answer.records} == {"heldout"}
+    assert answer.causes[0].gain.heldout > 0.9
+    assert answer.errors["heldout"]["extended"].force_rmse_N < answer.errors["heldout"]["base"].force_rmse_N
+    assert answer.extended.sources["end_stop"] == "added by diagnosis"
+
+
+def test_every_second_tenth_of_a_single_velocity_is_held_out_in_turn(good: list[Record]) -> None:
+    record = small.problem(good[1:2]).records[0]
+    folds, remarks = split("x", [record])
+    assert len(folds) == 2 and "one velocity" in remarks[0]
+    (fitted,), (held,) = folds[0]
+    assert not np.any(fitted.judged & held.judged)
+    assert np.array_equal(fitted.judged | held.judged, record.judged)
+    assert 0.4 < fitted.judged.sum() / record.judged.sum() < 0.6
+    (other,) = folds[1][0]
+    assert np.array_equal(other.judged, held.judged)
+
+
+def test_a_tolerance_turns_a_small_deviation_into_noise() -> None:
+    records = small.problem(small.records(lambda r: 1.03 * r.force)).records
+    strict, tolerant = (Problem(load("SA8"), records, tolerance=x) for x in (0.0, 0.05))
+    assert strict.misfits(strict.residual({})).min() > 10
+    assert tolerant.misfits(tolerant.residual({})).max() < 1.0
+    kept = tolerant.with_records(records[:2]).with_drift(1.0)
+    assert kept.tolerance == tolerant.tolerance
+
+
+@pytest.mark.slow
+def test_a_good_damper_is_called_good_within_a_tolerance(tmp_path: Path) -> None:
+    folder = small.write(small.records(worn, levels=(small.INTACT, small.DEGRADED)), tmp_path)
+    assert diagnose(folder).verdict == "cause"
+    answer = diagnose(folder, tolerance=0.15)
+    assert (answer.verdict, answer.causes, answer.tolerance) == ("none", [], 0.15)
+
+
 @pytest.mark.parametrize(
-    ("keep", "split", "message"),
+    ("keep", "entry", "message"),
     [
-        (1, "", "1 record, at least two"),
-        (4, "heldout", "4 of 4 records are held out"),
-        (2, "same", "all records have one velocity"),
+        (slice(4), {"split": "heldout"}, "4 of 4 records are held out"),
+        (slice(1), {"measurement": "quasi-static"}, "only quasi-static records"),
     ],
 )
-def test_datasets_that_allow_no_judgement(nothing: Trial, tmp_path: Path, keep: int, split: str, message: str) -> None:
-    records = [r for r in nothing.records if r.measurement == "harmonic"][:keep]
-    if split == "same":
-        records = [records[0], replace(records[0], file="again.parquet", force=records[0].force * 1.01)]
-    folder = write(replace(nothing, records=records), tmp_path)
-    if split == "heldout":
-        toml = folder / "dataset.toml"
-        toml.write_text(toml.read_text().replace("[[record]]\n", '[[record]]\nsplit = "heldout"\n'))
+def test_datasets_that_allow_no_judgement(
+    good: list[Record], tmp_path: Path, keep: slice, entry: dict[str, object], message: str
+) -> None:
     with pytest.raises(InputError, match=message):
-        diagnose(folder)
+        diagnose(small.write(good[keep], tmp_path, **{r.name: entry for r in good}))
+
+
+def test_a_single_velocity_that_is_too_short_is_refused(good: list[Record]) -> None:
+    (record,) = small.problem(good[1:2]).records
+    with pytest.raises(InputError, match="too short to be split"):
+        split("x", [replace(record, judged=record.judged & (record.time < 0.05 * record.time[-1]))])
+
+
+@pytest.mark.parametrize("tolerance", [-0.01, 1.01 * RULES.most_tolerance, float("nan")])
+def test_a_tolerance_out_of_range_is_refused(tmp_path: Path, tolerance: float) -> None:
+    with pytest.raises(InputError, match=r"tolerance = .*must be from 0 to 0\.2"):
+        diagnose(tmp_path, tolerance=tolerance)
 
 
 def test_empty_dataset_and_unknown_damper(tmp_path: Path) -> None:
@@ -174,3 +184,50 @@ def test_empty_dataset_and_unknown_damper(tmp_path: Path) -> None:
     assert "no [[record]]" in result.output
     assert "SA9" in result.output
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.slow
+def test_nothing_hidden_is_nothing_named(tmp_path: Path) -> None:
+    answer = answered("none", tmp_path)
+    assert (answer.verdict, answer.causes) == ("none", [])
+    assert len(answer.structure["base"]) <= 1
+    assert answer.extended.parameters == load("SA8").parameters
+
+
+@pytest.mark.slow
+def test_valve_wear_is_named_and_gains_on_held_out_records(tmp_path: Path) -> None:
+    answer = answered("valve_wear", tmp_path)
+    assert (answer.verdict, answer.causes[0].effect) == ("cause", "valve_wear")
+    assert answer.causes[0].gain.heldout > 0.8
+    assert len(answer.structure["extended"]) < len(answer.structure["base"]) / 2
+    assert answer.errors["heldout"]["extended"].force_rmse_N < answer.errors["heldout"]["base"].force_rmse_N
+    assert answer.extended.parameters.wear_re != 0.0  # type: ignore[attr-defined]
+    assert answer.extended.sources["valve_wear"] == "added by diagnosis"
+
+
+@pytest.mark.slow
+def test_what_no_effect_makes_is_unexplained_and_described(tmp_path: Path) -> None:
+    answer = answered("backlash", tmp_path)
+    assert (answer.verdict, answer.causes) == ("unexplained", [])
+    assert "play" in answer.sentence
+    assert answer.extended.parameters == load("SA8").parameters
+
+
+@pytest.mark.slow
+def test_what_the_records_cannot_tell_apart_is_ambiguous(tmp_path: Path) -> None:
+    """Without the intact state, which has its preload, a zero of the load cell is the force of a residual pressure."""
+    whole = hidden("force_offset")
+    answer = diagnose(write(replace(whole, records=[r for r in whole.records if not r.gas_preload]), tmp_path))
+    assert answer.verdict == "ambiguous"
+    named = {answer.causes[0].effect, *(other.effect for other in answer.alternatives)}
+    assert {"gas_spring", "force_offset"} <= named
+    assert answer.next_measurements
+    assert any("no record of the intact damper" in remark for remark in answer.remarks)
+
+
+@pytest.mark.slow
+def test_zero_of_the_load_cell_is_a_fault_of_the_measurement(tmp_path: Path) -> None:
+    answer = answered("force_offset", tmp_path)
+    assert (answer.verdict, answer.causes[0].effect) == ("measurement_fault", "force_offset")
+    value = answer.causes[0].parameters["force_offset"]
+    assert value.low <= value.value <= value.high

@@ -1,21 +1,20 @@
 """Balancing the records is explicit: problems do not change, and a selector has its start from the beginning."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from tests.diagnosis import small
 from twintube.diagnosis.candidates import candidates
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.gains import bootstrap, removed, worst
-from twintube.diagnosis.prepare import prepare
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.select import Fold, Selector
-from twintube.lab.blind_trials.trials import dataset, trial
+from twintube.diagnosis.select import Fold, Option, Selector
 
 
 @pytest.fixture(scope="module")
 def problem() -> Problem:
-    data = dataset(trial("valve_wear", 2001, blocks=(0.262, 0.524)))
-    return Problem(data.damper, prepare(data))
+    return small.problem(small.records(lambda r: r.force - np.where(r.velocity > 0, 0.1, 0.05) * r.fluid))
 
 
 def test_a_balanced_problem_is_another_problem(problem: Problem) -> None:
@@ -41,10 +40,75 @@ def test_a_selector_balances_its_records_and_leaves_the_given_ones(problem: Prob
     assert selector.count == held.counts.sum()
 
 
-def test_gains_over_records() -> None:
-    rows = np.array([[9.0, 10.0], [4.0, 10.0], [-5.0, 0.01]])
-    assert worst(rows) == pytest.approx(0.4)  # a record of next to no explainable error does not count
-    low, high = bootstrap(rows[:2])
-    assert (low, high) == (pytest.approx(0.4), pytest.approx(0.9))
-    assert removed(0.0, -1.0, 10) == 0.0
-    assert removed(RULES.right, 0.0, 10) == pytest.approx(1.0)
+@pytest.fixture(scope="module")
+def selector(problem: Problem) -> Selector:
+    return crossed(problem)
+
+
+def crossed(problem: Problem) -> Selector:
+    """Every second record is held out in turn."""
+    halves = [problem.with_records(problem.records[i::2]) for i in (0, 1)]
+    folds = [Fold(*halves), Fold(*halves[::-1])]
+    return Selector(problem, candidates(problem), folds)
+
+
+def changed(selector: Selector, names: tuple[str, ...], squares: list[float]) -> Option:
+    """A model that leaves so much of the squared error of each held-out record, as a share of that of the start."""
+    start = selector.start
+    misfit = start.misfit * np.array(squares)
+    return replace(
+        start, names=names, misfit=misfit, squares=selector.counts * misfit, score=float(selector.logs(misfit).sum())
+    )
+
+
+def test_worth_is_what_most_records_gain(selector: Selector) -> None:
+    start = selector.start
+    assert selector.worth(start, changed(selector, ("valve_wear",), [0.2, 0.2, 0.2, 0.2]))
+    assert not selector.worth(start, changed(selector, ("valve_wear",), [1.0, 1.0, 1.0, 0.01]))  # a single record decides
+    assert not selector.worth(start, changed(selector, ("valve_wear",), [1 - 0.5 * RULES.least_share] * 4))
+    assert not selector.worth(start, changed(selector, ("valve_wear",), [0.5, 0.5, 0.5, 5.0]))  # the squared error rises
+    assert not selector.worth(start, start)
+
+
+def test_a_further_cause_must_take_a_good_part_of_what_is_left(selector: Selector) -> None:
+    first = changed(selector, ("valve_wear",), [0.2, 0.2, 0.2, 0.2])
+    little, much = (changed(selector, ("valve_wear", "fluid_lag"), [x] * 4) for x in (0.18, 0.02))
+    assert not selector.worth(first, little)
+    assert selector.worth(first, much)
+
+
+def test_a_cause_and_its_start_are_those_of_the_truth(selector: Selector) -> None:
+    cost, point = selector.beginning(selector.start, "valve_wear")
+    assert cost < (1 - RULES.promise) * selector.sketched(selector.start)
+    assert {name: np.sign(x) for name, x in point.items() if x} == {"wear_re": -1.0, "wear_co": -1.0}
+    worn = selector.extended(selector.start, "valve_wear", point)
+    assert selector.acts(worn) and selector.worth(selector.start, worn)
+    values = selector.refitted(worn).values
+    assert (values["wear_re"], values["wear_co"]) == (pytest.approx(-0.1, abs=0.01), pytest.approx(-0.05, abs=0.01))
+    late = selector.extended(selector.start, "channel_delay")
+    assert not (selector.acts(late) and selector.worth(selector.start, late))
+
+
+def test_what_makes_the_force_late_twice_is_not_sought(selector: Selector) -> None:
+    assert selector.alike("channel_delay", ("fluid_lag",))
+    assert not selector.alike("channel_delay", ("valve_wear",))
+    assert not selector.alike("valve_wear", ("fluid_lag",))
+
+
+def test_what_is_too_short_for_the_sampling_joins_every_model_and_is_no_cause(problem: Problem) -> None:
+    """A lag below a sample that explains the records best is how they were sampled."""
+    seen = crossed(problem)
+    tau = 0.5 * seen.candidates["fluid_lag"].least["tau_fluid"]
+    fits = tuple(replace(fit, values={**fit.values, "tau_fluid": tau}) for fit in seen.start.fits)
+    short = replace(changed(seen, ("fluid_lag",), [0.3] * 4), fits=fits)
+    better = replace(
+        changed(seen, ("valve_wear",), [0.2] * 4), fits=tuple(replace(f, values={**f.values, "wear_re": -0.1}) for f in fits)
+    )
+    assert not seen.acts(short) and seen.acts(better)
+    assert not seen.seen_through_sampling([better, short])
+    assert seen.sampling == ()
+    assert seen.seen_through_sampling([short])
+    assert seen.sampling == ("fluid_lag",) == seen.start.names
+    (lag,) = (f for f in seen.free(("fluid_lag",), short.fits[0].values) if f.name == "tau_fluid")
+    assert lag.high == pytest.approx(seen.candidates["fluid_lag"].least["tau_fluid"])
+    assert not seen.alike("channel_delay", seen.sampling)  # a true delay may still be a cause

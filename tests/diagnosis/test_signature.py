@@ -91,10 +91,10 @@ def test_a_cut_force(sign: int, step: float) -> None:
         return step * np.round(force / step) if step else force
 
     (signature,) = signatures(changed(whole, cut))
-    missing = [cut(r) - r.force for r in whole if np.abs(r.force).max() > 1800]
     assert signature.name == "saturation"
-    assert f"{1800 * sign} N in 4 of 12" in signature.text
-    assert signature.size == pytest.approx(np.sqrt(np.mean(np.concatenate(missing) ** 2)), rel=1.0)
+    # What the limit takes of oil_1.1 is less than its noise.
+    assert f"clipped at {1800 * sign} N in intact_1.1, intact_1.5, oil_1.5 (" in signature.text
+    assert signature.size == np.inf  # nothing limits what was cut off
 
 
 def test_a_limit_of_a_single_record_does_not_count() -> None:
@@ -189,4 +189,4 @@ def test_a_slow_rise_is_no_play() -> None:
 
 
 def test_a_trial() -> None:
-    assert names(dataset(trial("fluid_lag", 5, blocks=(0.131, 0.262, 0.524, 1.048))).records) == []
+    assert names(dataset(trial("fluid_lag", 5, blocks=(0.262, 0.524, 1.048))).records) == []

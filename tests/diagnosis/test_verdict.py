@@ -1,25 +1,30 @@
-"""The verdict is decided in one function, from scores alone; its sentences name every cause."""
+"""The verdict is decided in one function, from scores and figures; its sentences name every cause and it contradicts no figure."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from twintube.diagnosis.candidates import Candidate
-from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.result import Signature
+from twintube.diagnosis.confidence import probabilities
+from twintube.diagnosis.faults import PUT_RIGHT, Fault
+from twintube.diagnosis.result import Errors, Estimate, Gain, Signature
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.select import RECALIBRATE, Option, Selection
-from twintube.diagnosis.verdict import judge, sentence
+from twintube.diagnosis.verdict import Judgement, judge, sentence
 
 COUNT = 1000  # held-out samples
 SCORE = 2000.0  # of the model without a cause, twice the negative log-likelihood
+LEAST = 0.01  # strength that every measurement has
 TURNED = Fault("sign_flip", "Sign of the force channel", "The force channel has the other sign.", -1.0)
 UNIT = Fault("unit_error", "Unit of the force", "The force channel holds kN for N.", 1000.0)
+GOOD = Gain(0.9, 0.9, (0.8, 0.95), 0.7)
+FOUND = Estimate(0.2, 0.15, 0.25, "1", (-0.8, 1.0), 0.0)
 
 
 def candidate(name: str, title: str, fault: bool = False) -> Candidate:
-    return Candidate(name, title, "", (), (), {}, fault, "a further record")
+    return Candidate(name, title, "", (), ("strength",), {}, fault, "a further record", {"strength": LEAST})
 
 
 KNOWN = {
@@ -33,56 +38,132 @@ KNOWN = {
 
 
 def option(*names: str, score: float) -> Option:
-    return Option(names, (), np.ones(1), np.zeros(1), 0.0, score)
+    return Option(names, (), np.ones(1), np.zeros(1), np.ones(1), score)
 
 
-def selection(final: Option, *others: Option) -> Selection:
-    start = option(score=SCORE)
+def selection(final: Option, *others: Option, start: float = SCORE) -> Selection:
     first = option(*(final.names[:1] or ("valve_wear",)), score=final.score)
-    return Selection(start, [[first, *others]], list(final.names), final, start, COUNT, 10.0)
+    first_model = option(score=start)
+    return Selection(first_model, [[first, *others]], list(final.names), final, first_model, COUNT, 10.0, ())
+
+
+def judged(
+    chosen: Selection,
+    *,
+    value: Estimate = FOUND,
+    seen: Sequence[Signature] = (),
+    forces: tuple[float, float, float] = (100.0, 20.0, 10.0),
+    gain: Gain = GOOD,
+    faults: Sequence[Fault] = (),
+) -> Judgement:
+    """The verdict; `forces` [N] are the held-out errors of base and extended model and of noise."""
+    errors = {name: Errors(x, 0.0) for name, x in zip(("base", "extended", "noise_floor"), forces, strict=True)}
+    estimates = {name: {"strength": value} for name in KNOWN}
+    return judge(chosen, KNOWN, estimates, list(seen), errors, gain, list(faults))
 
 
 @pytest.mark.parametrize(
-    ("names", "score", "verdict"),
+    ("names", "score", "gain", "verdict"),
     [
-        ((), RULES.right * COUNT, "none"),
-        ((), SCORE, "unexplained"),
-        (("valve_wear",), 0.0, "cause"),
-        (("valve_wear",), 0.9 * SCORE, "unexplained"),
-        (("valve_wear", "fluid_lag"), 0.0, "cause"),
-        ((RECALIBRATE,), 0.0, "recalibrate"),
-        (("force_gain",), 0.0, "measurement_fault"),
+        ((), RULES.right * COUNT, 0.0, "none"),
+        ((), SCORE, 0.0, "unexplained"),
+        (("valve_wear",), 0.0, 0.9, "cause"),
+        (("valve_wear",), 0.9 * SCORE, 0.1, "unexplained"),
+        (("valve_wear", "fluid_lag"), 0.0, 0.9, "cause"),
+        ((RECALIBRATE,), 0.0, 0.9, "recalibrate"),
+        (("force_gain",), 0.0, 0.9, "measurement_fault"),
     ],
 )
 def test_the_verdict_follows_from_what_is_chosen_and_what_is_left(
-    names: tuple[str, ...], score: float, verdict: str
+    names: tuple[str, ...], score: float, gain: float, verdict: str
 ) -> None:
-    judgement = judge(selection(option(*names, score=score)), KNOWN, [], 100.0, [])
+    judgement = judged(selection(option(*names, score=score)), gain=replace(GOOD, heldout=gain))
     assert (judgement.verdict, judgement.remaining) == (verdict, verdict)
     assert bool(judgement.causes) == (verdict in ("cause", "measurement_fault"))
+
+
+@pytest.mark.parametrize(
+    "figures",
+    [
+        {"gain": replace(GOOD, heldout=-1.63)},
+        {"gain": replace(GOOD, heldout=0.0)},
+        {"gain": replace(GOOD, heldout_interval=(-0.1, 0.95))},
+        {"forces": (100.0, 101.0, 10.0)},
+        {"forces": (10.0, 9.0, 10.0)},
+        {"value": replace(FOUND, low=-0.05)},
+        {"value": replace(FOUND, value=1.0, low=0.9, high=1.0)},
+        {"value": replace(FOUND, value=0.5 * LEAST, low=0.4 * LEAST, high=0.6 * LEAST)},
+    ],
+    ids=["worse", "no gain", "gain open", "error rises", "base at noise", "interval holds zero", "end of range", "every measurement's"],
+)  # fmt: skip
+@pytest.mark.parametrize("name", ["valve_wear", "force_gain"])
+def test_no_cause_is_named_against_a_figure(name: str, figures: dict[str, object]) -> None:
+    chosen = selection(option(name, score=0.0))
+    judgement = judged(chosen, **figures)  # type: ignore[arg-type]
+    assert (judgement.verdict, judgement.causes, judgement.kept) == ("unexplained", [], [])
+    small = selection(option(name, score=0.0), start=RULES.right * COUNT)
+    assert judged(small, **figures).verdict == "none"  # type: ignore[arg-type]
+
+
+def test_whatever_the_figures_are_a_named_cause_agrees_with_them() -> None:
+    rng = np.random.default_rng(7)
+    named = 0
+    for _ in range(2000):
+        middle, base = rng.uniform(-0.2, 1.2), rng.uniform(0.0, 100.0)
+        wide, spread = rng.uniform(0.0, 0.5, 2)
+        gain = Gain(0.9, middle, (middle - wide, min(1.0, middle + wide)), 0.0)
+        x = rng.uniform(-0.8, 1.0)
+        value = replace(FOUND, value=x, low=max(-0.8, x - spread), high=min(1.0, x + spread))
+        forces = (base, base * rng.uniform(0.1, 1.2), base * rng.uniform(0.0, 1.2))
+        names = (("valve_wear",), ("force_gain",), ("valve_wear", "fluid_lag"))[rng.integers(3)]
+        score = rng.uniform(0.0, SCORE)
+        chosen = selection(option(*names, score=score), option("fluid_lag", score=score + rng.uniform(0.0, 100.0)))
+        judgement = judged(chosen, value=value, forces=forces, gain=gain)
+        if judgement.verdict in ("cause", "ambiguous", "measurement_fault"):
+            named += 1
+            assert judgement.causes == list(names)
+            assert gain.heldout > 0.0 and gain.heldout_interval[0] > 0.0
+            assert forces[1] < forces[0] and forces[2] < forces[0]
+            assert abs(value.value) > LEAST and not value.low <= 0.0 <= value.high and not value.at_bound
+        else:
+            assert (judgement.causes, judgement.kept) == ([], [])
+        assert judgement.verdict != "none" or chosen.start.score <= RULES.right * COUNT
+    assert named > 100
+
+
+def test_a_doubt_is_said() -> None:
+    end = replace(FOUND, value=1.0, low=0.9, high=1.0)
+    text = sentence(judged(selection(option("valve_wear", score=0.0)), value=end), KNOWN, [])
+    assert "no known cause" in text and "at the end of its range, -0.8 to 1" in text
 
 
 def test_equal_candidates_are_ambiguous_and_unequal_candidates_are_not() -> None:
     final = option("valve_wear", score=0.0)
     near, far = option("fluid_lag", score=5.0), option("fluid_lag", score=500.0)
-    judgement = judge(selection(final, near), KNOWN, [], 100.0, [])
+    judgement = judged(selection(final, near))
     assert (judgement.verdict, [o.names for o in judgement.rivals]) == ("ambiguous", [("fluid_lag",)])
     assert "lag of the fluid force" in sentence(judgement, KNOWN, [])
-    assert judge(selection(final, far), KNOWN, [], 100.0, []).verdict == "cause"
+    assert judged(selection(final, far)).verdict == "cause"
+    assert judged(replace(selection(final, near), neutral=("fluid_lag",))).verdict == "cause"
 
 
 def test_a_signature_decides_where_it_is_a_good_part_of_the_error() -> None:
     final = option("valve_wear", score=0.0)
     play = Signature("backlash", "the joint has play", 1.01 * RULES.shows * 100.0)
-    judgement = judge(selection(final), KNOWN, [play], 100.0, [])
+    judgement = judged(selection(final), seen=[play])
     assert (judgement.verdict, judgement.causes) == ("unexplained", [])
     assert "the joint has play" in sentence(judgement, KNOWN, [])
-    small = replace(play, size=0.5 * play.size)
-    assert judge(selection(final), KNOWN, [small], 100.0, []).verdict == "cause"
+    assert judged(selection(final), seen=[replace(play, size=0.5 * play.size)]).verdict == "cause"
+
+
+def test_forces_that_were_cut_do_not_hide_a_cause_and_nothing_cut_off_is_called_good() -> None:
+    cut = Signature("saturation", "the force is clipped at 1800 N", np.inf)
+    assert judged(selection(option("valve_wear", score=0.0)), seen=[cut]).verdict == "cause"
+    assert judged(selection(option(score=0.0), start=0.0), seen=[cut]).verdict == "unexplained"
 
 
 def test_faults_that_were_put_right_come_first_and_what_is_left_is_said() -> None:
-    judgement = judge(selection(option("valve_wear", score=0.0)), KNOWN, [], 100.0, [TURNED, UNIT])
+    judgement = judged(selection(option("valve_wear", score=0.0)), faults=[TURNED, UNIT])
     assert (judgement.verdict, judgement.remaining) == ("measurement_fault", "cause")
     text = sentence(judgement, KNOWN, [TURNED, UNIT])
     assert text.startswith("The measurement is faulty: the force channel has the other sign; the force channel holds kN")
@@ -91,6 +172,37 @@ def test_faults_that_were_put_right_come_first_and_what_is_left_is_said() -> Non
 
 
 def test_several_causes_are_listed_as_several() -> None:
-    judgement = judge(selection(option("valve_wear", "fluid_lag", score=0.0)), KNOWN, [], 100.0, [])
-    text = sentence(judgement, KNOWN, [])
+    text = sentence(judged(selection(option("valve_wear", "fluid_lag", score=0.0))), KNOWN, [])
     assert text.startswith("Two causes: (1) change of the F-v curve; (2) lag of the fluid force.")
+
+
+@pytest.mark.parametrize(
+    ("names", "score", "faults", "first"),
+    [
+        ((), 0.0, [], "none"),
+        ((), SCORE, [], "unknown"),
+        (("valve_wear",), 0.0, [], "valve_wear"),
+        (("force_gain",), 0.0, [], "force_gain"),
+        ((RECALIBRATE,), 0.0, [], RECALIBRATE),
+        ((), 0.0, [TURNED], "sign_flip"),
+    ],
+)
+def test_probabilities_sum_to_one_and_the_verdict_has_the_largest(
+    names: tuple[str, ...], score: float, faults: list[Fault], first: str
+) -> None:
+    # Without a cause the first candidate that was tried takes nothing away.
+    start = SCORE if names or score else 0.0
+    chosen = selection(option(*names, score=score), start=start)
+    shares = probabilities(judged(chosen, faults=faults), chosen, KNOWN, faults)
+    assert set(shares) == {*KNOWN, *PUT_RIGHT, RECALIBRATE, "none", "unknown"}
+    assert sum(shares.values()) == pytest.approx(1.0, abs=1e-12)
+    assert all(0.0 <= share <= 1.0 for share in shares.values())
+    assert next(iter(shares)) == first
+    assert list(shares.values()) == sorted(shares.values(), reverse=True)
+
+
+def test_a_rival_gets_more_than_other_candidates_and_less_than_the_named() -> None:
+    final = option("valve_wear", score=0.0)
+    chosen = selection(final, option("fluid_lag", score=5.0), option("force_gain", score=0.9 * SCORE))
+    shares = probabilities(judged(chosen), chosen, KNOWN, [])
+    assert shares["valve_wear"] > shares["fluid_lag"] > 10 * shares["force_gain"]

@@ -1,8 +1,10 @@
 """The page of a diagnosis: every verdict, one file, what a browser makes of it."""
 
+import json
 import re
 import shutil
 import subprocess
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -10,8 +12,11 @@ from pathlib import Path
 import matplotlib.image
 import numpy as np
 import pytest
+from click.testing import Result
+from typer.testing import CliRunner
 
 from tests.report.test_page import parsed
+from twintube.cli import app
 from twintube.core.checks import tube_limit
 from twintube.core.effects import EFFECTS
 from twintube.dampers import Damper, load
@@ -28,12 +33,15 @@ from twintube.diagnosis.result import (
     Map,
     RecordResult,
     Tried,
+    as_json,
 )
 from twintube.engine.simulate import simulate
-from twintube.readable import digits, percent, with_interval
-from twintube.report.diagnosis import BADGES, cause_tables, doubt, write_report
-from twintube.report.diagnosis_records import closed, compared, noise, oscillations, parts, shown, work
-from twintube.report.engineering import is_share
+from twintube.readable import amount, digits, percent, with_interval
+from twintube.report.answer import confidence, has_extension, lines, next_step, number
+from twintube.report.diagnosis import BADGES, cause_tables, doubt, open_values, write_report
+from twintube.report.diagnosis_loop import telling, typical
+from twintube.report.diagnosis_records import broken, closed, compared, models, oscillations, parts, shown, work
+from twintube.report.engineering import in_words, is_share
 from twintube.rig.signals import harmonic_block
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
@@ -81,14 +89,15 @@ def results(
             case = prepared(record, tube_limit(base.parameters))
             forces = [force_of(damper, record, case) for damper in (base, recalibrated, extended)]
             forces[2] = forces[2] * gain
-            found.append(RecordResult(case, "heldout" if i == 1 else "fit", case.measured(), *forces))
+            weight = np.where(case.judged, 1 / case.noise, 0.0)
+            found.append(RecordResult(case, "heldout" if i == 1 else "fit", case.force, *forces, weight))
     return found
 
 
 def rms(records: list[RecordResult], name: str) -> Errors:
     """Errors over records; noise_floor is that of the records."""
     if name == "noise_floor":
-        return Errors(float(np.mean([noise(r) for r in records])), 0.4)
+        return Errors(float(np.mean([r.noise for r in records])), 0.4)
     force = np.mean([r.rms(getattr(r, name)) ** 2 for r in records]) ** 0.5
     off = np.concatenate([work(r.record, getattr(r, name)) - work(r.record, r.measured) for r in records])
     return Errors(float(force), float(np.sqrt(np.mean(off**2))))
@@ -107,7 +116,7 @@ def residual_maps(records: list[RecordResult]) -> list[Map]:
         edges = np.append(levels, levels[-1] + 1) - 0.1 if len(levels) < 5 else np.linspace(x.min(), x.max() + 1e-9, 13)
         which = [(x >= a) & (x < b) for a, b in zip(edges, edges[1:], strict=False)]
         centres = levels if len(levels) < 5 else (edges[1:] + edges[:-1]) / 2
-        floor = np.where([w.any() for w in which], np.mean([noise(r) for r in records]), np.nan)
+        floor = np.where([w.any() for w in which], np.mean([r.noise for r in records]), np.nan)
         stats = [
             [f(y[w]) if w.any() else np.nan for w in which]
             for f, y in (
@@ -159,12 +168,19 @@ def example(verdict: str) -> Diagnosis:
     gains = Gain(0.96, 0.95, (0.91, 0.97), 0.82)
     causes = {
         "cause": [Cause("mount_compliance", EFFECTS["mount_compliance"].title, EFFECTS["mount_compliance"].cause, {
-            "C_mount": Estimate(5.02e-6, 4.9e-6, 5.15e-6, "m/N"), "tau_mount": Estimate(1.1e-3, 0.6e-3, 1.6e-3, "s", (0.0, 1.9e-3), 0.0)}, gains)],
+            "C_mount": Estimate(5.02e-6, 4.9e-6, 5.15e-6, "m/N", (0.0, 1e-4), 0.0), "tau_mount": Estimate(1.1e-3, 0.6e-3, 1.6e-3, "s", (0.0, 1.9e-3), 0.0)}, gains)],
         "measurement_fault": [Cause("force_gain", "Force gain", "The load cell's sensitivity is wrong.",
-                                    {"force_gain": Estimate(0.95, 0.948, 0.952, "1")}, gains)],
-    }.get(verdict, [])  # fmt: skip
+                                    {"force_gain": Estimate(0.95, 0.948, 0.952, "1", (0.5, 2.0), 1.0)}, gains)],
+    }  # fmt: skip
+    causes["ambiguous"] = causes["cause"]
+    likely = {
+        "cause": "mount_compliance",
+        "ambiguous": "mount_compliance",
+        "measurement_fault": "force_gain",
+        "unexplained": "unknown",
+    }
     return Diagnosis(
-        title="Bench, SA8 <42 & more>", verdict=verdict, sentence=SENTENCES[verdict], causes=causes,
+        title="Bench, SA8 <42 & more>", verdict=verdict, sentence=SENTENCES[verdict], causes=causes.get(verdict, []),
         alternatives=[Alternative("fluid_lag", 0.88, "records of small strokes at high frequency")] if verdict in ("cause", "ambiguous") else [],
         errors={s: {n: rms(some, n) for n in ("base", "recalibrated", "extended", "noise_floor")} for s, some in splits.items()},
         where="" if verdict == "none" else "after every reversal, most at 1.05 m/s, alike at all oil levels.",
@@ -173,6 +189,7 @@ def example(verdict: str) -> Diagnosis:
         recalibrated=recalibrated, extended=extended,
         next_measurements=[] if verdict == "none" else ["A sine of 5 mm at 10 Hz", "A rest of 300 s, then the same block"],
         structure={"base": [records[0].record.name], "recalibrated": [], "extended": []},
+        probabilities={likely.get(verdict, verdict): 0.93, "fluid_lag": 0.06, "seal_leak": 0.01},
         remarks=["2 records of less than 3 oscillations give no noise of their own"] if verdict == "cause" else [], seconds=42.3,
     )  # fmt: skip
 
@@ -202,12 +219,13 @@ def test_every_verdict(pages, verdict):
 
 def test_empty_parts_vanish(pages):
     texts = {verdict: page.read_text(encoding="utf-8") for verdict, page in pages.items()}
-    assert "What to measure next" not in texts["none"] and "Values" not in texts["none"]
-    assert "that of the noise" in texts["none"] and "extended model" not in texts["none"]
+    assert "Values" not in texts["none"] and "extended.toml" not in texts["none"] + texts["unexplained"]
+    assert "that of the noise" in texts["none"] and "extended model" not in texts["none"] + texts["unexplained"]
     assert "5.02 mm/kN" in texts["cause"] and "4.90 to 5.15 mm/kN" in texts["cause"]
     assert "Parameters that were recalibrated" in texts["recalibrate"] and "X_Re" in texts["recalibrate"]
     assert "What no candidate explains" in texts["unexplained"]
     assert "fault accounted for" in texts["measurement_fault"]
+    assert "extended.toml" in texts["cause"] and "extended.toml" not in texts["measurement_fault"]
 
 
 def test_a_curve_is_not_drawn_twice():
@@ -223,7 +241,7 @@ def test_oscillations_and_their_work():
     assert len(block) == 19 and [name for name, _ in parts(case)] == ["first oscillation", "oscillation 19"]
     marks = harmonic_block(0.524, dt=1e-3, rest=2.0, start="rebound").marks
     dense = [np.trapezoid(record.force[a : b + 1], record.stroke[a : b + 1]) for a, b in zip(marks, marks[1:], strict=False)]
-    assert work(case, case.measured()) == pytest.approx(np.array(dense), rel=0.01)
+    assert work(case, case.force) == pytest.approx(np.array(dense), rel=0.01)
     ends = closed(case, block[0])
     assert len(ends) == len(block[0]) + 1 and closed(case, block[-1])[0] == block[-1][0] - 1
 
@@ -239,6 +257,7 @@ def test_numbers_for_readers():
     assert shown == [True, False, False]
     assert with_interval(1.1e-3, float("nan"), 2e-3, "s") == ("1.1 ms", "–")
     assert percent(-1e-5) == "0.0 %"
+    assert (percent(0.99996), percent(1.0)) == ("99.9 %", "100 %")
     assert (percent(0.953), percent(-70.0), percent(0.004), percent(float("nan"))) == ("95 %", "below −999 %", "0.4 %", "–")
     assert digits(12345.6, 30.0) == "12346"
 
@@ -271,13 +290,122 @@ def test_records_without_oscillations_and_none_at_all(tmp_path):
         "road", "road.csv", "stochastic", 0.6, False, None, None, time, stroke, force, velocity, "measured", None, ()
     )
     case = prepared(drive, 1.0)
-    result = RecordResult(case, "fit", case.measured(), 0.9 * case.measured(), 0.9 * case.measured(), case.measured())
+    result = RecordResult(case, "fit", case.force, 0.9 * case.force, 0.9 * case.force, case.force, np.ones(len(case.time)))
     assert not oscillations(case) and parts(case)[0][0] == "whole record"
     one = replace(some, records=[result], errors={"fit": some.errors["fit"], "heldout": {}}, maps=[], tried=[], causes=[])
     names = {file.name for file in write_report(one, tmp_path)}
-    assert names == {"loops.png", "residual.png", "errors.png", "report.html"}
+    assert names == {"answer.png", "loops.png", "residual.png", "errors.png", "report.html"}
     nothing = replace(one, records=[], errors={}, verdict="measurement_fault")
     assert [file.name for file in write_report(nothing, tmp_path)] == ["report.html"]
+
+
+def test_the_answer_is_alike_on_page_and_terminal_and_in_json(pages):
+    d = example("cause")
+    value, label = number(d)
+    assert value.count("→") == 1 and value in pages["cause"].read_text(encoding="utf-8")
+    held = as_json(d)["error"]
+    assert value == " → ".join(amount(held[name]["force_rmse_N"], "N") for name in ("base", "extended"))
+    assert amount(held["noise_floor"]["force_rmse_N"], "N") in label and "95 %" in label
+    assert f"{value}: {label}" in lines(d)
+    assert (
+        confidence(d)
+        == "Very likely (93 %); next: compressible oil and late check valves (6 %), oil leaks past the rod seal (1 %)"
+    )
+
+
+def test_nothing_named_shows_no_success(pages):
+    for verdict in ("none", "unexplained"):
+        d = replace(example("cause"), verdict=verdict, causes=[], extended=example("cause").base)
+        assert "→" not in number(d)[0] and "goes away" not in number(d)[1]
+        assert [m.name for m in compared(d)] == ["base"]
+        assert models(d)[-1].label == "nearest candidate, not named"
+    assert "tolerance of 3 %" in next_step(replace(example("none"), tolerance=0.03))
+
+
+def test_next_steps():
+    steps = {verdict: next_step(example(verdict)) for verdict in VERDICTS}
+    assert EFFECTS["mount_compliance"].decides in steps["cause"]
+    assert "records of small strokes" in steps["ambiguous"]
+    assert "known weight" in steps["measurement_fault"] and "diagnose again" in steps["measurement_fault"]
+    assert steps["none"].startswith("Nothing to do") and "about 3 ms late" in steps["unexplained"]
+    assert {verdict for verdict in VERDICTS if has_extension(example(verdict))} == {"cause", "ambiguous", "recalibrate"}
+
+
+def test_the_picture_shows_where_the_error_falls_most():
+    d = example("cause")
+    result = telling(d)
+    assert result.split == "heldout"
+    falls = {r.record.name: (r.rms(r.base) - r.rms(r.extended)) / r.record.peak for r in d.records if r.split == "heldout"}
+    assert falls[result.record.name] == max(falls.values())
+    which, ends = typical(d, result)
+    assert "of 19" in which and not which.startswith("oscillation 1 ")
+    assert np.isfinite(broken(result, result.base, ends)).all()
+    left_out = replace(result, weight=np.zeros_like(result.weight))
+    assert np.isnan(broken(left_out, result.base, ends)).all()
+
+
+def test_only_what_the_records_determine_is_a_value():
+    cause = example("cause").causes[0]
+    idle = Estimate(1e-3, -1e-3, 3e-3, "1", (-0.8, 1.0), 0.0)
+    wear = Estimate(0.3, 0.29, 0.31, "1", (-0.8, 1.0), 0.0)
+    worn = replace(cause, effect="valve_wear", title="Change", parameters={"wear_re": wear, "wear_co": idle})
+    assert (list(worn.determined), worn.undetermined) == (["wear_re"], ["wear_co"])
+    loose = replace(
+        cause, parameters={**cause.parameters, "tau_mount": Estimate(1e-3, 0.0, 0.0019, "s", (0.0, 1.9e-3), 0.0)}
+    )
+    entry = as_json(replace(example("cause"), causes=[loose], tolerance=0.02))
+    assert (entry["tolerance"], list(entry["causes"][0]["parameters"])) == (0.02, ["C_mount"])
+    assert entry["causes"][0]["undetermined"] == ["tau_mount"]
+    assert all(not value["doubt"] for value in entry["causes"][0]["parameters"].values())
+    assert open_values([loose]) == [
+        f"{cause.title}, without a value of its own: tau_mount (not determined by these records)."
+    ]
+
+
+def test_progress_in_words():
+    assert in_words("a single cause: start of mount_compliance") == "trying: rubber mount in series"
+    assert in_words("a further cause, 2 in all: force_offset") == "trying another cause as well: zero of the load cell"
+    assert in_words("instead of fluid_lag: start of valve_wear") == (
+        "trying instead of compressible oil and late check valves: change of the F-v curve"
+    )
+    assert in_words("without recalibrate") == "trying without other known parameters"
+    assert in_words("reading the records") == "reading the records"
+
+
+@pytest.fixture
+def diagnosed(monkeypatch):
+    """The command with a diagnosis that is computed already."""
+
+    def run(verdict: str, folder: Path, *options: str) -> Result:
+        def answer(path: Path, progress: Callable[[str], None], *, tolerance: float = 0.0) -> Diagnosis:
+            progress("reading the records")
+            return replace(example(verdict), tolerance=tolerance)
+
+        monkeypatch.setattr("twintube.diagnosis.diagnose", answer)
+        monkeypatch.setattr("twintube.report.diagnosis.write_report", lambda diagnosis, output: [])
+        return CliRunner().invoke(app, ["diagnose", "data", "--output", str(folder), *options])
+
+    return run
+
+
+def test_the_command_writes_what_is_named_and_leaves_nothing_of_an_earlier_run(diagnosed, tmp_path):
+    out = tmp_path / "out"
+    first = diagnosed("cause", out)
+    assert first.exit_code == 0, first.output
+    assert load(out / "extended.toml").parameters == example("cause").extended.parameters
+    assert first.stdout.splitlines()[:-1] == lines(example("cause")) and "extended.toml" in first.stdout
+    second = diagnosed("none", out, "--tolerance", "3%")
+    assert second.exit_code == 0 and "extended.toml" not in second.stdout and "tolerance of 3 %" in second.stdout
+    assert not (out / "extended.toml").exists()
+    assert json.loads((out / "diagnosis.json").read_text())["tolerance"] == pytest.approx(0.03)
+
+
+@pytest.mark.parametrize("text", ["three", "3", "30%", "-1%", "nan", "5,5%", ""])
+def test_a_wrong_tolerance_is_one_line(diagnosed, tmp_path, text):
+    result = diagnosed("none", tmp_path / "out", "--tolerance", text)
+    assert result.exit_code == 2 and result.stderr.count("\n") == 1
+    assert result.stderr.startswith(f"error: --tolerance {text}: must be ")
+    assert not (tmp_path / "out").exists()
 
 
 def browse(page: Path, *options: str) -> str:

@@ -212,6 +212,11 @@ def continued(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return points
 
 
+def given(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The fewest first points of a branch of which the others are the continuation."""
+    return next((points[:n] for n in range(2, len(points)) if continued(points[:n]) == points), points)
+
+
 def wrong_tables(content: dict[str, Any], text: str, tables: set[str]) -> list[str]:
     """Messages about groups that are given as a single value."""
     return [
@@ -258,7 +263,7 @@ def located(text: str, message: str) -> str:
 
 
 def to_toml(damper: Damper) -> str:
-    """The TOML text of a damper, in SI units, with all points of the F-v curve and the effects that act."""
+    """The TOML text of a damper, in SI units, with the F-v curve as it was given and the effects that act."""
     document = tomlkit.document()
     document["name"] = damper.name
     document["title"] = damper.title
@@ -282,7 +287,7 @@ def to_toml(damper: Damper) -> str:
     curve = tomlkit.table()
     for branch, (v_name, F_name) in BRANCHES.items():
         rows = tomlkit.array()
-        rows.extend([list(pair) for pair in zip(getattr(p, v_name), getattr(p, F_name), strict=True)])
+        rows.extend([list(pair) for pair in given(list(zip(getattr(p, v_name), getattr(p, F_name), strict=True)))])
         curve[branch] = rows.multiline(True)
     document["fv"] = curve
     document["sources"] = dict(damper.sources)

@@ -5,14 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from twintube.arrays import Array
 from twintube.core import effects
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset
 from twintube.diagnosis.candidates import Candidate
+from twintube.diagnosis.confidence import probabilities
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.fit import Fit, Problem
-from twintube.diagnosis.gains import bootstrap, errors, gains, removed, rms, whole, worst
+from twintube.diagnosis.gains import bootstrap, errors, gains, removed, whole, worst
 from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, Gain, RecordResult, Signature, Tried
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.select import RECALIBRATE, Option, Selection, Selector
@@ -40,8 +40,10 @@ def answer(
     records = [*held, *(r for r in fitted if r.record.name not in predicted)]
     records.sort(key=lambda r: order.index(r.record.name))
     known = selector.candidates
-    judgement = judge(selection, known, seen, rms(held), list(faults))
     shares = gains(fitted), gains(held)
+    gain = Gain(whole(shares[0]), whole(shares[1]), bootstrap(shares[1]), worst(shares[1]))
+    estimates = {name: estimated(known[name], extended) for name in selection.chosen if name != RECALIBRATE}
+    judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults))
     residuals = maps(records)
     left = [describe(residuals, left=True)] if judgement.remaining == "unexplained" else []
     rivals = [(o, known[o.names[-1]]) for o in judgement.rivals]
@@ -51,7 +53,7 @@ def answer(
         sentence=sentence(judgement, known, list(faults)),
         causes=[
             *(faulty(fault, gain) for fault, gain in faults.items()),
-            *(cause(known[name], extended, *shares) for name in judgement.causes),
+            *(Cause(name, known[name].title, known[name].cause, estimates[name], gain) for name in judgement.causes),
         ],
         alternatives=[
             Alternative(c.name, removed(selection.start.score, o.score, selection.count), apart(c)) for o, c in rivals
@@ -66,6 +68,7 @@ def answer(
         recalibrated=damper_of(dataset.damper, refitted[1], [RECALIBRATE], {}),
         extended=damper_of(dataset.damper, extended, judgement.kept, known),
         next_measurements=[apart(c) for _, c in rivals],
+        probabilities=probabilities(judgement, selection, known, list(faults)),
         structure={model: structured(records, model) for model in ("base", "recalibrated", "extended")},
         remarks=["faults were put right for everything shown here; their gain is relative to the force"] if faults else [],
     )
@@ -77,43 +80,54 @@ def apart(candidate: Candidate) -> str:
 
 
 def simulated(problem: Problem, split: str, models: Sequence[Mapping[str, float]]) -> list[RecordResult]:
-    """The records with their base, recalibrated and extended simulation, read with the delay of the last model.
+    """The records with their base, recalibrated and extended simulation.
 
-    A model with another delay is shifted by what that changes in the measured force, so that its error is its own. All have
-    the zeros of the load cell that the last model asks for: with zeros of its own a model without a preload would hide that.
+    All have the zeros of the load cell that the last model asks for: with zeros of its own a model without a preload would
+    hide that.
     """
-    measured = problem.target(models[-1])
-    forces = [problem.forces(values) + measured - problem.target(values) for values in models]
+    measured = problem.measured
+    forces = [problem.forces(values) for values in models]
     zeros = problem.zeros(measured - forces[-1])
-    forces = [force + zeros for force in forces]
+    base, recalibrated, extended = (force + zeros for force in forces)
     return [
-        RecordResult(record, split, measured[a:b], *(force[a:b] for force in forces))
+        RecordResult(record, split, measured[a:b], base[a:b], recalibrated[a:b], extended[a:b], problem.weight[a:b])
         for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True)
     ]
 
 
 def predictions(selector: Selector, options: Sequence[Option]) -> list[RecordResult]:
     """The records that a fold holds out, simulated by base, recalibrated and extended model that do not know them."""
-    several = enumerate(selector.folds)
-    return [r for k, fold in several for r in simulated(fold.held, "heldout", [o.fits[k].values for o in options])]
+    results: dict[str, RecordResult] = {}
+    for k, fold in enumerate(selector.folds):
+        for r in simulated(fold.held, "heldout", [o.fits[k].values for o in options]):
+            before = results.get(r.record.name)
+            results[r.record.name] = r if before is None else joined(before, r)
+    return list(results.values())
 
 
-def cause(candidate: Candidate, fit: Fit, fitted: Array, held: Array) -> Cause:
-    """A chosen cause with its parameters and the gain (r, 2) of the whole model on fitted and held-out records."""
-    parameters = {}
-    for f in candidate.free:
+def joined(first: RecordResult, second: RecordResult) -> RecordResult:
+    """A record of which either fold holds parts out."""
+    own = second.weight > 0
+    arrays = {name: np.where(own, getattr(second, name), getattr(first, name))
+              for name in ("measured", "base", "recalibrated", "extended", "weight")}  # fmt: skip
+    return replace(first, record=replace(first.record, judged=first.record.judged | own), **arrays)
+
+
+def estimated(candidate: Candidate, fit: Fit) -> dict[str, Estimate]:
+    """The parameters of a chosen cause with their intervals."""
+    values = {}
+    for f in candidate.joined(fit.values):
         at = [g.name for g in fit.free].index(f.name)
         spread = RULES.interval * float(np.sqrt(max(0.0, fit.covariance[at, at])))
         value = fit.values[f.name]
         low, high = max(f.low, value - spread), min(f.high, value + spread)
-        parameters[f.name] = Estimate(value, low, high, candidate.units[f.name], (f.low, f.high), f.start)
-    gain = Gain(whole(fitted), whole(held), bootstrap(held), worst(held))
-    return Cause(candidate.name, candidate.title, candidate.cause, parameters, gain)
+        values[f.name] = Estimate(value, low, high, candidate.units[f.name], (f.low, f.high), f.start)
+    return values
 
 
 def faulty(fault: Fault, gain: Gain) -> Cause:
     """A fault of the measurement that was put right before anything was fitted."""
-    factor = Estimate(fault.factor, fault.factor, fault.factor, "1")
+    factor = Estimate(fault.factor, fault.factor, fault.factor, fault.unit)
     return Cause(fault.effect, fault.title, fault.explanation, {fault.name: factor}, gain)
 
 
@@ -122,7 +136,7 @@ def damper_of(damper: Damper, fit: Fit, names: Sequence[str], known: Mapping[str
     changes = {name: fit.values[name] for name in DEGRADATION if RECALIBRATE in names and name in fit.values}
     for name in names:
         if name in known and not known[name].fault:
-            changes |= {f.name: fit.values[f.name] for f in known[name].free}
+            changes |= {f.name: fit.values[f.name] for f in known[name].joined(fit.values)}
     origin = {name: "added by diagnosis" for name in names if name != RECALIBRATE and name in effects.EFFECTS}
     origin |= {group: "recalibrated by diagnosis" for group in ("degradation", "foam", "cavitation") if RECALIBRATE in names}
     changed = damper.with_(**changes) if changes else damper

@@ -1,13 +1,15 @@
 """What may be the cause: the effects of the catalogue and the faults of the measurement."""
 
 import itertools
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from twintube.core import effects
-from twintube.diagnosis.fit import Free, Problem
+from twintube.core.hooks import Effect, sources
+from twintube.diagnosis.fit import CLOCK, DELAY, STROKE_GAIN, Free, Problem
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.parameters import DEGRADATION, ranges
 
@@ -15,7 +17,18 @@ FAULT_TITLES = {
     "force_offset": "Zero of the load cell",
     "force_gain": "Calibration of the force channel",
     "channel_delay": "Delay between the channels",
+    "stroke_gain": "Calibration of the stroke channel",
+    "zero_drift": "Drifting zero of the load cell",
+    "clock_error": "Clock of the force channel",
 }
+
+
+# All of them make the force late: a second of them mends the formulation of the first.
+LATE = (
+    *(name for name, text in sources().items() if re.search(rf"^def {name}_(force|transition)\(", text, re.M)),
+    DELAY,
+    CLOCK,
+)
 
 
 @dataclass(frozen=True)
@@ -30,16 +43,32 @@ class Candidate:
     units: Mapping[str, str]
     fault: bool
     decides: str  # the measurement that tells it from its look-alikes
+    least: Mapping[str, float]  # strengths up to which every measurement has it
     laws: tuple[str, ...] = ()  # parameters whose lowest value is a law of its own
+
+    def joined(self, values: Mapping[str, float]) -> tuple[Free, ...]:
+        """Its free parameters in a model that has `values`: strengths that are not among them stay neutral."""
+        return tuple(f for f in self.free if f.name in values or f.name not in self.strength)
 
 
 def nuisances(problem: Problem) -> tuple[Free, ...]:
-    """What every measurement has: a small zero of the load cell and less than a sample of delay."""
+    """What every measurement has: a small zero of the load cell, a part of a sample of delay, means or points as samples."""
     zero = RULES.small_zero * max(record.peak for record in problem.records)
-    return (
-        Free("force_offset", 0.0, -zero, zero),
-        Free("channel_delay", 0.0, -RULES.small_delay, RULES.small_delay),
-    )
+    late = usual_delay(problem)
+    free = [Free("force_offset", 0.0, -zero, zero), Free("channel_delay", 0.0, -late, late)]
+    if any((record.samples[record.judged] < RULES.steps_per_interval).any() for record in problem.records):
+        free.append(Free("sample_mean", 0.5, 0.0, 1.0))
+    return tuple(free)
+
+
+def usual_delay(problem: Problem) -> float:
+    """The delay [s] that sampling leaves open: a mean over the interval is late by half of it, a filter by a bit more."""
+    return max(RULES.small_delay, RULES.open_samples * period(problem))
+
+
+def period(problem: Problem) -> float:
+    """The usual time [s] between two measured samples."""
+    return float(np.median([record.period for record in problem.records]))
 
 
 def base(problem: Problem) -> tuple[Free, ...]:
@@ -53,43 +82,72 @@ def base(problem: Problem) -> tuple[Free, ...]:
 
 def candidates(problem: Problem) -> list[Candidate]:
     """All effects that do not act already, and the faults."""
-    peak = max(record.peak for record in problem.records)
     reach = max(float(np.abs(record.stroke).max()) for record in problem.records)
     several = []
+    peak = max(record.peak for record in problem.records)
     for effect in effects.EFFECTS.values():
         if effect.acts(problem.damper.parameters):
             continue
-        free = []
+        free, least, unknown = [], {}, unsought(effect, problem)
         for item in effect.parameters:
             meta = item.metadata
+            if item.name in unknown:
+                continue
             low, high, start = meta["lower"], meta["upper"], meta["default"]
             if meta["role"] == "place" and high > reach > low:
                 high, start = reach, RULES.place * reach
             free.append(Free(item.name, start, low, high))
+            if meta["role"] == "strength":
+                # A time constant below a sample cannot be told from sampling.
+                time = max(RULES.small_delay, period(problem))
+                usual = {"s": time, "1": RULES.small_gain, "N": RULES.small_force * peak}
+                least[item.name] = usual.get(meta["unit"], RULES.acts * (high - low))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}
-        laws = tuple(item.name for item in effect.parameters if item.metadata["role"] == "law")
+        laws = tuple(item.name for item in effect.parameters if item.metadata["role"] == "law" and item.name not in unknown)
         several.append(
             Candidate(
-                effect.name, effect.title, effect.cause, tuple(free), effect.strength, units, False, effect.decides, laws
+                effect.name, effect.title, effect.cause, tuple(free), tuple(least), units, False, effect.decides, least, laws
             )
         )
-    zero, late = RULES.zero_range * peak, RULES.delay_range
-    several.append(Candidate(
-        "force_offset", FAULT_TITLES["force_offset"], "The force channel reads a constant in addition to the force.",
-        (Free("force_offset", 0.0, -zero, zero),), ("force_offset",), {"force_offset": "N"}, True,
-        "the load cell read with the damper taken out",
-    ))  # fmt: skip
-    several.append(Candidate(
-        "force_gain", FAULT_TITLES["force_gain"], "The force channel reads all forces too large or too small.",
-        (Free("force_gain", 1.0, *RULES.gain_range),), ("force_gain",), {"force_gain": "1"}, True,
-        "the load cell checked with a known weight",
-    ))  # fmt: skip
-    several.append(Candidate(
-        "channel_delay", FAULT_TITLES["channel_delay"], "Force and stroke are not recorded simultaneously.",
-        (Free("channel_delay", 0.0, -late, late),), ("channel_delay",), {"channel_delay": "s"}, True,
-        "a record of the friction alone at high frequency: only a delay shifts it",
-    ))  # fmt: skip
-    return several
+    return [*several, *faults(problem)]
+
+
+def unsought(effect: Effect, problem: Problem) -> tuple[str, ...]:
+    """Parameters of heat for which the records have no temperature, or which a temperature along them makes needless."""
+    kelvin = tuple(item.name for item in effect.parameters if item.metadata["unit"] == "1/K")
+    if kelvin and any(np.ptp(record.warm) > RULES.warm for record in problem.records):
+        return tuple(item.name for item in effect.parameters if item.name not in kelvin)
+    return () if np.ptp(np.concatenate([record.warm for record in problem.records])) > RULES.warm else kelvin
+
+
+def faults(problem: Problem) -> list[Candidate]:
+    """What may be wrong with a measuring channel in all records alike."""
+    peak = max(record.peak for record in problem.records)
+    duration = float(np.median([np.ptp(record.time) for record in problem.records]))
+    usual = {free.name: free.high for free in nuisances(problem)}
+    zero, late = RULES.zero_range * peak, max(RULES.delay_range, RULES.delay_samples * period(problem))
+    drift = zero / duration
+    several = [
+        ("force_offset", "N", (0.0, -zero, zero), usual["force_offset"],
+         "The force channel reads a constant in addition to the force.", "the load cell read with the damper taken out"),
+        ("force_gain", "1", (1.0, *RULES.gain_range), RULES.small_gain,
+         "The force channel reads all forces too large or too small.", "the load cell checked with a known weight"),
+        ("channel_delay", "s", (0.0, -late, late), usual["channel_delay"],
+         "Force and stroke are not recorded simultaneously.",
+         "a record of the friction alone at high frequency: only a delay shifts it"),
+        (STROKE_GAIN, "1", (1.0, *RULES.stroke_range), RULES.small_gain,
+         "The stroke channel reads all strokes too large or too small.", "the stroke checked with a gauge block"),
+        ("zero_drift", "N/s", (0.0, -drift, drift), usual["force_offset"] / duration,
+         "The zero of the load cell moves evenly during each record.", "the load cell read before and after a record"),
+        ("clock_error", "1", (0.0, -RULES.clock_range, RULES.clock_range), usual["channel_delay"] / duration,
+         "The clock of the force channel runs faster or slower than that of the stroke.", "both channels on a single clock"),
+    ]  # fmt: skip
+    return [
+        Candidate(
+            name, FAULT_TITLES[name], text, (Free(name, *bounds),), (name,), {name: unit}, True, decides, {name: least}
+        )
+        for name, unit, bounds, least, text, decides in several
+    ]
 
 
 def grid(candidate: Candidate, f: Free) -> list[float]:
@@ -108,7 +166,9 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
 def best_start(
     problems: Sequence[Problem], candidate: Candidate, fixed: Sequence[Mapping[str, float]]
 ) -> tuple[float, dict[str, float]]:
-    """The point that explains the records best, and their sum of squares there; strength after strength joins.
+    """The point that explains the records best, and their sum of squares there; strength after strength joins if it helps.
+
+    A strength that does not help is not in the point: it stays neutral, as free it would follow the noise.
 
     `fixed` holds the other values in each of the problems. The zero of the load cell is free: at that of the model without
     the cause a residual spring would start as a loss.
@@ -128,9 +188,9 @@ def best_start(
             for problem, values, zero in zip(problems, fixed, zeros, strict=True)
         ]
         scores = [sum(some) for some in zip(*costs, strict=True)]
-        if min(scores) >= low:
+        if min(scores) >= (1.0 - RULES.joins) * low:
             break
         point, low = points[int(np.argmin(scores))], min(scores)
         left = [name for name in left if point[name] == best[name]]
         best = point
-    return float(low), best
+    return float(low), {name: x for name, x in best.items() if name not in left}

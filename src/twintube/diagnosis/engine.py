@@ -10,9 +10,12 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.diagnosis.answer import answer, predictions
 from twintube.diagnosis.candidates import candidates
+from twintube.diagnosis.edges import with_edges, with_noise, without_outliers
 from twintube.diagnosis.faults import Fault, force_averaging, read, scaled, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
+from twintube.diagnosis.history import with_history
+from twintube.diagnosis.odd import odd_records
 from twintube.diagnosis.prepare import PreparedRecord, prepare
 from twintube.diagnosis.result import Diagnosis, Gain
 from twintube.diagnosis.rules import RULES
@@ -22,39 +25,57 @@ from twintube.diagnosis.zeros import zero_drift
 from twintube.engine.simulate import InputError
 from twintube.fitting.splits import distinct
 
+Halves = tuple[list[PreparedRecord], list[PreparedRecord]]  # to fit and to judge on
 
-def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
-    """Diagnose a dataset folder.
+
+def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: None, *, tolerance: float = 0.0) -> Diagnosis:
+    """Diagnose a dataset folder; `tolerance` is the error accepted of a good damper, a share of each record's largest force.
 
     Raises DataError with all defects of the records, and InputError where they do not allow to judge on held-out records.
     """
+    if not 0.0 <= tolerance <= RULES.most_tolerance:
+        raise InputError(f"tolerance = {tolerance:g}: must be from 0 to {RULES.most_tolerance:g} of the largest force")
     began = time.monotonic()
+    progress("reading the records")
     dataset, turned = read(path)
     records = prepare(dataset)
-    folds, remarks = split(dataset.title, records)
+    remarks = []
     if not any(record.intact for record in records):
         remarks.append("no record of the intact damper: what is wrong in every state looks like an effect of the oil loss")
-    recorded = problem = Problem(dataset.damper, records)
+    recorded = problem = Problem(dataset.damper, records, tolerance=tolerance)
     wrong, problem = unit_error(problem)
     smoothed, problem, notes = force_averaging(dataset.records, problem)
-    problem, drift = zero_drift(problem)
-    remarks += [*notes, *drift]
+    problem, drift = zero_drift(with_edges(with_noise(problem)))
+    problem, bare = with_history(problem)
+    problem = without_outliers(problem)
+    odd, problem = odd_records(problem)
+    folds, split_remarks = split(dataset.title, problem.records)
+    remarks += [*split_remarks, *notes, *drift, *([history_remark(bare)] if bare else [])]
     if turned is not None:
-        recorded = recorded.with_records([scaled(record, turned.factor, 1.0) for record in records])
+        recorded = recorded.with_records(
+            [scaled(r, turned.factor, 1.0) if r.name in turned.records else r for r in recorded.records]
+        )
     selector = selector_of(problem, folds)
     selection = selector.run(progress)
-    progress("all records")
+    progress("fitting the model to all records")
     faults = put_right([turned, wrong, smoothed], recorded, problem)
+    if odd is not None:
+        faults[odd] = excluded_gain(recorded, problem)
     answered = answer(dataset, problem, selector, selection, signatures(dataset.records), faults)
-    return replace(answered, remarks=[*remarks, *answered.remarks], seconds=time.monotonic() - began)
+    return replace(answered, remarks=[*remarks, *answered.remarks], seconds=time.monotonic() - began, tolerance=tolerance)
 
 
-def selector_of(problem: Problem, folds: Sequence[tuple[list[int], list[int]]]) -> Selector:
-    """The selector for the numbers of the records to fit and to judge on."""
-    several = []
-    for fitted, held in folds:
-        fit, judge = (problem.with_records([problem.records[i] for i in some]) for some in (fitted, held))
-        several.append(Fold(fit, judge))
+def history_remark(bare: Sequence[str]) -> str:
+    """What is said where the files do not hold the preconditioning."""
+    return (
+        f"{', '.join(bare)}: the slow strokes before the fast ones are not in the file, though the damper shows their foam "
+        "and gas; the plan's preconditioning was simulated before them. Record it, too"
+    )
+
+
+def selector_of(problem: Problem, folds: Sequence[Halves]) -> Selector:
+    """The selector for the records to fit and to judge on, fold by fold."""
+    several = [Fold(*(problem.with_records(some) for some in (fitted, held))) for fitted, held in folds]
     # With a single fold the held-out records are never fitted, with several every record is held out of some fold.
     return Selector(several[0].fitted if len(several) == 1 else problem, candidates(problem), several)
 
@@ -62,13 +83,23 @@ def selector_of(problem: Problem, folds: Sequence[tuple[list[int], list[int]]]) 
 def known_gain(path: str | Path, causes: Sequence[str]) -> float:
     """Share of the explainable held-out error that goes away with the given causes, whatever a diagnosis would choose."""
     dataset, _ = read(path)
-    records = prepare(dataset)
-    problem, _ = zero_drift(Problem(dataset.damper, records))
-    selector = selector_of(problem, split(dataset.title, records)[0])
+    problem, _ = zero_drift(with_edges(with_noise(Problem(dataset.damper, prepare(dataset)))))
+    selector = selector_of(problem, split(dataset.title, problem.records)[0])
     option = selector.start
     for name in causes:
         option = selector.extended(option, name)
     return whole(gains(predictions(selector, (selector.start, selector.start, option))))
+
+
+def excluded_gain(recorded: Problem, problem: Problem) -> Gain:
+    """What leaving a record out takes away of the error of all, relative to the squared force as for other faults."""
+    kept = {record.name for record in problem.records}
+    rows = []
+    for record, a, b in zip(recorded.records, recorded.starts[:-1] + 1, recorded.starts[1:], strict=True):
+        squares = float(np.sum((recorded.forces({})[a:b] - recorded.measured[a:b]) ** 2))
+        rows.append((0.0 if record.name in kept else squares, squares))
+    table = np.array(rows)
+    return Gain(whole(table), whole(table), (0.0, 1.0), worst(table))
 
 
 def put_right(faults: Sequence[Fault | None], recorded: Problem, problem: Problem) -> dict[Fault, Gain]:
@@ -89,31 +120,43 @@ def put_right(faults: Sequence[Fault | None], recorded: Problem, problem: Proble
             rows.append((error / size, float(np.sum(record.noise[1:] ** 2)) / size))
         return np.array(rows)
 
-    before, after = shares(recorded), shares(problem)
+    kept = {record.name for record in problem.records}
+    before, after = shares(recorded.with_records([r for r in recorded.records if r.name in kept])), shares(problem)
     less = before[:, 0] - np.maximum(after[:, 0], after[:, 1])
     rows = np.column_stack([less, np.maximum(before[:, 0] - after[:, 1], 1e-9)])
     return dict.fromkeys(present, Gain(whole(rows), whole(rows), bootstrap(rows), worst(rows)))
 
 
-def split(title: str, records: Sequence[PreparedRecord]) -> tuple[list[tuple[list[int], list[int]]], list[str]]:
-    """The numbers of the records to fit and to judge on, fold by fold, and remarks on the choice.
+def split(title: str, records: Sequence[PreparedRecord]) -> tuple[list[Halves], list[str]]:
+    """The records to fit and to judge on, fold by fold, and remarks on the choice.
 
-    Where the dataset states nothing every other velocity is held out, then the others. A quasi-static record is always
-    fitted. Raises InputError where there is nothing to fit or nothing to judge on.
+    Where the dataset states nothing every other velocity is held out, then the others; where all have one velocity, every
+    other tenth of each record. A quasi-static record is always fitted. Raises InputError where there is nothing to judge on.
     """
-    if len(records) < 2:
-        raise InputError(f"{title}: {len(records)} record, at least two are needed: one to fit, one to judge on")
     if any(record.split for record in records):
-        held = [i for i, record in enumerate(records) if record.split == "heldout"]
-        fitted = [i for i in range(len(records)) if i not in held]
+        held = [record for record in records if record.split == "heldout"]
+        fitted = [record for record in records if record.split != "heldout"]
         if not fitted or not held:
             raise InputError(f"{title}: {len(held)} of {len(records)} records are held out, some must be and some must not")
         return [(fitted, held)], []
     moving = {i: record.top_speed for i, record in enumerate(records) if record.measurement != "quasi-static"}
     speeds = distinct(moving.values(), RULES.equal_speeds)
+    if not speeds:
+        raise InputError(f"{title}: only quasi-static records, there is no velocity to judge on")
     if len(speeds) < 2:
-        raise InputError(f"{title}: all records have one velocity; split them in dataset.toml (split = 'heldout')")
+        slow = [record for i, record in enumerate(records) if i not in moving]
+        parts = [[part(records[i], half) for i in moving] for half in (0, 1)]
+        if not all(record.judged.any() for half in parts for record in half):
+            raise InputError(f"{title}: all records have one velocity and are too short to be split")
+        text = "all records have one velocity: every second tenth of each is held out in turn, predicted from the others"
+        return [([*slow, *parts[0]], parts[1]), ([*slow, *parts[1]], parts[0])], [text]
     place = {i: int(np.searchsorted(speeds, speed, side="right")) for i, speed in moving.items()}
     halves = [[i for i, number in place.items() if number % 2 == half] for half in (0, 1)]
-    folds = [([i for i in range(len(records)) if i not in held], held) for held in halves]
+    folds = [([r for i, r in enumerate(records) if i not in held], [records[i] for i in held]) for held in halves]
     return folds, ["every record is predicted from those of other velocities: every second velocity is held out in turn"]
+
+
+def part(record: PreparedRecord, half: int) -> PreparedRecord:
+    """The record with every second tenth of its time compared, from the first or the second on."""
+    tenth = np.floor(RULES.parts * (record.time - record.begin) / max(record.time[-1] - record.begin, 1e-9))
+    return replace(record, judged=record.judged & (tenth % 2 == half))

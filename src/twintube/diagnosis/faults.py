@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from scipy.interpolate import PPoly
 
 from twintube.core.checks import tube_limit
 from twintube.data import LoadedDataset, Record, check_dataset, flipped_dataset, load_dataset
@@ -27,7 +28,12 @@ STROKE_UNITS = {
 }
 
 
-PUT_RIGHT = ("sign_flip", "unit_error", "force_averaging")  # faults that are put right before anything is fitted
+PUT_RIGHT = (
+    "sign_flip",
+    "unit_error",
+    "force_averaging",
+    "odd_record",
+)  # faults that are put right before anything is fitted
 
 
 @dataclass(frozen=True)
@@ -39,23 +45,32 @@ class Fault:
     explanation: str
     factor: float
     name: str = "factor"
+    unit: str = "1"
+    records: tuple[str, ...] = ()  # names of those that have it; empty where all have
 
 
 def read(path: str | Path) -> tuple[LoadedDataset, Fault | None]:
-    """The dataset, its forces turned where only that makes it readable; raises DataError with what else is wrong."""
+    """The dataset, forces turned where only that makes a record readable; raises DataError with what else is wrong."""
     checked = check_dataset(path)
     if checked.errors and all("work of" in finding.message for finding in checked.errors):
         turned = flipped_dataset(path)
-        if not turned.errors and turned.damper is not None:
-            data = LoadedDataset(turned.title, turned.damper, turned.records, turned.findings)
-            return data, Fault("sign_flip", "Sign of the force channel", "The force channel has the other sign.", -1.0)
+        straight = {record.file for record in checked.records}
+        added = [record for record in turned.records if record.file not in straight]
+        wrong = {finding.file for finding in checked.errors}
+        if turned.damper is not None and added and not wrong & {finding.file for finding in turned.errors}:
+            data = LoadedDataset(turned.title, turned.damper, [*checked.records, *added], checked.findings)
+            names = tuple(record.name for record in added)
+            of = f" of {', '.join(names)}" if straight else ""
+            text = f"The force channel{of} has the other sign."
+            return data, Fault("sign_flip", "Sign of the force channel", text, -1.0, records=names)
     return load_dataset(path), None
 
 
 def scaled(record: PreparedRecord, force: float, stroke: float) -> PreparedRecord:
     """A record with its channels in other units."""
     return replace(
-        record, impulse=record.impulse * force, noise=record.noise * force, peak=record.peak * force,
+        record, force=record.force * force, noise=record.noise * force, peak=record.peak * force,
+        path=PPoly(record.path.c * stroke, record.path.x), resolution=record.resolution * force,
         stroke=record.stroke * stroke, velocity=record.velocity * stroke, top_speed=record.top_speed * stroke,
     )  # fmt: skip
 

@@ -1,6 +1,6 @@
 """The model against all records at once: residuals for any parameters of damper and measurement, and their least squares."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, fields
 from functools import lru_cache
@@ -16,8 +16,12 @@ from twintube.fitting.averaging import averaged_means
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
 from twintube.fitting.simulation import SimulatedRecords
 
-# What the measurement adds to the damper.
-MEASUREMENT = ("force_offset", "force_gain", "channel_delay")
+# What the measurement adds to the force; `sample_mean` is how far a sample is a mean over its interval, not a point.
+ADDED = ("force_offset", "force_gain", "zero_drift", "sample_mean")
+# What it changes of the motion under which the force is seen; a simulation of its own for each value.
+STROKE_GAIN, DELAY, CLOCK = "stroke_gain", "channel_delay", "clock_error"
+MOTION = (STROKE_GAIN, DELAY, CLOCK)
+MEASUREMENT = (*ADDED, *MOTION)
 REMEMBERED = 32  # latest simulations
 
 
@@ -53,31 +57,42 @@ class Problem(SimulatedRecords):
     error is finite where a simulation fails, as least squares needs.
     """
 
-    def __init__(self, damper: Damper, records: Sequence[PreparedRecord], drift: float = 0.0) -> None:
+    def __init__(
+        self, damper: Damper, records: Sequence[PreparedRecord], drift: float = 0.0, tolerance: float = 0.0
+    ) -> None:
         super().__init__(damper, records, parts=RULES.steps_per_interval, failed=RULES.failed_force)
         self.records = list(records)
-        self.drift = drift
-        self.measured = np.concatenate([r.measured() for r in records])
-        self.sigma = np.concatenate([np.hypot(r.noise, RULES.model_error * r.peak) for r in records])
-        # The first sample of a record has no interval before it, that of a stretch has mostly rest before it.
-        stretch = np.concatenate([r.stretch for r in records])
-        used = np.diff(stretch, prepend=-1) == 0
-        used[self.starts[:-1]] = False
+        self.drift, self.tolerance = drift, tolerance
+        self.measured = np.concatenate([r.force for r in records])
+        self.elapsed = np.concatenate([r.time - r.begin for r in records])
+        model = max(RULES.model_error, tolerance)
+        self.sigma = np.concatenate([np.sqrt(r.noise**2 + r.edges**2 + (model * r.peak) ** 2) for r in records])
+        used = np.concatenate([r.judged for r in records])
         self.weight = np.where(used, 1 / self.sigma, 0.0)
         self.power = np.add.reduceat(self.weight**2, self.starts[:-1])  # (r,) [1/N2], of a record's zero
         self.share: Array = np.ones(len(self.z))
         self.counts = np.add.reduceat(used.astype(np.int64), self.starts[:-1])
         self.known = {item.name for item in fields(effects.Parameters)}
         # The measurement's parameters need no simulation of their own.
-        self.simulated = lru_cache(REMEMBERED)(self.simulate)
+        self.simulated: Callable[[tuple[tuple[str, float], ...]], tuple[Array, Array]] = lru_cache(REMEMBERED)(self.simulate)
 
     def with_records(self, records: Sequence[PreparedRecord]) -> "Problem":
         """The damper with other records."""
-        return Problem(self.given, records, self.drift)
+        return Problem(self.given, records, self.drift, self.tolerance)
 
     def with_drift(self, drift: float) -> "Problem":
         """The problem with a zero of the load cell that differs from record to record by `drift` [N]."""
-        return Problem(self.given, self.records, drift)
+        return Problem(self.given, self.records, drift, self.tolerance)
+
+    def sparse(self, most: int) -> "Problem":
+        """The problem with at most so many of its records, of all states and velocities, as balanced as this."""
+        order = sorted(range(len(self.records)), key=lambda i: (*self.states[i].tolist(), self.records[i].top_speed))
+        if len(order) <= most:
+            return self
+        kept = [order[i] for i in np.unique(np.linspace(0, len(order) - 1, most).round().astype(int))]
+        other = self.with_records([self.records[i] for i in kept])
+        other.share = np.concatenate([self.share[self.starts[i] : self.starts[i + 1]] for i in kept])
+        return other
 
     def balanced(self, misfit: Array) -> "Problem":
         """A problem in which all records have equal weight; `misfit` (r,) is their mean squared weighted error.
@@ -89,29 +104,38 @@ class Problem(SimulatedRecords):
         return other
 
     def damping(self, values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
-        """The damper's parameters among the values."""
-        return tuple(sorted((name, value) for name, value in values.items() if name in self.known))
+        """The values that need a simulation: those of the damper's parameters and of the motion that it sees."""
+        named = {n: x for n, x in values.items() if n in self.known}
+        named |= {
+            n: values[n]
+            for n, neutral in ((STROKE_GAIN, 1.0), (DELAY, 0.0), (CLOCK, 0.0))
+            if values.get(n, neutral) != neutral
+        }
+        return tuple(sorted(named.items()))
 
-    def simulate(self, changes: Sequence[tuple[str, float]]) -> Array:
-        """Mean forces (n,) [N] of the damper with parameters changed."""
-        force, _ = self.run(self.rows(), changes)
+    def simulate(self, changes: Sequence[tuple[str, float]]) -> tuple[Array, Array]:
+        """Mean forces over the intervals and those of the samples alone, both (n,) [N], with values changed."""
+        values = dict(changes)
+        gain, delay, clock = (values.pop(name, x) for name, x in ((STROKE_GAIN, 1.0), (DELAY, 0.0), (CLOCK, 0.0)))
+        z, v = self.z, self.v
+        if delay or clock:
+            z, v = (np.concatenate(some) for some in zip(*(r.moved(delay, clock) for r in self.records), strict=True))
+        force, point, _ = self.sampled(self.rows(), values.items(), (z / gain, v / gain))
         for record, a, b in zip(self.records, self.starts[:-1], self.starts[1:], strict=True):
-            force[a:b] = averaged_means(record.time, force[a:b], record.averaged)
-        return force
+            for some in (force, point) if record.averaged else ():
+                some[a:b] = averaged_means(record.time, some[a:b], record.averaged)
+        return force, point
 
     def forces(self, values: Mapping[str, float]) -> Array:
         """Predicted mean forces (n,) [N], measurement included."""
-        force: Array = self.simulated(self.damping(values))
-        return np.asarray(values.get("force_gain", 1.0) * force + values.get("force_offset", 0.0))
-
-    def target(self, values: Mapping[str, float]) -> Array:
-        """Measured mean forces (n,) [N], read later by the delay of the force channel."""
-        delay = values.get("channel_delay", 0.0)
-        return np.concatenate([r.measured(delay) for r in self.records]) if delay else self.measured
+        force, point = self.simulated(self.damping(values))
+        seen = point + values.get("sample_mean", 0.0) * (force - point)
+        zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * self.elapsed
+        return np.asarray(values.get("force_gain", 1.0) * seen + zero)
 
     def errors(self, values: Mapping[str, float]) -> Array:
         """Simulated less measured force (n,) [N]."""
-        return self.forces(values) - self.target(values)
+        return np.asarray(self.forces(values) - self.measured)
 
     def squares(self, values: Mapping[str, float]) -> float:
         """Sum of the squared errors [N2], without the zeros of the records."""

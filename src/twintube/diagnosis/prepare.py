@@ -6,15 +6,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline, PPoly
+from scipy.ndimage import maximum_filter1d, minimum_filter1d
+from scipy.signal import find_peaks
 
 from twintube.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.data import LoadedDataset, Record
 from twintube.data.condition import is_intact
+from twintube.data.defects import resolution
 from twintube.diagnosis.rules import RULES
 from twintube.engine.simulate import checked
 from twintube.fitting.intervals import impulse, means
-from twintube.fitting.oscillations import beginnings, reaches, segments, slopes
+from twintube.fitting.oscillations import beginnings, segments
+from twintube.fitting.strokes import quiet
 
 SCATTER = 1.4826  # standard deviation of normal errors over their median absolute value
 BEND = math.sqrt(6.0)  # standard deviation of a second difference over that of its values
@@ -30,15 +35,22 @@ class PreparedRecord:
     gas_preload: int
     split: str | None
     top_speed: float  # [m/s]
-    dense_time: Array
-    impulse: Array  # integral of the measured force over time [N s], at the dense samples
+    path: PPoly  # stroke [m] over time [s], through all measured samples
     time: Array
     stroke: Array
     velocity: Array
     cycle: NDArray[np.int64]  # number of the oscillation in its stretch, -1 outside any
     stretch: NDArray[np.int64]  # number of the stretch between rests
+    force: Array  # mean measured force [N] of the interval before each sample
     noise: Array  # (n,) standard deviation [N] of each interval's mean force
     peak: float  # largest measured force [N], outliers apart
+    resolution: float  # [N] step of the force channel, 0 where none shows
+    period: float  # usual time between two measured samples [s]
+    samples: NDArray[np.int64]  # measured samples of each interval, 0 where it was not recorded
+    judged: NDArray[np.bool_]  # intervals that are compared
+    edges: Array  # (n,) standard deviation [N] from what the model's own steps leave open
+    warm: Array  # (n,) [K] warmer than records usually begin, 0 where no temperature is known
+    gas_pressure: float | None  # gauge [Pa], where known
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through
 
     @property
@@ -46,11 +58,21 @@ class PreparedRecord:
         """Whether the record is of the full damper with its preload."""
         return is_intact(self.oil_level, self.gas_preload)
 
-    def measured(self, delay: float = 0.0) -> Array:
-        """Mean measured force (n,) [N] of the interval before each sample, the force read `delay` [s] later."""
-        times = np.clip(self.time + delay, self.dense_time[0], self.dense_time[-1])
-        force = means(times, np.interp(times, self.dense_time, self.impulse))
-        return np.concatenate([force[:1], force])
+    @property
+    def begin(self) -> float:
+        """Time of the first measured sample [s]; what is simulated before it was not recorded."""
+        return float(self.path.x[0])
+
+    def moved(self, delay: float, clock: float) -> tuple[Array, Array]:
+        """Stroke [m] and velocity [m/s] (n,) at the moments when the force was measured.
+
+        The force channel is late by `delay` [s] and by the share `clock` of the time since the beginning.
+        """
+        recorded = self.time >= self.begin
+        then = self.time - delay - clock * (self.time - self.begin)
+        at = np.clip(then, self.path.x[0], self.path.x[-1])
+        speed = np.where(at == then, self.path(at, 1), 0.0)
+        return np.where(recorded, self.path(at), self.stroke), np.where(recorded, speed, self.velocity)
 
 
 def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
@@ -60,7 +82,13 @@ def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[
     parts = segments(record.time, record.stroke)
     for s, part in enumerate(parts):
         stroke = record.stroke[part]
-        marks = beginnings(stroke) if record.measurement != "stochastic" and np.ptp(stroke) > 0 else np.array([], dtype=int)
+        if record.measurement == "stochastic":
+            picks = along(stroke)
+            kept.append(part[picks])
+            cycles.append(np.full(len(picks), -1))
+            stretches.append(np.full(len(picks), s))
+            continue
+        marks = beginnings(stroke) if np.ptp(stroke) > 0 else np.array([], dtype=int)
         edges = [0, *marks.tolist(), len(part) - 1]
         durations = np.diff(record.time[part][marks]) if len(marks) > 1 else np.array([np.inf])
         for i, (a, b) in enumerate(itertools.pairwise(edges)):
@@ -95,13 +123,27 @@ def between(stroke: Array, a: int, b: int, count: int) -> NDArray[np.int64]:
     return np.unique(np.concatenate(pieces))
 
 
+def along(stroke: Array) -> NDArray[np.int64]:
+    """Samples of a random motion: its reversals, and between two of them as many as their share of the range asks for."""
+    size = max(float(np.ptp(stroke)), 1e-9)
+    turns = [find_peaks(sign * stroke, prominence=RULES.reversal * size)[0] for sign in (1, -1)]
+    edges = np.unique(np.concatenate([[0, len(stroke) - 1], *turns]))
+    pieces = [edges[:1]]
+    for a, b in itertools.pairwise(edges.tolist()):
+        count = np.clip(
+            np.ceil(0.5 * RULES.intervals_fast * abs(stroke[b] - stroke[a]) / size), RULES.intervals_least, b - a
+        )
+        pieces.append(np.linspace(a, b, int(count) + 1).round().astype(np.int64)[1:])
+    return np.unique(np.concatenate(pieces))
+
+
 def intervals(record: Record, span: float, oscillation: bool, shortest: float) -> int:
     """Number of intervals for a part of a record that lasts `span` [s]."""
     if record.measurement == "quasi-static":
         return RULES.intervals_ramp
     if oscillation:
         return RULES.intervals_fast if span < RULES.block_factor * shortest else RULES.intervals_slow
-    if record.measurement == "harmonic" and np.isfinite(shortest):
+    if np.isfinite(shortest):
         return max(1, min(RULES.intervals_fast, round(RULES.intervals_fast * span / shortest)))
     return max(1, round(span / RULES.interval_drive))
 
@@ -118,48 +160,102 @@ def repeat_noise(force: Array, cycle: NDArray[np.int64]) -> float:
     return SCATTER * float(np.median(np.abs(bent))) if bent.size else 0.0
 
 
-def sample_noise(record: Record, per_interval: float) -> float:
-    """Standard deviation [N] of an interval's mean from neighbouring samples, for records without enough oscillations."""
-    bent = np.diff(record.force, 2) / BEND
-    return SCATTER * float(np.median(np.abs(bent))) / np.sqrt(max(1.0, per_interval)) if len(bent) else 0.0
+def neighbour_noise(force: Array, held: NDArray[np.int64]) -> float:
+    """Standard deviation [N] of a sample from neighbouring intervals, for records without enough oscillations."""
+    bent = np.diff(force * np.sqrt(held), 2) / BEND
+    return SCATTER * float(np.median(np.abs(bent))) if len(bent) else 0.0
 
 
-def jumps(record: Record, at: NDArray[np.int64]) -> Array:
-    """Error bound [N] of the mean forces (n,) of the intervals that end at the samples `at`, from jumps of the force.
+def noise(record: "PreparedRecord", force: Array) -> Array:
+    """Standard deviation [N] of the mean forces (n,) of a record's intervals, from what in a `force` (n,) does not repeat.
 
-    Where between two samples it jumped is not known. Where samples lie at equal phases in all oscillations that does not
-    average out.
+    Of a model's errors that is noise alone; a force itself is sampled at other phases in every oscillation. Oscillations of
+    like duration and range share it; what belongs to none has that of the most common, by its number of samples.
     """
-    change = np.abs(np.diff(record.force, prepend=record.force[0]))
-    around = np.maximum(np.roll(change, 1), np.roll(change, -1))
-    beyond = np.maximum(change - around - RULES.jump_scatters * sample_noise(record, 1.0), 0.0)
-    unknown = 0.5 * beyond * np.diff(record.time, prepend=record.time[0])
-    sums = np.concatenate([[0.0], np.cumsum(unknown**2)])[at + 1]
-    spans = np.diff(record.time[at], prepend=np.inf)
-    return np.sqrt(np.diff(sums, prepend=sums[0])) / np.maximum(spans, 1e-9)
+    cycle, held = record.cycle, np.maximum(record.samples, 1)
+    numbers = np.unique(cycle[cycle >= 0])
+    shape = np.array([(held[cycle == i].sum(), np.ptp(record.stroke[cycle == i])) for i in numbers])
+    each = np.full(len(force), np.nan)
+    left, most, common = list(range(len(numbers))), 0, 0.0
+    while left:
+        alike = [i for i in left if np.all(np.abs(np.log(shape[i] / shape[left[0]])) < np.log(RULES.alike_turns))]
+        left = [i for i in left if i not in alike and i != left[0]]
+        inside = np.isin(cycle, numbers[alike])
+        size = repeat_noise(force[inside], cycle[inside])
+        if size > 0.0:
+            usual = float(np.median(held[inside]))
+            each[inside] = size * np.sqrt(usual / held[inside])
+            if len(alike) > most:
+                most, common = len(alike), size * np.sqrt(usual)
+    common = common or neighbour_noise(force[record.samples > 0], held[record.samples > 0])
+    # Errors of rounding are like in neighbouring samples where no noise is larger than the step.
+    rounding = record.resolution / np.sqrt(12.0) if common < record.resolution else 0.0
+    return np.hypot(np.where(np.isnan(each), common / np.sqrt(held), each), max(rounding, RULES.least_noise * record.peak))
 
 
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
     """All records of a dataset; raises InputError where a stroke leaves the tube."""
-    return [prepared(record, tube_limit(dataset.damper.parameters)) for record in dataset.records]
+    begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
+    usual = float(np.median(begins)) if begins else 0.0
+    return [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
 
 
-def prepared(record: Record, limit: float) -> PreparedRecord:
-    """A record prepared; raises InputError where its stroke exceeds `limit` [m]."""
+def beginning_temperature(record: Record) -> float | None:
+    """Temperature [degC] at the beginning of a record, where known."""
+    return float(record.temperature[0]) if record.temperature is not None else record.start_temperature
+
+
+def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord:
+    """A record prepared; `usual` [degC] is where the records begin, the temperature of the parameter set.
+
+    Raises InputError where its stroke exceeds `limit` [m].
+    """
     at, cycle, stretch = thin(record)
-    stroke, velocity = record.stroke[at], slopes(record.time, record.stroke, at, reaches(at, len(record.time)))
+    path = CubicSpline(record.time, quiet(record.time, record.stroke))
+    stroke, velocity = path(record.time[at]), path(record.time[at], 1)
     checked(stroke, velocity, limit)
     peak = float(np.quantile(np.abs(record.force), RULES.peak_quantile))
     top_speed = float(np.quantile(np.abs(velocity), RULES.speed_quantile))
+    force = means(record.time[at], impulse(record.time, record.force)[at])
+    levels = resolution(record.force)
     ready = PreparedRecord(
         name=record.name, measurement=record.measurement, oil_level=record.oil_level, gas_preload=int(record.gas_preload),
-        split=record.split, top_speed=top_speed, dense_time=record.time, impulse=impulse(record.time, record.force),
+        split=record.split, top_speed=top_speed, path=path, force=np.concatenate([record.force[:1], force]),
         time=record.time[at], stroke=stroke, velocity=velocity, cycle=cycle, stretch=stretch, noise=np.zeros(len(at)),
-        peak=peak,
+        peak=peak, resolution=levels[0] if levels else 0.0, period=float(np.median(np.diff(record.time))),
+        samples=np.zeros(len(at), dtype=np.int64),
+        judged=comparable(record, at, stretch), edges=np.zeros(len(at)),
+        warm=np.zeros(len(at)), gas_pressure=record.gas_pressure if record.gas_preload else None,
     )  # fmt: skip
     held = np.maximum(1, np.diff(at, prepend=at[0] - 1))  # measured samples per interval
-    fastest = (stretch == stretch[np.argmax(np.abs(velocity))]) & (cycle >= 0)
-    usual = float(np.median(held[fastest])) if fastest.any() else float(np.median(held))
-    noise = repeat_noise(ready.measured()[fastest], cycle[fastest]) or sample_noise(record, usual)
-    noises = np.maximum(noise * np.sqrt(usual / held), RULES.least_noise * peak)
-    return replace(ready, noise=np.hypot(noises, jumps(record, at)))
+    begin = beginning_temperature(record)
+    along = record.temperature[at] if record.temperature is not None else np.full(len(at), usual if begin is None else begin)
+    ready = replace(ready, samples=held, warm=along - usual)
+    return replace(ready, noise=noise(ready, ready.force))
+
+
+def comparable(record: Record, at: NDArray[np.int64], stretch: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Intervals (n,) that hold usable samples only and no rest; the first sample has no interval before it."""
+    bad = np.concatenate([[0], np.cumsum(~record.usable)])
+    whole = np.diff(bad[at + 1], prepend=bad[at[0]]) == 0
+    moving = np.diff(stretch, prepend=-1) == 0
+    moving[0] = False
+    # At rest friction holds whatever force it stopped with.
+    way = np.abs(np.diff(record.stroke[at], prepend=record.stroke[at[0]]))
+    still = (way < RULES.still * np.ptp(record.stroke)).astype(np.int8)
+    resting = maximum_filter1d(minimum_filter1d(still, RULES.still_run), RULES.still_run).astype(bool)
+    kicked = np.zeros(len(at), dtype=bool) if record.measurement == "stochastic" else kicks(record, at)
+    return np.asarray(whole & moving & ~resting & ~kicked)
+
+
+def kicks(record: Record, at: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Intervals (n,) from where a rig changes its speed at once to the next reversal: between samples anything happened."""
+    way, span = np.diff(record.stroke[at]), np.maximum(np.diff(record.time[at]), 1e-9)
+    speed = np.abs(way) / span
+    change = np.abs(np.diff(speed, prepend=speed[0])) > RULES.kick * speed.max()
+    turned = np.diff(np.sign(way), prepend=np.sign(way[0])) != 0
+    # The number of the latest kick lies behind that of the latest reversal.
+    number = np.arange(len(way))
+    latest = [np.maximum.accumulate(np.where(some, number, -1)) for some in (change, turned & ~change)]
+    kicked = (latest[0] >= 0) & (latest[0] >= latest[1])
+    return np.concatenate([[False], kicked | np.append(kicked[1:], False)])

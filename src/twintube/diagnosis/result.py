@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from twintube.arrays import Array
+from twintube.core.effects import EFFECTS
 from twintube.dampers import Damper
 from twintube.diagnosis.prepare import PreparedRecord
 from twintube.diagnosis.rules import RULES
@@ -22,7 +23,7 @@ class Signature:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A parameter of a cause with its interval (95 %) and the range it was sought in; SI units."""
+    """A parameter of a cause with its interval (90 %) and the range it was sought in; SI units."""
 
     value: float
     low: float
@@ -40,6 +41,11 @@ class Estimate:
         near = RULES.at_bound * (high - low)
         absent = self.neutral in (low, high) and abs(self.value - self.neutral) < near
         return min(self.value - low, high - self.value) < near and not absent
+
+    def acts(self, least: float) -> bool:
+        """Whether a strength is off its neutral value by more than `least` and more than its interval."""
+        absent = self.neutral or 0.0
+        return abs(self.value - absent) > least and not self.low <= absent <= self.high
 
     @property
     def determined(self) -> bool:
@@ -65,6 +71,11 @@ class Gain:
     worst_record: float  # of those held out
 
 
+def known(strength: Estimate) -> bool:
+    """Whether a strength was read off, or acts and lies inside its range."""
+    return strength.bounds is None or (strength.acts(0.0) and not strength.at_bound)
+
+
 @dataclass(frozen=True)
 class Cause:
     """An effect or fault that was identified; the largest comes first."""
@@ -74,6 +85,18 @@ class Cause:
     explanation: str  # a sentence
     parameters: dict[str, Estimate]
     gain: Gain  # of the model with all causes; of a fault that was put right, of that alone
+
+    @property
+    def determined(self) -> dict[str, Estimate]:
+        """The parameters that the records determine: strengths that act, and others whose value is not in doubt."""
+        effect = EFFECTS.get(self.effect)
+        strengths = effect.strength if effect else tuple(self.parameters)
+        return {name: f for name, f in self.parameters.items() if (known(f) if name in strengths else not f.doubt)}
+
+    @property
+    def undetermined(self) -> list[str]:
+        """The names of the other parameters."""
+        return [name for name in self.parameters if name not in self.determined]
 
 
 @dataclass(frozen=True)
@@ -120,10 +143,16 @@ class RecordResult:
     base: Array
     recalibrated: Array
     extended: Array
+    weight: Array  # (n,) 1 over the standard deviation [1/N] of each interval, 0 where it is not compared
 
     def rms(self, force: Array) -> float:
-        """Error of a simulation [N]."""
-        return float((((force - self.measured)[1:]) ** 2).mean() ** 0.5)
+        """Error of a simulation [N]; an interval counts by its uncertainty."""
+        return float((((self.weight * (force - self.measured)) ** 2).sum() / (self.weight**2).sum()) ** 0.5)
+
+    @property
+    def noise(self) -> float:
+        """The error [N] that noise, sampling and the model's steps leave."""
+        return float(((self.weight > 0).sum() / (self.weight**2).sum()) ** 0.5)
 
 
 @dataclass(frozen=True)
@@ -154,8 +183,10 @@ class Diagnosis:
     extended: Damper
     next_measurements: list[str]
     structure: dict[str, list[str]]  # base, recalibrated, extended -> records in which its residual is more than white noise
+    probabilities: dict[str, float]  # of every candidate, fault, none, recalibrate and unknown, the largest first
     remarks: list[str] = field(default_factory=list)
     seconds: float = 0.0
+    tolerance: float = 0.0  # accepted error of a good damper, share of each record's largest force
 
 
 def as_json(d: Diagnosis) -> dict[str, Any]:
@@ -163,14 +194,16 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
     heldout = d.errors["heldout"]
     return {
         "verdict": d.verdict,
+        "tolerance": d.tolerance,
         "sentence": d.sentence,
         "causes": [
             {
                 "effect": c.effect,
                 "parameters": {
-                    name: {"value": f.value, "interval": [f.low, f.high], "unit": f.unit, "doubt": f.doubt}
-                    for name, f in c.parameters.items()
+                    name: {"value": f.value, "interval": [f.low, f.high], "unit": f.unit, "doubt": ""}
+                    for name, f in c.determined.items()
                 },
+                "undetermined": c.undetermined,
                 "gain": {
                     "fit": c.gain.fit, "heldout": c.gain.heldout, "heldout_interval": list(c.gain.heldout_interval),
                     "worst_record": c.gain.worst_record,
@@ -184,6 +217,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
         "error": {name: vars(value) for name, value in heldout.items()},
         "error_fit": {name: vars(value) for name, value in d.errors["fit"].items()},
         "where": d.where,
+        "probabilities": d.probabilities,
         "signature": d.signature,
         "structure": d.structure,
         "tried": [vars(t) | {"interval": list(t.interval)} for t in d.tried],
@@ -191,7 +225,7 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
             {
                 "record": r.record.name, "split": r.split, "oil_level": r.record.oil_level, "top_speed": r.record.top_speed,
                 "base_rmse_N": r.rms(r.base), "recalibrated_rmse_N": r.rms(r.recalibrated),
-                "extended_rmse_N": r.rms(r.extended), "noise_N": float((r.record.noise**2).mean() ** 0.5),
+                "extended_rmse_N": r.rms(r.extended), "noise_N": r.noise,
             }
             for r in d.records
         ],

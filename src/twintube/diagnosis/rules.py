@@ -14,8 +14,8 @@ fitting = Section("Fit")
 starts = Section("Starts of a candidate")
 selection = Section("Selection")
 verdict = Section("Verdict and values")
+confidence = Section("Probabilities (logits)")
 units = Section("Wrong units")
-saturation = Section("Signature: force at a limit")
 line = Section("Signature: line of fixed frequency")
 ringing = Section("Signature: resonance")
 backlash = Section("Signature: play")
@@ -29,28 +29,67 @@ class Rules:
     intervals_fast: int = records(48, "", "intervals per oscillation of the main block", NUMERICS)
     intervals_slow: int = records(24, "", "intervals of slower oscillations, which are not what is looked at", JUDGEMENT)
     intervals_ramp: int = records(240, "", "of a quasi-static record: friction reverses within tenths of a mm", JUDGEMENT)
-    interval_drive: float = records(5e-3, "s", "interval of other signals", JUDGEMENT)
+    interval_drive: float = records(5e-3, "s", "interval of harmonic records without a full oscillation", JUDGEMENT)
+    reversal: float = records(0.02, "1", "of the range of the stroke, by which a random motion must turn", JUDGEMENT)
+    intervals_least: int = records(3, "", "intervals between two reversals of a random motion", JUDGEMENT)
     block_factor: float = records(
         1.5, "1", "oscillations longer than this times the shortest are not the main block", JUDGEMENT
     )
     peak_quantile: float = records(0.999, "1", "of the measured force: its peak without outliers", JUDGEMENT)
     speed_quantile: float = records(0.99, "1", "of the speed: the top speed of a record without outliers", JUDGEMENT)
     repeats: int = records(3, "", "oscillations from which noise is what does not repeat: second differences", METHOD)
-    jump_scatters: float = records(4.0, "1", "standard deviations of a sample's noise by which a jump stands out", JUDGEMENT)
+    alike_turns: float = records(
+        1.1, "1", "oscillations whose durations and ranges are within this factor share noise", JUDGEMENT
+    )
+    still: float = records(1e-3, "1", "of the range of the stroke: an interval of less is at rest ...", JUDGEMENT)
+    outlier: float = records(8.0, "1", "usual residuals of a record: an interval beyond is an outlier ...", JUDGEMENT)
+    outliers: float = records(0.01, "1", "... where no more of its intervals are than this share", JUDGEMENT)
+    kick: float = records(
+        0.3, "1", "of the top speed: a larger change from interval to interval is a kick of the rig", JUDGEMENT
+    )
+    still_run: int = records(3, "", "... where so many follow each other", JUDGEMENT)
     least_noise: float = records(1e-4, "1", "of the peak: without noise every difference would be significant", JUDGEMENT)
     equal_speeds: float = records(
         1.05, "1", "top speeds within this factor are held out together: they hold noise", JUDGEMENT
     )
 
+    parts: int = records(10, "", "parts of the records of a single velocity, every second of which is held out", JUDGEMENT)
+    most_tolerance: float = records(0.2, "1", "of the largest force: more than a good damper can be off", JUDGEMENT)
+
     small_zero: float = measurement(0.005, "1", "of the largest force: zero of a good load cell", JUDGEMENT)
     small_delay: float = measurement(3e-4, "s", "delay that sampling leaves open; a shorter lag is not a cause", JUDGEMENT)
+    small_gain: float = measurement(0.01, "1", "error of a calibrated channel's gain", JUDGEMENT)
+    small_force: float = measurement(1e-3, "1", "of the largest force: less of a force is not a cause", JUDGEMENT)
+    open_samples: float = measurement(
+        0.6, "1", "samples of delay that sampling leaves open: 0.5 of a mean, 0.56 of a filter at 0.4 of its rate", METHOD
+    )
+    open_step: float = measurement(0.1, "1", "of a sample, by which a step of the force is known no better", JUDGEMENT)
+    warm: float = measurement(3.0, "K", "change of temperature that shows in forces", JUDGEMENT)
+    open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", JUDGEMENT)
+    open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", JUDGEMENT)
     usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
     least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
 
-    model_error: float = fitting(3e-3, "1", "of the peak: error of sampling and time step, tests/diagnosis", NUMERICS)
+    model_error: float = fitting(1.5e-3, "1", "of the peak: error of sampling and time step, tests/diagnosis", NUMERICS)
     steps_per_interval: int = fitting(
-        8, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
+        4, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
     )
+    history_gain: float = records(
+        0.1, "1", "log-misfit per sample by which slow strokes before a record must explain it better", JUDGEMENT
+    )
+    history_least: int = records(
+        2, "", "slow strokes that may have been before a record instead of the plan's six", JUDGEMENT
+    )
+    history_rest: float = records(5.0, "s", "rest after them", JUDGEMENT)
+    slow_share: float = records(0.2, "1", "of the top speed: slower is preconditioning", JUDGEMENT)
+    slow_way: float = records(2.0, "1", "of the range of the stroke that preconditioning goes at least", JUDGEMENT)
+    odd: float = records(4.0, "1", "times the largest misfit of all others, at which a record does not belong", JUDGEMENT)
+    odd_share: float = records(1 / 3, "1", "of the records that may contradict the others", JUDGEMENT)
+    odd_force: float = records(
+        0.03, "1", "of the largest force by which a record of something else differs at least", JUDGEMENT
+    )
+    odd_right: float = records(2.0, "1", "misfit up to which a fault of their own explains such records", JUDGEMENT)
+
     pull: float = fitting(
         0.5, "1", "of the range: standard deviation of a weak pull that keeps idle parameters in place", JUDGEMENT
     )
@@ -59,11 +98,13 @@ class Rules:
     failed_force: float = fitting(
         1e9, "N", "force where a step of the model fails: finite, as least squares needs", NUMERICS
     )
-    evaluations: int = fitting(12, "", "most evaluations of a fit", NOT_RECORDED)
+    evaluations: int = fitting(10, "", "most evaluations of a fit", NOT_RECORDED)
     fit_ends: float = fitting(
         1e-4, "1", "relative change of cost or parameters; a cause changes the cost by percents", JUDGEMENT
     )
 
+    start_records: int = starts(6, "", "records to fit that a search looks at, of all states and velocities", JUDGEMENT)
+    joins: float = starts(0.02, "1", "of the squared error that a further strength of a cause must take away", JUDGEMENT)
     shapes: int = starts(2, "", "lengths, times and powers that are sought, the first in the effect's file", JUDGEMENT)
     shares: tuple[float, ...] = starts(
         (0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", JUDGEMENT
@@ -74,11 +115,23 @@ class Rules:
         (0.5, 2.0), "1", "range of a gain that is a fault; beyond it is a wrong unit", JUDGEMENT
     )
     delay_range: float = starts(0.03, "s", "range of a delay that is a fault, to both sides", JUDGEMENT)
+    delay_samples: float = starts(3.0, "1", "samples that this range holds at least", JUDGEMENT)
+    stroke_range: tuple[float, float] = starts((0.8, 1.25), "1", "range of a gain of the stroke that is a fault", JUDGEMENT)
+    clock_range: float = starts(0.01, "1", "range of a clock's error, to both sides", JUDGEMENT)
 
     alarm: float = selection(0.01, "1", "datasets without a cause in which noise makes any; gives the limit c", STATISTICS)
     least_misfit: float = selection(0.5, "1", "mean squared weighted error below which nothing is gained", JUDGEMENT)
     worth: float = selection(
-        0.03, "1", "least gain in log-likelihood per held-out sample: below it numerics decide", NUMERICS
+        0.01, "1", "least gain in log-likelihood per held-out sample: below it numerics decide", NUMERICS
+    )
+    least_share: float = selection(
+        0.03, "1", "of the squared error of the held-out records, noise included, that a cause must take away", JUDGEMENT
+    )
+    clear_share: float = selection(
+        0.1, "1", "the like for other degradation parameters, and where the base model is right within noise", JUDGEMENT
+    )
+    sure: float = selection(
+        0.9, "1", "interval by resampling the held-out records, in which the squared error must fall", STATISTICS
     )
     next_share: float = selection(
         1 / 3, "1", "of the squared error left, or of the step between the zeros, for a further cause", TRIALS
@@ -86,34 +139,40 @@ class Rules:
     half: float = selection(
         0.5, "1", "of the misfit left, for a further cause that does not raise the squared error", TRIALS
     )
-    whole_share: float = selection(0.1, "1", "of the whole misfit, which that cause must explain as well", TRIALS)
+    second_share: float = selection(
+        0.1, "1", "of the whole squared error beyond noise, which a further cause must explain", JUDGEMENT
+    )
     near_best: float = selection(0.75, "1", "of the best gain, from which a third less squared error decides", TRIALS)
-    first_fits: int = selection(9, "", "candidates fitted in the first round: those with the best starts", JUDGEMENT)
+    promise: float = selection(
+        0.005, "1", "of the squared error that the start of a candidate takes away, for it to be fitted", JUDGEMENT
+    )
+    first_fits: int = selection(7, "", "candidates fitted in the first round: those with the best starts", JUDGEMENT)
     further_fits: int = selection(4, "", "candidates fitted in further rounds", JUDGEMENT)
     rounds: int = selection(3, "", "most causes", JUDGEMENT)
     few_records: int = selection(2, "", "held-out records up to which a single record may decide", JUDGEMENT)
     acts: float = selection(1e-3, "1", "of its range: a strength below it is neutral", JUDGEMENT)
 
     right: float = verdict(0.1, "1", "log-misfit per sample up to which nothing is missing: 5 % above the noise", JUDGEMENT)
-    explained: float = verdict(0.5, "1", "of the explainable squared error that named causes must explain", JUDGEMENT)
+    explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", JUDGEMENT)
     close: float = verdict(0.01, "1", "of the explainable misfit: candidates that differ by less are ambiguous", JUDGEMENT)
     alternatives: int = verdict(3, "", "most alternatives of an ambiguous verdict", JUDGEMENT)
     shows: float = verdict(0.3, "1", "of the base model's error: a signature of less is only mentioned", JUDGEMENT)
     at_bound: float = verdict(1e-3, "1", "of the range: nearer to its end the range decides, not the records", JUDGEMENT)
     wide: float = verdict(0.5, "1", "of the range: a wider interval says nothing about the value", JUDGEMENT)
-    interval: float = verdict(1.96, "1", "standard deviations of a 95 % interval", STATISTICS)
-    interval_level: float = verdict(0.95, "1", "of the intervals of gains", STATISTICS)
+    interval: float = verdict(1.645, "1", "standard deviations of a 90 % interval", STATISTICS)
+    interval_level: float = verdict(0.9, "1", "of the intervals of gains", STATISTICS)
     resamples: int = verdict(2000, "", "of the records, for the intervals of gains", JUDGEMENT)
     worst_share: float = verdict(0.01, "1", "of the explainable error that a record must hold to be the worst", JUDGEMENT)
 
-    unit_gain: float = units(1.5, "1", "log-misfit per sample: an error twice as small is not a calibration", JUDGEMENT)
+    logit_share: float = confidence(6.0, "1", "per share of the log error that a candidate removes", JUDGEMENT)
+    logit_named: float = confidence(6.0, "1", "of what the verdict names", JUDGEMENT)
+    logit_rival: float = confidence(5.0, "1", "of an alternative of an ambiguous verdict", JUDGEMENT)
+    logit_none: float = confidence(2.0, "1", "of `none`", JUDGEMENT)
+    logit_said: float = confidence(6.0, "1", "of `none` and of `unknown` where that is the verdict", JUDGEMENT)
+    logit_unknown: float = confidence(2.0, "1", "of a cause outside the catalogue", JUDGEMENT)
+    logit_left: float = confidence(4.0, "1", "per share of the log error that the best candidate leaves", JUDGEMENT)
 
-    limit_records: int = saturation(2, "", "records that must reach the limit", JUDGEMENT)
-    limit_width: float = saturation(1e-6, "1", "of the limit: forces within it are equal; float32 keeps 6e-8", NUMERICS)
-    limit_samples: int = saturation(20, "", "samples at the limit, over all records", NOT_RECORDED)
-    limit_pile: float = saturation(5.0, "1", "times the samples at any value next below: cut forces pile up", NOT_RECORDED)
-    limit_below: int = saturation(10, "", "values next below the limit that are compared with it", NOT_RECORDED)
-    limit_slow: float = saturation(0.05, "1", "quantile of the speed at which the force reaches the limit", JUDGEMENT)
+    unit_gain: float = units(1.5, "1", "log-misfit per sample: an error twice as small is not a calibration", JUDGEMENT)
 
     line_alarm: float = line(1e-4, "1", "chance that white noise makes a line in a record", STATISTICS)
     line_records: int = line(3, "", "records that must show a line", JUDGEMENT)

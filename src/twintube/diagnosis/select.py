@@ -12,9 +12,9 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import Candidate, base, best_start, nuisances
-from twintube.diagnosis.fit import Fit, Free, Problem
-from twintube.diagnosis.gains import removed
+from twintube.diagnosis.candidates import LATE, Candidate, base, best_start, nuisances
+from twintube.diagnosis.fit import MEASUREMENT, Fit, Free, Problem
+from twintube.diagnosis.gains import bootstrap, removed
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.zeros import differ, step
 
@@ -37,8 +37,13 @@ class Option:
     fits: tuple[Fit, ...]  # fold after fold
     misfit: Array  # (h,) mean squared weighted error of the held-out records, fold after fold
     means: Array  # (h,) their mean errors [N]
-    squares: float  # sum of their squared force errors [N2]
+    squares: Array  # (h,) sums of squared weighted errors
     score: float  # twice the negative log-likelihood of the held-out records
+
+    @property
+    def total(self) -> float:
+        """Sum of the squared weighted errors of all held-out records."""
+        return float(self.squares.sum())
 
 
 @dataclass(frozen=True)
@@ -52,6 +57,7 @@ class Selection:
     recalibrated: Option
     count: int  # held-out samples
     limit: float  # c
+    neutral: tuple[str, ...]  # candidates of the first round that are neutral or not more than every measurement has
 
 
 def fitted(folds: Sequence[Fold], names: Sequence[str], frees: Sequence[Sequence[Free]]) -> Option:
@@ -60,8 +66,8 @@ def fitted(folds: Sequence[Fold], names: Sequence[str], frees: Sequence[Sequence
     held = [(fold.held, fit.values) for fold, fit in zip(folds, fits, strict=True)]
     misfit = np.concatenate([judge.misfits(judge.residual(values)) for judge, values in held])
     means = np.concatenate([judge.means(judge.errors(values) * judge.weight) for judge, values in held])
-    squares = sum(judge.squares(values) for judge, values in held)
-    return Option(tuple(names), fits, misfit, means, squares, float(logs(counts_of(folds), misfit).sum()))
+    counts = counts_of(folds)
+    return Option(tuple(names), fits, misfit, means, counts * misfit, float(logs(counts, misfit).sum()))
 
 
 def counts_of(folds: Sequence[Fold]) -> Array:
@@ -86,7 +92,9 @@ class Selector:
         self.whole = whole.balanced(whole.misfits(whole.residual(first)))
         pairs = zip(folds, self.start.fits, strict=True)
         self.folds = [replace(fold, fitted=fold.fitted.balanced(fit.misfit)) for fold, fit in pairs]
+        self.sketches = [fold.fitted.sparse(RULES.start_records) for fold in self.folds]
         self.candidates = {c.name: c for c in candidates}
+        self.sampling: tuple[str, ...] = ()  # candidates that belong to every model, too short for the sampling
         self.limit = float(norm.isf(RULES.alarm / (len(candidates) + 1))) ** 2
         self.records = [record for fold in folds for record in fold.held.records]  # held out
         self.counts = counts_of(folds)
@@ -104,7 +112,11 @@ class Selector:
         """The free parameters of a model, from the values where they are known."""
         wanted = {f.name: f for f in nuisances(self.whole)}
         for name in names:
-            added = base(self.whole) if name == RECALIBRATE else self.candidates[name].free
+            added = base(self.whole) if name == RECALIBRATE else self.candidates[name].joined(values)
+            if name in self.sampling:
+                least = self.candidates[name].least
+                added = tuple(replace(f, low=max(f.low, f.start - least[f.name]), high=min(f.high, f.start + least[f.name]))
+                              if f.name in least else f for f in added)  # fmt: skip
             wanted |= {f.name: f for f in added}
         return [Free(name, min(max(values.get(name, f.start), f.low), f.high), f.low, f.high) for name, f in wanted.items()]
 
@@ -113,13 +125,11 @@ class Selector:
 
         From starts of their own the folds may end in different laws, of which a single law holds for the others' records.
         """
-        if name == RECALIBRATE:
-            return 0.0, {}
-        return best_start([fold.fitted for fold in self.folds], self.candidates[name], [fit.values for fit in current.fits])
+        return best_start(self.sketches, self.candidates[name], [fit.values for fit in current.fits])
 
     def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
         """The current model with a further cause, from its best start where no other is given."""
-        point = self.beginning(current, name)[1] if begin is None else begin
+        point = begin if begin is not None else {} if name == RECALIBRATE else self.beginning(current, name)[1]
         names = [*current.names, name]
         frees = [self.free(names, {**fit.values, **point}) for fit in current.fits]
         return self.option(names, frees)
@@ -138,14 +148,34 @@ class Selector:
             return False  # noise, or a single record decides
         if self.levelled(before, after):
             return True
-        if gained <= RULES.worth * self.count:
+        clear = after.names[-1:] == (RECALIBRATE,) or before.score <= RULES.right * self.count
+        small = after.total > (1 - (RULES.clear_share if clear else RULES.least_share)) * before.total
+        if gained <= RULES.worth * self.count or small or not self.surely(before, after):
             return False
-        if not before.names:
+        if before.names == self.sampling:
             return True
         # Many records a little better and some far worse is a formulation, not a second cause.
+        if before.total - after.total < RULES.second_share * self.excess(self.start):
+            return False
         left = removed(before.score, after.score, self.count)
-        much = left >= RULES.half and gained >= RULES.whole_share * self.start.score
-        return (much and after.squares <= before.squares) or after.squares <= (1 - RULES.next_share) * before.squares
+        much = left >= RULES.half and gained >= RULES.second_share * self.start.score
+        return (much and after.total <= before.total) or after.total <= (1 - RULES.next_share) * before.total
+
+    def excess(self, option: Option) -> float:
+        """Sum of the squared weighted errors beyond noise."""
+        return max(0.0, option.total - self.count)
+
+    def enough(self, option: Option) -> bool:
+        """Whether what is left is too little to hold a further cause."""
+        little = self.excess(option) < RULES.second_share * self.excess(self.start)
+        return (option.score <= RULES.right * self.count or little) and not self.uneven(option)
+
+    def surely(self, before: Option, after: Option) -> bool:
+        """Whether the sum of the squared errors of the held-out records falls, whichever records had been measured."""
+        less = before.squares - after.squares
+        if len(less) <= RULES.few_records:
+            return bool(less.sum() > 0.0)
+        return bootstrap(np.column_stack([less, before.squares]), level=RULES.sure)[0] > 0.0
 
     def uneven(self, option: Option) -> bool:
         """Whether the zeros of the records differ between the states of filling."""
@@ -154,7 +184,7 @@ class Selector:
     def levelled(self, before: Option, after: Option) -> bool:
         """Whether a further cause takes that difference away: next to another cause, a preload's force passes for zeros."""
         gone = step(self.records, after.means) <= (1 - RULES.next_share) * step(self.records, before.means)
-        return bool(before.names) and gone and self.uneven(before)
+        return before.names != self.sampling and gone and self.uneven(before)
 
     def acts(self, option: Option) -> bool:
         """Whether the new cause of an option is off its neutral value in every fold."""
@@ -162,31 +192,44 @@ class Selector:
         if name == RECALIBRATE:
             return True
         candidate = self.candidates[name]
-        strengths = [f for f in candidate.free if f.name in candidate.strength]
-        usual = {f.name: f.high for f in nuisances(self.whole)}
-        # What every measurement has is not a cause, nor is a lag as short as its delay.
-        least = {
-            f.name: usual.get(f.name, RULES.small_delay if candidate.units[f.name] == "s" else RULES.acts * f.width)
-            for f in strengths
-        }
-        return all(any(abs(fit.values[f.name] - f.start) > least[f.name] for f in strengths) for fit in option.fits)
+        start = {f.name: f.start for f in candidate.free}
+        return all(
+            any(abs(fit.values.get(n, start[n]) - start[n]) > candidate.least[n] for n in candidate.strength)
+            for fit in option.fits
+        )
 
     def run(self, progress: Callable[[str], None]) -> Selection:
         """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
         recalibrated = self.extended(self.start, RECALIBRATE)
+        options = self.tried(self.start, "a single cause", RULES.first_fits, progress, (recalibrated,))
+        if self.seen_through_sampling(options):
+            recalibrated = self.extended(self.start, RECALIBRATE)
+            options = self.tried(self.start, "a single cause, sampling known", RULES.first_fits, progress, (recalibrated,))
         current, rounds = self.start, []
-        for n in range(RULES.rounds):
-            most, known = (RULES.further_fits, ()) if n else (RULES.first_fits, (recalibrated,))
-            options = self.tried(current, f"round {n + 1}", most, progress, known)
+        while True:
             taken = self.taken(current, options)
             rounds.append(options if taken is None else [taken, *(o for o in options if o is not taken)])
             if taken is None:
                 break
             current = taken
-            if current.score <= RULES.right * self.count and not self.uneven(current):
+            if len(rounds) == RULES.rounds or self.enough(current):
                 break
+            options = self.tried(current, f"a further cause, {len(rounds) + 1} in all", RULES.further_fits, progress)
         current = self.exchanged(self.pruned(current, progress), progress)
-        return Selection(self.start, rounds, list(current.names), current, recalibrated, self.count, self.limit)
+        chosen = [name for name in current.names if name not in self.sampling]
+        neutral = tuple(option.names[-1] for option in rounds[0] if not self.acts(option))
+        return Selection(self.start, rounds, chosen, current, recalibrated, self.count, self.limit, neutral)
+
+    def seen_through_sampling(self, options: Sequence[Option]) -> bool:
+        """Whether something too short for the sampling explains the records best; not a cause, it joins every model then."""
+        short = [o for o in options if not self.acts(o) and self.worth(self.start, o)]
+        taken = self.taken(self.start, options)
+        best = min(short, key=lambda o: o.score, default=None)
+        if best is None or (taken is not None and taken.score <= best.score):
+            return False
+        self.sampling = best.names
+        self.start = self.option(best.names, [self.free(best.names, fit.values) for fit in best.fits])
+        return True
 
     def taken(self, current: Option, options: Sequence[Option]) -> Option | None:
         """The option that becomes the next model: the best, or a nearly equal option that predicts forces far better."""
@@ -195,28 +238,41 @@ class Selector:
             return None
         best = worthy[0]
         near = [o for o in worthy if current.score - o.score >= RULES.near_best * (current.score - best.score)]
-        calm = [o for o in near if o.squares <= (1 - RULES.next_share) * best.squares]
-        return min(calm, key=lambda o: o.squares, default=best)
+        calm = [o for o in near if o.total <= (1 - RULES.next_share) * best.total]
+        return min(calm, key=lambda o: o.total, default=best)
 
     def tried(
         self, current: Option, label: str, most: int, progress: Callable[[str], None], known: Sequence[Option] = ()
     ) -> list[Option]:
         """The current model with a further cause, best first: the calibration and the `most` with the best starts."""
         begins = {}
-        for name in (RECALIBRATE, *self.candidates):
-            if name not in current.names:
+        for name in self.candidates:
+            if name not in current.names and not self.alike(name, current.names):
                 progress(f"{label}: start of {name}")
                 begins[name] = self.beginning(current, name)
+        # What needs no simulation is always fitted, others where their start promises anything.
+        enough = (1.0 - RULES.promise) * self.sketched(current)
+        quick = [name for name in begins if name in MEASUREMENT]
+        slow = sorted((name for name in begins if name not in quick), key=lambda name: begins[name][0])
         options = list(known)
-        for name in sorted(begins, key=lambda name: begins[name][0])[: 1 + most]:
+        for name in (*(name for name in slow[:most] if begins[name][0] < enough), *quick):
             progress(f"{label}: {name}")
-            if (*current.names, name) not in [option.names for option in options]:
-                options.append(self.extended(current, name, begins[name][1]))
+            options.append(self.extended(current, name, begins[name][1]))
         return sorted(options, key=lambda o: (not self.acts(o), o.score))
+
+    def sketched(self, current: Option) -> float:
+        """The sum of squares of a model, its zero free, in the records that the searches for starts look at."""
+        pairs = zip(self.sketches, current.fits, strict=True)
+        return sum(sketch.costs([fit.values], nuisances(sketch)[0])[0] for sketch, fit in pairs)
+
+    def alike(self, name: str, names: Sequence[str]) -> bool:
+        """Whether a candidate would only mend the formulation of a chosen cause."""
+        return name in LATE and any(other in LATE for other in names if other not in self.sampling)
 
     def exchanged(self, current: Option, progress: Callable[[str], None]) -> Option:
         """With each of several causes exchanged for another where that is better: the first was chosen alone."""
-        for name in current.names if len(current.names) > 1 else ():
+        causes = [name for name in current.names if name not in self.sampling]
+        for name in causes if len(causes) > 1 else ():
             others = [other for other in current.names if other != name]
             rest = self.option(others, [self.free(others, fit.values) for fit in current.fits])
             best = self.tried(rest, f"instead of {name}", RULES.further_fits, progress)[0]
@@ -226,9 +282,9 @@ class Selector:
 
     def pruned(self, current: Option, progress: Callable[[str], None]) -> Option:
         """Without the causes that the others make superfluous, such as a calibration that stood in for an effect."""
-        while len(current.names) > 1:
+        while len(causes := [name for name in current.names if name not in self.sampling]) > 1:
             without = []
-            for name in current.names:
+            for name in causes:
                 progress(f"without {name}")
                 rest = [other for other in current.names if other != name]
                 without.append(self.option(rest, [self.free(rest, fit.values) for fit in current.fits]))

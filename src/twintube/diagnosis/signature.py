@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from twintube.arrays import Array
 from twintube.data import Record
+from twintube.data.defects import clipped
 from twintube.diagnosis.line import line
 from twintube.diagnosis.result import Signature
 from twintube.diagnosis.rules import RULES
@@ -21,7 +22,7 @@ from twintube.engine.simulate import InputError
 from twintube.fitting.averaging import RULES as AVERAGING
 from twintube.fitting.averaging import spectrum
 from twintube.fitting.harmonic import Harmonic
-from twintube.fitting.oscillations import harmonic, smooth_velocity
+from twintube.fitting.oscillations import harmonic
 
 
 def signatures(records: Sequence[Record]) -> list[Signature]:
@@ -45,35 +46,20 @@ def oscillating(records: Sequence[Record]) -> list[tuple[Record, Harmonic]]:
 
 
 def saturation(records: Sequence[Record]) -> Signature | None:
-    """The force at an equal extreme in several records.
-
-    Quantised forces have many samples of equal value, but fewer and fewer towards the largest; cut forces pile up there.
-    """
-    for sign in (1.0, -1.0):
-        forces = [sign * record.force for record in records]
-        limit = max(float(force.max()) for force in forces)
-        near = RULES.limit_width * abs(limit)
-        at = [force >= limit - near for force in forces]
-        hit = [i for i, some in enumerate(at) if some.any()]
-        depths = (limit - np.concatenate([forces[i] for i in hit])) // max(near, 1e-12)
-        count, *below = np.unique(depths, return_counts=True)[1][: RULES.limit_below + 1].tolist()
-        enough = max(RULES.limit_samples, RULES.limit_pile * max(below, default=0))
-        if len(hit) < RULES.limit_records or not below or count < enough:
-            continue
-        cut = 0.0  # the force as if it went on rising with the velocity from where it first reaches the limit
-        for i in hit:
-            v = np.abs(smooth_velocity(records[i])[at[i]])
-            cut += float(
-                np.sum((limit * np.maximum(v / max(float(np.quantile(v, RULES.limit_slow)), 1e-9) - 1.0, 0.0)) ** 2)
-            )
-        size = float(np.sqrt(cut / sum(len(forces[i]) for i in hit)))
-        side = "largest" if sign > 0 else "smallest"
-        text = (
-            f"the force stays at its {side} value of {sign * limit:.0f} N in {len(hit)} of {len(records)} records "
-            f"({count} samples): the load cell or its amplifier is at its limit"
-        )
-        return Signature("saturation", text, size)
-    return None
+    """The force of some records is cut at a limit; those samples are not compared, so nothing limits what they hide."""
+    cut = {}
+    for record in records:
+        limits = clipped(record.force, np.abs(record.velocity))
+        if limits.samples.any():
+            cut[record.name] = (limits, int(limits.samples.sum()))
+    if not cut:
+        return None
+    values = sorted({f"{x:.0f} N" for limits, _ in cut.values() for x in (limits.low, limits.high) if x is not None})
+    text = (
+        f"the force is clipped at {' and '.join(values)} in {', '.join(cut)} ({sum(n for _, n in cut.values())} samples, "
+        "left out here): the load cell or its amplifier is at its limit"
+    )
+    return Signature("saturation", text, np.inf)
 
 
 def ringing(blocks: Sequence[Harmonic], lines: Sequence[float] = ()) -> Signature | None:

@@ -7,8 +7,7 @@ import numpy as np
 
 from twintube.diagnosis.candidates import Candidate
 from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.gains import removed
-from twintube.diagnosis.result import Signature
+from twintube.diagnosis.result import Errors, Estimate, Gain, Signature
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.select import RECALIBRATE, Option, Selection
 
@@ -24,39 +23,49 @@ class Judgement:
     causes: list[str]  # candidates that are named, the largest first
     kept: list[str]  # candidates, or `recalibrate`, that the extended model has
     nearest: list[str]  # candidates that explain too little to be named
+    doubts: dict[str, str]  # why a chosen candidate is not named
     rivals: list[Option]  # what explains the records as well as the named cause
     outside: list[Signature]  # causes outside the catalogue that decide
-    explained: float  # share of the explainable squared error that goes away, geometric mean over the records
+    explained: float  # share of the explainable squared error that goes away, on held-out records
 
 
 def judge(
     selection: Selection,
     candidates: Mapping[str, Candidate],
+    estimates: Mapping[str, Mapping[str, Estimate]],
     seen: Sequence[Signature],
-    base_error: float,
+    errors: Mapping[str, Errors],
+    gain: Gain,
     faults: Sequence[Fault],
 ) -> Judgement:
     """The verdict from the selected causes, the signatures in the records and the faults that were put right.
 
-    `base_error` [N] is the force error of the base model on held-out records.
+    `estimates` are the values of the chosen causes, `errors` those of the models on held-out records, `gain` that of the
+    model with all chosen causes. A cause is named only where none of these figures speaks against it.
     """
-    explained = removed(selection.start.score, selection.final.score, selection.count)
+    base, extended, floor = (errors[name].force_rmse_N for name in ("base", "extended", "noise_floor"))
     right = selection.final.score <= RULES.right * selection.count
-    outside = [signature for signature in seen if signature.size > RULES.shows * base_error]
+    outside = [signature for signature in seen if RULES.shows * base < signature.size < np.inf]
+    unlimited = [signature for signature in seen if signature.size == np.inf]
     causes = [name for name in selection.chosen if name != RECALIBRATE]
+    doubts = {name: doubt for name in causes if (doubt := doubtful(candidates[name], estimates[name]))}
+    proven = gain.heldout > 0.0 and gain.heldout_interval[0] > 0.0 and extended < base and base > floor
+    enough = gain.heldout >= RULES.explained or right
     close = rivals(selection)
     if outside:
         remaining = "unexplained"
     elif not selection.chosen:
         remaining = "none" if right else "unexplained"
-    elif explained < RULES.explained and not right:
-        remaining = "unexplained"
+    elif not proven or not enough or doubts:
+        remaining = "none" if selection.start.score <= RULES.right * selection.count else "unexplained"
     elif not causes:
         remaining = "recalibrate"
     elif close:
         remaining = "ambiguous"
     else:
         remaining = "measurement_fault" if candidates[causes[0]].fault else "cause"
+    if unlimited and remaining in ("none", "unexplained"):
+        remaining, outside = "unexplained", unlimited + outside
     named = remaining in ("cause", "ambiguous", "measurement_fault")
     return Judgement(
         verdict="measurement_fault" if faults else remaining,
@@ -64,10 +73,20 @@ def judge(
         causes=causes if named else [],
         kept=selection.chosen if named or remaining == "recalibrate" else [],
         nearest=causes if remaining == "unexplained" else [],
+        doubts=doubts,
         rivals=close if remaining == "ambiguous" else [],
         outside=outside,
-        explained=explained,
+        explained=gain.heldout,
     )
+
+
+def doubtful(candidate: Candidate, values: Mapping[str, Estimate]) -> str:
+    """Why the strength of a cause is not to be relied on; empty where one is determined and inside its range."""
+    acting = [values[name] for name in candidate.strength if name in values and values[name].acts(candidate.least[name])]
+    if not acting:
+        return "its strength is not determined by these records"
+    ends = [value.doubt for value in acting if value.at_bound]
+    return f"its strength is {ends[0]}" if ends else ""
 
 
 def rivals(selection: Selection) -> list[Option]:
@@ -76,7 +95,8 @@ def rivals(selection: Selection) -> list[Option]:
     if best.names[-1] == RECALIBRATE or not selection.chosen:
         return []
     margin = max(selection.limit, RULES.close * max(selection.start.score - best.score, 0.0))
-    near = [o for o in others if 0.0 <= o.score - best.score <= margin and o.names[-1] != RECALIBRATE]
+    others = [o for o in others if o.names[-1] not in (RECALIBRATE, *selection.neutral)]
+    near = [o for o in others if 0.0 <= o.score - best.score <= margin]
     return near[: RULES.alternatives]
 
 
@@ -91,10 +111,11 @@ def sentence(judgement: Judgement, candidates: Mapping[str, Candidate], faults: 
 
 def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]) -> str:
     """The verdict without the faults that were put right."""
-    gain = f"{100 * judgement.explained:.0f} % of the explainable squared error of a typical held-out record"
+    gain = f"{share(judgement.explained)} of the explainable squared error of the held-out records"
     titles = [lower(candidates[name].title) for name in judgement.causes]
     if judgement.outside:
-        return f"No known cause explains the records: {judgement.outside[0].text}."
+        text = judgement.outside[0].text
+        return f"No effect of the damper: {text}."
     match judgement.remaining:
         case "none":
             margin = 100 * (np.exp(RULES.right / 2) - 1)
@@ -103,7 +124,9 @@ def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]
             return "No effect is missing: other values of the degradation parameters explain the records."
         case "unexplained":
             near = " and ".join(lower(candidates[name].title) for name in judgement.nearest)
-            nearest = f"; the nearest, {near}, removes {gain}" if near else ""
+            why = "; ".join(f"of {lower(candidates[name].title)}, {doubt}" for name, doubt in judgement.doubts.items())
+            nearest = f"; the nearest, {near}, removes {gain}" if near and judgement.explained > 0 else ""
+            nearest += f", but {why}" if nearest and why else ""
             return f"The simulation is wrong in a way that no known cause explains{nearest}."
         case "ambiguous":
             others = " or ".join(lower(candidates[o.names[-1]].title) for o in judgement.rivals)
@@ -115,6 +138,11 @@ def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]
         return f"{NUMBERS.get(len(titles), str(len(titles)))} causes: {listed}. All of them remove {gain}."
     kind = "The measurement is faulty" if judgement.remaining == "measurement_fault" else "The cause"
     return f"{kind}: {titles[0]}. It removes {gain}."
+
+
+def share(gain: float) -> str:
+    """A gain in percent, never rounded up to all of it."""
+    return f"{100.0 * gain:.0f} %" if gain < 0.99 else "over 99 %"
 
 
 def lower(title: str) -> str:

@@ -1,21 +1,20 @@
 """The page of `twintube diagnose`: what is wrong with the damper or its measurement, how sure that is, what to do next."""
 
 import itertools
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from twintube.core.effects import EFFECTS, Parameters
-from twintube.diagnosis.faults import PUT_RIGHT
 from twintube.diagnosis.result import Cause, Diagnosis, Errors, Estimate
 from twintube.diagnosis.rules import RULES
 from twintube.files import write_bytes, write_text
 from twintube.readable import MISSING, amount, digits, percent, unit_of, with_interval
 from twintube.report import style
-from twintube.report.diagnosis_pictures import MOST, pictures, shown_record
-from twintube.report.diagnosis_records import compared, models, name_of, noise, ranked
+from twintube.report.answer import confidence, has_extension, next_step, number
+from twintube.report.diagnosis_loop import caption
+from twintube.report.diagnosis_pictures import MOST, NARROW, PICTURES, pictures, shown_record
+from twintube.report.diagnosis_records import compared, models, name_of, ranked
 from twintube.report.engineering import is_share, meaning, title_of
 from twintube.report.page import Headline, Picture, Section, Table, html
 
@@ -30,8 +29,12 @@ BADGES = {  # verdict -> badge, class of the style sheet
 SPLITS = {"heldout": "held-out records", "fit": "fitted records"}
 ROWS = {"noise_floor": "noise floor"}
 AGREES = (
-    "The error of the base model is that of the noise and of the numerics: no effect needs to be added and no parameter "
-    "changed. The pictures below show the agreement."
+    "The error of the base model is that of the noise, of the numerics and of what is tolerated: no effect has to be added "
+    "and no parameter changed. The pictures show the agreement."
+)
+EXTENDED = (
+    "extended.toml is the parameter set that belongs to this answer, for twintube simulate, fmu and demo; where the records "
+    "leave a value open, it holds the best guess."
 )
 RESIDUAL = "Residual: measured less simulated force, so that positive values are force that the model lacks."
 
@@ -41,47 +44,41 @@ def error(d: Diagnosis, split: str, name: str) -> Errors | None:
     return d.errors.get(split, {}).get(name)
 
 
-def headline(d: Diagnosis) -> Headline:
-    """The verdict with the figures that carry it."""
+def headline(d: Diagnosis, picture: Picture | None) -> Headline:
+    """A single verdict, number, next step and picture: what the first screen shows."""
     badge, mark = BADGES[d.verdict]
-    split = "heldout" if error(d, "heldout", "base") else "fit"
-    labels = ROWS | {m.name: m.label for m in models(d)}
-    tiles = []
-    for name in ("base", *(m.name for m in compared(d)[1:]), "noise_floor"):
-        errors = error(d, split, name)
-        if errors and np.isfinite(errors.force_rmse_N):
-            label = labels[name]
-            tiles.append((amount(errors.force_rmse_N, "N"), f"{label}, force error on {SPLITS[split]}"))
-    if d.causes:
-        first = d.causes[0]
-        which = "putting the fault right explains" if first.effect in PUT_RIGHT else "explained"
-        if first.effect not in PUT_RIGHT and len(d.causes) > 1:
-            which = "all causes together explain"
-        low, high = first.gain.heldout_interval
-        tiles.append((percent(first.gain.heldout), f"{which} on held-out records, 95 %: {percent(low)} to {percent(high)}"))
-        tiles.append((percent(first.gain.worst_record), "in the worst held-out record"))
-    return Headline(d.sentence, badge, mark, tiles)
+    value, label = number(d)
+    tiles = [(value, label)] if value else []
+    return Headline(d.sentence, badge, mark, [*tiles, ("Next step", next_step(d))], confidence(d), picture)
 
 
 def lead(d: Diagnosis) -> list[str]:
-    """The paragraphs below the verdict."""
+    """The paragraphs below the answer."""
     paragraphs = []
     for cause in d.causes:
         effect = EFFECTS.get(cause.effect)
         errs = f" What a model without it gets wrong: {effect.absence}" if effect else ""
         paragraphs.append(f"{cause.title}: {cause.explanation}{errs}")
+    paragraphs += open_values(d.causes)
     if d.verdict == "none":
         paragraphs.append(AGREES)
     elif d.where:
-        paragraphs.append(f"Where the base model is wrong: {d.where}")
+        paragraphs.append(f"Where the base model is wrong: {d.where.rstrip('.')}.")
+    if d.signature and d.signature != d.where:
+        paragraphs.append(f"What no candidate explains: {d.signature.rstrip('.')}.")
+    if has_extension(d):
+        paragraphs.append(EXTENDED)
+    return paragraphs
+
+
+def white_noise(d: Diagnosis) -> str:
+    """In how many records the residual is more than white noise."""
     counts = ", ".join(f"{len(d.structure[m.name])} for the {m.label}" for m in compared(d))
     test = f"signs of neighbouring intervals, {percent(RULES.structure_alarm)} false alarms"
-    paragraphs.append(
-        f"Records of {len(d.records)} in which the residual, however small, is not white noise: {counts} ({test})."
+    return (
+        f"Records of {len(d.records)} in which neighbouring residuals resemble each other, however small they are: {counts} "
+        f"({test}). An error at the noise floor may have such a rest."
     )
-    if d.signature:
-        paragraphs.append(f"What no candidate explains: {d.signature}")
-    return paragraphs
 
 
 def doubt(f: Estimate, share: bool) -> str:
@@ -97,10 +94,10 @@ def cause_tables(causes: list[Cause]) -> list[Table]:
     """Values and gains of the causes."""
     parameters = []
     for cause in causes:
-        for name, f in cause.parameters.items():
+        for name, f in cause.determined.items():
             share = is_share(cause.effect, name)
             value, span = with_interval(f.value, f.low, f.high, f.unit, share)
-            parameters.append([cause.title, name, meaning(name), value, span, doubt(f, share)])
+            parameters.append([cause.title, name, meaning(name), value, span if f.bounds else MISSING])
     # Causes that act together have a gain in common.
     gains = [
         [" and ".join(c.title for c in together), percent(g.heldout), " to ".join(percent(x) for x in g.heldout_interval),
@@ -108,13 +105,27 @@ def cause_tables(causes: list[Cause]) -> list[Table]:
         for g, together in itertools.groupby(causes, key=lambda c: c.gain)
     ]  # fmt: skip
     tables = []
+    interval = f"{percent(RULES.interval_level)} interval"
     if parameters:
-        tables.append(Table(["cause", "parameter", "", "value", "95 % interval", ""], parameters, "Values", (3, 4)))
+        tables.append(Table(["cause", "parameter", "", "value", interval], parameters, "Values", (3, 4)))
     if gains:
-        head = ["cause", "held-out records", "95 % interval", "worst held-out record", "fitted records"]
-        title = "Share of the explainable squared force error of all records together that goes away"
+        head = ["cause", "held-out records", interval, "worst held-out record", "fitted records"]
+        title = (
+            "Share of the explainable squared force error that goes away (a fault that was put right: relative to the force)"
+        )
         tables.append(Table(head, gains, title, (1, 2, 3, 4)))
     return tables
+
+
+def open_values(causes: list[Cause]) -> list[str]:
+    """The parameters of the causes that are not among their values, with the reason."""
+    texts = []
+    for cause in causes:
+        reasons = {name: doubt(cause.parameters[name], is_share(cause.effect, name)) for name in cause.undetermined}
+        listed = ", ".join(f"{name} ({reason or 'neutral within its interval'})" for name, reason in reasons.items())
+        if listed:
+            texts.append(f"{cause.title}, without a value of its own: {listed}.")
+    return texts
 
 
 def changes(d: Diagnosis) -> Table | None:
@@ -161,7 +172,7 @@ def record_table(d: Diagnosis) -> Table:
     shown = models(d)
     rows = [
         [r.record.name, "held out" if r.split == "heldout" else "fitted", name_of(r),
-         *(amount(r.rms(m.force(r)), "N") for m in shown), amount(noise(r), "N"), amount(r.record.peak, "N")]
+         *(amount(r.rms(m.force(r)), "N") for m in shown), amount(r.noise, "N"), amount(r.record.peak, "N")]
         for r in ranked(d)
     ]  # fmt: skip
     head = ["record", "", "state", *(m.label for m in shown), "noise floor", "peak force"]
@@ -175,7 +186,7 @@ def tried_table(d: Diagnosis) -> Table | None:
          t.reason]
         for t in sorted(d.tried, key=lambda t: (t.round, t.decision != "chosen", -t.heldout_gain))
     ]  # fmt: skip
-    head = ["round", "candidate", "gain", "95 % interval", "", "reason"]
+    head = ["round", "candidate", "gain", f"{percent(RULES.interval_level)} interval", "", "reason"]
     title = "What was tried; gain: share of the log-likelihood of held-out records, against the round before"
     return Table(head, rows, title, (2, 3)) if rows else None
 
@@ -190,21 +201,26 @@ def alternative_table(d: Diagnosis) -> Table | None:
 def sections(d: Diagnosis, drawn: dict[str, Picture]) -> list[Section]:
     """The page below the verdict; what has nothing to show is left out."""
     best = compared(d)[1:]
+    tables, texts = cause_tables(d.causes), lead(d)
+    first = {"recalibrate": changes, "ambiguous": alternative_table}.get(d.verdict)
+    carrying = first(d) if first else None
+    tables += [carrying] if carrying else []
+    parts = [Section("answer", "The answer in detail", text=texts, tables=tables)] if texts or tables else []
     has = [drawn[name] for name in ("loops", "work") if name in drawn]
-    parts = [Section("compared", "Force and work, measured and simulated", pictures=has)] if has else []
+    parts += [Section("compared", "Force and work, measured and simulated", pictures=has)] if has else []
     has = [drawn[name] for name in ("maps", "residual") if name in drawn]
     if has:
         title = "Residual before and after" if best else "Residual"
         parts.append(Section("residual", title, text=[RESIDUAL], pictures=has))
     if d.records:
         tables = [t for t in (totals(d), changes(d) if d.verdict != "recalibrate" else None, record_table(d)) if t]
-        parts.append(Section("records", "Errors of all records", pictures=[drawn["errors"]], tables=tables))
+        parts.append(
+            Section("records", "Errors of all records", text=[white_noise(d)], pictures=[drawn["errors"]], tables=tables)
+        )
     tables = [t for t in (alternative_table(d) if d.verdict != "ambiguous" else None, tried_table(d)) if t]
     if tables:
         has = [drawn["ranking"]] if "ranking" in drawn else []
         parts.append(Section("candidates", "Candidates", pictures=has, tables=tables))
-    if d.next_measurements:
-        parts.append(Section("next", "What to measure next", items=d.next_measurements))
     if d.remarks:
         parts.append(Section("remarks", "Remarks", items=d.remarks))
     return parts
@@ -216,35 +232,38 @@ def captions(d: Diagnosis) -> dict[str, str]:
     many = max((sum(r.split == split for r in d.records) for split in SPLITS), default=0) > MOST
     which = f"the {MOST} worst records of each kind" if many else "every record"
     return {
+        "answer": caption(d) if d.records else "",
         "loops": "Mean force over stroke (left) and over velocity (right), first and last oscillation of the fastest block. "
-                 "The records of the largest base error, held-out ones first.",
+                 "The records of the largest base error, held-out ones first. Curves are broken where a record is not "
+                 "compared, as at the ramped ends of a block.",
         "work": "Work per oscillation of these records.",
         "maps": "Root mean square of the residual over each quantity; bars: mean residual of the base model with its sign.",
         "residual": f"Residual over time, record {record}.",
         "errors": f"Error of {which}, held-out ones shaded.",
-        "ranking": "Gain: share of the log-likelihood of the held-out records that a candidate takes away, with its 95 % "
-                   "interval. A triangle at the left edge: it makes things much worse.",
+        "ranking": "Gain: share of the log-likelihood of the held-out records that a candidate takes away, with its "
+                   f"{percent(RULES.interval_level)} interval. A triangle at the left edge: it makes things much worse.",
     }  # fmt: skip
 
 
 def page(d: Diagnosis, images: dict[str, bytes]) -> str:
-    """The page with its pictures."""
+    """The page with its pictures; that of the answer has a second shape for small screens."""
     texts = captions(d)
-    drawn = {name: Picture(data, texts[name], texts[name]) for name, data in images.items()}
-    tables = cause_tables(d.causes)
-    first = {"recalibrate": changes, "ambiguous": alternative_table}.get(d.verdict)
-    carrying = first(d) if first else None
-    tables += [carrying] if carrying else []
+    narrow = images.get(NARROW, b"")
+    drawn = {name: Picture(data, texts[name], texts[name]) for name, data in images.items() if name in texts}
+    first = replace(drawn["answer"], narrow=narrow) if "answer" in drawn else None
     foot = f"Computed in {d.seconds:.0f} s." if d.seconds else ""
-    return html(f"Diagnosis: {d.title}", lead(d), sections(d, drawn), tables, foot, headline(d))
+    return html(f"Diagnosis: {d.title}", [], sections(d, drawn), [], foot, headline(d, first))
 
 
 def write_report(diagnosis: Diagnosis, folder: Path) -> list[Path]:
-    """Write report.html and its pictures; returns the files."""
+    """Write report.html and its pictures; returns the files. Pictures of an earlier diagnosis are removed."""
     images = {name: style.png(figure) for name, figure in pictures(diagnosis).items()}
     text = page(diagnosis, images)
-    files = [folder / f"{name}.png" for name in images]
-    for file, data in zip(files, images.values(), strict=True):
+    files = {folder / f"{name}.png": images[name] for name in images if name != NARROW}
+    for name in PICTURES:
+        if folder / f"{name}.png" not in files:
+            (folder / f"{name}.png").unlink(missing_ok=True)
+    for file, data in files.items():
         write_bytes(file, data)
     write_text(folder / "report.html", text)
     return [*files, folder / "report.html"]

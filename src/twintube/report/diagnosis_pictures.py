@@ -15,14 +15,15 @@ from twintube.diagnosis.result import Diagnosis, Map, RecordResult, Tried
 from twintube.diagnosis.rules import RULES
 from twintube.readable import unit_of
 from twintube.report import style
+from twintube.report.diagnosis_loop import answer_loop
 from twintube.report.diagnosis_records import (
     Model,
+    broken,
     compared,
     drawn,
     middle,
     models,
     name_of,
-    noise,
     oscillations,
     parts,
     ranked,
@@ -32,6 +33,8 @@ from twintube.report.diagnosis_records import (
 )
 from twintube.report.engineering import title_of
 
+PICTURES = ("answer", "loops", "work", "maps", "residual", "errors", "ranking")  # that a page may have, as files
+NARROW = "answer_narrow"  # the first of them for small screens, on the page alone
 MOST = 30  # records per split in the chart of errors
 FLOOR, CEILING = -0.5, 1.05  # of the explainable error: what the chart of gains shows
 BASE_MARK = "--o"
@@ -69,9 +72,11 @@ def loops(d: Diagnosis) -> Figure:
         for ax, ((signal, factor), (which, ends)) in zip(row, some, strict=False):
             at = middle(signal, ends) * factor
             thin = 1.0 if len(ends) < DENSE else 0.4
-            ax.plot(at, result.measured[ends], "o", color=style.INK, ms=2.5 * thin, mew=0, zorder=3, label="measured")
+            measured = broken(result, result.measured, ends)
+            ax.plot(at, measured, "o", color=style.INK, ms=2.5 * thin, mew=0, zorder=3, label="measured")
             for model in drawn(result, compared(d)):
-                ax.plot(at, model.force(result)[ends], model.dash, color=model.colour, lw=1.2 * thin, label=model.label)
+                force = broken(result, model.force(result), ends)
+                ax.plot(at, force, model.dash, color=model.colour, lw=1.2 * thin, label=model.label)
             small_title(ax, which)
             ax.set_xlabel("stroke [mm]" if signal is record.stroke else "velocity [m/s]", fontsize=8)
         for ax in row[len(some) :]:
@@ -207,7 +212,7 @@ def errors(d: Diagnosis) -> Figure:
         ax.axhspan(-0.5, held - 0.5, color="#f6efdd", lw=0, zorder=0, label="held out")
     rows = np.arange(len(kept))
     values = {m: np.array([r.rms(m.force(r)) for r in kept]) for m in models(d)}
-    floor = np.array([noise(r) for r in kept])
+    floor = np.array([r.noise for r in kept])
     everything = np.concatenate([floor, *values.values()])
     ax.hlines(
         rows, np.minimum.reduce(list(values.values())), np.maximum.reduce(list(values.values())), color=style.FAINT, lw=2
@@ -285,7 +290,7 @@ def pictures(d: Diagnosis) -> dict[str, Figure]:
     """All pictures that this diagnosis has something to show in, by name, in the order of the page."""
     figures: dict[str, Figure | None] = {}
     if d.records:
-        figures |= {"loops": loops(d), "work": works(d)}
+        figures |= {"answer": answer_loop(d), NARROW: answer_loop(d, narrow=True), "loops": loops(d), "work": works(d)}
     if any(np.isfinite(m.base).any() for m in d.maps):
         figures["maps"] = maps(d)
     if d.records:

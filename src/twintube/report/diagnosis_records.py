@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from twintube.arrays import Array
 from twintube.data.condition import is_intact
-from twintube.diagnosis.faults import PUT_RIGHT
 from twintube.diagnosis.prepare import PreparedRecord
 from twintube.diagnosis.result import Diagnosis, RecordResult
 from twintube.diagnosis.rules import RULES
 from twintube.report import style
+from twintube.report.answer import extends, put_right
 
 SHOWN = 6  # records of which curves are drawn
 
@@ -41,10 +41,15 @@ def equal(result: RecordResult, a: Array, b: Array) -> bool:
 
 
 def models(d: Diagnosis) -> list[Model]:
-    """The simulations that differ from one another in any record: base, recalibrated, extended."""
-    repaired = any(cause.effect in PUT_RIGHT for cause in d.causes)
-    label = "fault accounted for" if d.verdict == "measurement_fault" and not repaired else "extended model"
-    extended = Model("extended", label, style.RED, "-")
+    """The simulations that differ from one another in any record: base, recalibrated, extended.
+
+    Where nothing is named the last is that of the nearest candidates, and called so.
+    """
+    repaired = any(put_right(cause) for cause in d.causes)
+    label = "extended model" if extends(d) else "nearest candidate, not named"
+    if extends(d) and d.verdict == "measurement_fault" and not repaired:
+        label = "fault accounted for"
+    extended = Model("extended", label, style.RED if extends(d) else style.GREY, "-")
     different = [replace(BASE, label="base model, fault put right") if repaired else BASE]
     for model in (RECALIBRATED, extended):
         if all(any(not equal(r, model.force(r), other.force(r)) for r in d.records) for other in different):
@@ -53,9 +58,9 @@ def models(d: Diagnosis) -> list[Model]:
 
 
 def compared(d: Diagnosis) -> list[Model]:
-    """The base model and, where there is one, the best of the others."""
+    """The base model and, where the diagnosis names anything, the model that has it."""
     base, *others = models(d)
-    return [base, *others[-1:]]
+    return [base, *others[-1:]] if extends(d) else [base]
 
 
 def drawn(result: RecordResult, chosen: list[Model]) -> list[Model]:
@@ -119,9 +124,12 @@ def rests(record: PreparedRecord) -> list[int]:
     return [i for i in range(1, len(stretches)) if stretches[i] != stretches[i - 1]]
 
 
-def noise(result: RecordResult) -> float:
-    """Root mean square [N] of the noise of a record's intervals, as an error of a simulation counts them."""
-    return float(np.sqrt(np.mean(np.square(result.record.noise[1:]))))
+def broken(result: RecordResult, force: Array, ends: NDArray[np.int64]) -> Array:
+    """A force (n,) over the intervals that end at `ends` (k,), NaN where the record is not compared.
+
+    There, at ramped ends above all, neighbouring points are far apart: a line between them would be a chord.
+    """
+    return np.where(result.weight[ends] > 0, force[ends], np.nan)
 
 
 def name_of(result: RecordResult) -> str:

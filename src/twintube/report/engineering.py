@@ -1,9 +1,11 @@
-"""Titles of effects and faults and descriptions of their parameters, for pages."""
+"""Titles of effects and faults, descriptions of their parameters, steps of a diagnosis, for pages and terminals."""
 
 from dataclasses import fields
 
 from twintube.core.effects import EFFECTS, Parameters
 from twintube.diagnosis.candidates import FAULT_TITLES
+from twintube.diagnosis.select import RECALIBRATE
+from twintube.diagnosis.verdict import lower
 
 
 def is_share(effect: str, parameter: str) -> bool:
@@ -13,10 +15,26 @@ def is_share(effect: str, parameter: str) -> bool:
 
 def title_of(effect: str) -> str:
     """Title of a candidate; several at once are joined by +."""
-    titles = {name: item.title for name, item in EFFECTS.items()} | FAULT_TITLES
+    titles = {name: item.title for name, item in EFFECTS.items()} | FAULT_TITLES | {RECALIBRATE: "Other known parameters"}
     return " + ".join(titles.get(name, name.replace("_", " ").capitalize()) for name in effect.split("+"))
 
 
 def meaning(name: str) -> str:
     """Description of a model parameter; empty for other names."""
     return next((str(item.metadata["description"]) for item in fields(Parameters) if item.name == name), "")
+
+
+def in_words(step: str) -> str:
+    """A step that a diagnosis reports, such as `a single cause: start of force_gain`, with the title of what is tried."""
+    head, _, name = step.rpartition(": ")
+    name = name.removeprefix("start of ")
+    title = lower(title_of(name))
+    if head.startswith("a single cause"):
+        return f"trying: {title}"
+    if head.startswith("a further cause"):
+        return f"trying another cause as well: {title}"
+    if head.startswith("instead of "):
+        return f"trying instead of {lower(title_of(head.removeprefix('instead of ')))}: {title}"
+    if step.startswith("without "):
+        return f"trying without {lower(title_of(step.removeprefix('without ')))}"
+    return step

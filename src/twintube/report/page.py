@@ -20,11 +20,17 @@ class Picture:
     png: bytes
     alt: str
     caption: str = ""
+    narrow: bytes = b""  # the PNG for small screens, if there is one
 
     @property
     def uri(self) -> str:
         """The picture as data URI, so that the page needs no other file."""
-        return "data:image/png;base64," + base64.b64encode(self.png).decode("ascii")
+        return data_uri(self.png)
+
+    @property
+    def narrow_uri(self) -> str:
+        """The picture for small screens; empty where the other serves."""
+        return data_uri(self.narrow) if self.narrow else ""
 
 
 @dataclass(frozen=True)
@@ -70,6 +76,8 @@ class Headline:
     verdict: str = ""
     mark: str = "open"  # class of the style sheet: yes, no, open, warn or found
     tiles: Sequence[tuple[str, str]] = ()  # value and label
+    remark: str = ""  # below the sentence
+    picture: Picture | None = None
 
 
 @dataclass(frozen=True)
@@ -91,6 +99,11 @@ class Section:
     def mark(self) -> str:
         """Class in the style sheet."""
         return MARKS.get(self.verdict, "open")
+
+
+def data_uri(png: bytes) -> str:
+    """A PNG as data URI."""
+    return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
 
 
 def readable(value: Any) -> str:

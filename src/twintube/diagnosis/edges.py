@@ -1,0 +1,75 @@
+"""What the model's own steps leave open: where a force steps, and at the edge between two states of filling.
+
+A step of the force falls anywhere between two samples. And where the gas just reaches the valve, a fill or a velocity that
+is off by a thousandth makes another oscillation of it. Neither tells anything about a cause.
+"""
+
+import itertools
+from copy import copy
+from dataclasses import replace
+
+import numpy as np
+
+from twintube.arrays import Array
+from twintube.diagnosis.fit import STROKE_GAIN, Problem
+from twintube.diagnosis.prepare import SCATTER, PreparedRecord, noise
+from twintube.diagnosis.rules import RULES
+from twintube.fitting.simulation import MARGIN
+
+
+def with_edges(problem: Problem) -> Problem:
+    """The problem with the error that its steps leave open, `edges` of its records."""
+    # Point samples: whether a step falls before or after a sample matters most.
+    base = problem.simulated(())[1]
+    others = [refilled(problem, s * RULES.open_level).simulate(())[1] for s in (-1, 1)]
+    changes = [{STROKE_GAIN: 1.0 + s * RULES.open_stroke} for s in (-1, 1)]
+    # Fits take the threshold of foam a bit above the given value, see fitting/simulation.py.
+    changes += [{"v_foam": s * problem.given.parameters.v_foam} for s in (1.0, 2 * MARGIN - 1)]
+    others += [problem.simulated(problem.damping(change))[1] for change in changes]
+    several = np.sqrt(sum(((other - base) ** 2 for other in others), np.zeros(len(base))) / 2)
+    records = []
+    for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
+        edges = np.sqrt(record.edges**2 + several[a:b] ** 2 + steps(record, base[a:b]) ** 2)
+        records.append(replace(record, edges=edges))
+    return problem.with_records(records)
+
+
+def refilled(problem: Problem, more: float) -> Problem:
+    """The problem with `more` oil [1] in its degraded states."""
+    other = copy(problem)
+    degraded = problem.states[:, 1] == 0
+    other.states = problem.states.copy()
+    other.states[degraded, 0] = np.clip(other.states[degraded, 0] + more, 0.0, 1.0)
+    return other
+
+
+def with_noise(problem: Problem) -> Problem:
+    """The problem with the noise of its records from what does not repeat in the errors of the model as given."""
+    errors = problem.errors({})
+    pairs = zip(problem.records, itertools.pairwise(problem.starts), strict=True)
+    return problem.with_records([replace(record, noise=noise(record, errors[a:b])) for record, (a, b) in pairs])
+
+
+def without_outliers(problem: Problem) -> Problem:
+    """The problem without the few intervals of each record that contradict the model far beyond all its others.
+
+    They are left out for every model alike. What happened there - a spike, a stop of the rig - is not in the records.
+    """
+    residual = problem.residual({})
+    records = []
+    for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
+        size = np.abs(residual[a:b])
+        usual = max(1.0, SCATTER * float(np.median(size[record.judged]))) if record.judged.any() else 1.0
+        out = record.judged & (size > RULES.outlier * usual)
+        few = out.sum() <= RULES.outliers * record.judged.sum()
+        records.append(replace(record, judged=record.judged & ~out) if few and out.any() else record)
+    return problem.with_records(records)
+
+
+def steps(record: PreparedRecord, force: Array) -> Array:
+    """Error bound [N] of the intervals (n,) next to a step of the simulated force (n,) [N], by at most a sample."""
+    change = np.abs(np.diff(force, prepend=force[0]))
+    around = np.maximum(np.roll(change, 1), np.roll(change, -1))
+    beyond = np.maximum(change - around, 0.0)
+    open_part = beyond * RULES.open_step / np.maximum(record.samples, 1)
+    return np.asarray(np.hypot(open_part, np.append(open_part[1:], 0.0)))

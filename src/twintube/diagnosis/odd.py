@@ -1,0 +1,76 @@
+"""Records that do not belong to the others: of another damper, setting or fill than stated, or with a fault of their own."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from twintube.diagnosis.candidates import faults
+from twintube.diagnosis.faults import Fault, unit_error
+from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.rules import RULES
+
+
+def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
+    """The few records that the model contradicts while it explains all others, and the problem without them."""
+    odd = contradicting(problem)
+    if not odd:
+        return None, problem
+    part = problem.with_records([problem.records[i] for i in odd])
+    others = problem.with_records([r for i, r in enumerate(problem.records) if i not in odd])
+    names = tuple(record.name for record in part.records)
+    fault = own_fault(part, names) or stranger(part, names)
+    return (fault, others) if fault is not None else (None, problem)
+
+
+def contradicting(problem: Problem) -> Sequence[int]:
+    """The numbers of the fewest records without which the model is right; none where it is right or that does not help."""
+    misfit = problem.misfits(problem.residual({}))
+    logs = problem.counts * np.log(np.maximum(RULES.least_misfit, misfit))
+    order = np.argsort(-misfit)
+    for count in range(1, int(RULES.odd_share * len(misfit)) + 1):
+        odd, rest = order[:count], order[count:]
+        usual = max(1.0, float(misfit[rest].max()))
+        right = logs[rest].sum() <= RULES.right * problem.counts[rest].sum()
+        if right and misfit[odd].min() >= RULES.odd * usual:
+            return sorted(odd.tolist())
+    return []
+
+
+def own_fault(part: Problem, names: tuple[str, ...]) -> Fault | None:
+    """The fault of the measurement that explains these records, if any does."""
+    wrong, put_right = unit_error(part)
+    if wrong is not None and right(put_right, {}):
+        of = f"In {', '.join(names)}: {wrong.explanation[0].lower()}{wrong.explanation[1:]}"
+        return Fault(wrong.effect, wrong.title, of, wrong.factor, records=names)
+    best = None
+    for candidate in faults(part):
+        (f,) = candidate.free
+        grid = [f.start + share * side for share in RULES.shares for side in (f.high - f.start, f.low - f.start)]
+        start = min(grid, key=lambda x: float(np.sum(part.residual({f.name: x}) ** 2)))
+        fit = part.fit([type(f)(f.name, start, f.low, f.high)])
+        if right(part, fit.values) and (best is None or fit.misfit.sum() < best[0]):
+            best = (fit.misfit.sum(), candidate, fit.values[f.name])
+    if best is None:
+        return None
+    _, candidate, value = best
+    (f,) = candidate.free
+    text = f"In {', '.join(names)}: {candidate.cause[0].lower()}{candidate.cause[1:]}"
+    return Fault(candidate.name, candidate.title, text, value, f.name, candidate.units[f.name], names)
+
+
+def right(part: Problem, values: dict[str, float]) -> bool:
+    """Whether the model explains the records."""
+    misfit = part.misfits(part.residual(values))
+    return bool(np.all(misfit <= RULES.odd_right))
+
+
+def stranger(part: Problem, names: tuple[str, ...]) -> Fault | None:
+    """Records of something else; None where they differ by no more than a model does where the filling changes."""
+    sizes = [float(np.sqrt(np.mean((part.measured - part.forces({}))[a:b][record.judged] ** 2)))
+             for record, a, b in zip(part.records, part.starts[:-1], part.starts[1:], strict=True)]  # fmt: skip
+    if any(size < RULES.odd_force * record.peak for size, record in zip(sizes, part.records, strict=True)):
+        return None
+    size = max(sizes)
+    kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
+    text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."
+    return Fault("odd_record", f"The {kind} {', '.join(names)}", text, size, "force_rmse_N", "N", names)

@@ -1,0 +1,60 @@
+"""Which parameters a candidate has in a dataset, and where the search for it begins."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.diagnosis import small
+from twintube.data import Record
+from twintube.diagnosis.candidates import Candidate, best_start, candidates, nuisances, period
+from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.rules import RULES
+
+KELVIN = {"fade_kelvin", "friction_kelvin", "gas_kelvin"}
+RETAINED = {"fade_heat", "cooling_time", "H_start", "gas_heat"}
+
+
+def named(problem: Problem, name: str) -> Candidate:
+    return next(c for c in candidates(problem) if c.name == name)
+
+
+@pytest.fixture(scope="module")
+def good() -> list[Record]:
+    return small.records()
+
+
+def test_heat_acts_by_the_temperature_where_it_was_measured_and_by_the_work_elsewhere(good: list[Record]) -> None:
+    names = {f.name for f in named(small.problem(good), "oil_temperature").free}
+    assert names.isdisjoint(KELVIN) and "fade_heat" in names
+    rising = [replace(r, temperature=22.0 + 20.0 * r.time / r.time[-1]) for r in good]
+    names = {f.name for f in named(small.problem(rising), "oil_temperature").free}
+    assert names.isdisjoint(RETAINED) and "fade_kelvin" in names
+    even = [replace(r, temperature=np.full(len(r.time), 22.0)) for r in good]
+    assert {f.name for f in named(small.problem(even), "oil_temperature").free}.isdisjoint(KELVIN)
+
+
+def test_what_every_measurement_has_goes_with_the_sampling(good: list[Record]) -> None:
+    problem = small.problem(good)
+    peak = max(record.peak for record in problem.records)
+    assert named(problem, "fluid_lag").least["tau_fluid"] >= max(RULES.small_delay, period(problem))
+    assert named(problem, "gas_spring").least["F_surplus"] == pytest.approx(RULES.small_force * peak)
+    assert named(problem, "stroke_gain").least["stroke_gain"] == RULES.small_gain
+    coarse = small.problem([small.record(small.run(v, turns=20, samples=40)) for v in (0.1, 0.3, 1.0)])
+    assert named(coarse, "fluid_lag").least["tau_fluid"] > 2 * named(problem, "fluid_lag").least["tau_fluid"]
+    zero, late, *_ = nuisances(coarse)
+    assert zero.high == pytest.approx(RULES.small_zero * max(record.peak for record in coarse.records))
+    assert late.high == pytest.approx(RULES.open_samples * period(coarse))
+
+
+def test_a_strength_that_does_not_help_stays_neutral() -> None:
+    """Worn in rebound alone: what compression would add only follows the noise."""
+    problem = small.problem(small.records(lambda r: r.force - 0.1 * np.where(r.velocity > 0, r.fluid, 0.0)))
+    wear = named(problem, "valve_wear")
+    cost, point = best_start([problem], wear, [{}])
+    assert point["wear_re"] < 0.0 and "wear_co" not in point
+    assert cost < 0.6 * float(np.sum(problem.residual({}) ** 2))
+    assert "wear_co" not in {f.name for f in wear.joined(point)}
+    assert "wear_re" in {f.name for f in wear.joined(point)}
+    both = small.problem(small.records(lambda r: r.force - 0.1 * r.fluid))
+    assert {"wear_re", "wear_co"} <= set(best_start([both], wear, [{}])[1])

@@ -1,0 +1,57 @@
+"""Faults that are put right before anything is fitted: a turned sign, of all files or of some, and a wrong unit."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.diagnosis import small
+from twintube.data import DataError, Record
+from twintube.diagnosis.faults import read, unit_error
+
+
+@pytest.fixture(scope="module")
+def good() -> list[Record]:
+    return small.records()
+
+
+@pytest.mark.parametrize("turned", [(), (1,), (0, 2), (0, 1, 2, 3)])
+def test_forces_of_the_other_sign_are_turned_file_by_file(
+    good: list[Record], tmp_path: Path, turned: tuple[int, ...]
+) -> None:
+    records = [replace(r, force=-r.force) if i in turned else r for i, r in enumerate(good)]
+    data, fault = read(small.write(records, tmp_path))
+    by_name = {record.name: record for record in data.records}
+    for record in good:
+        assert by_name[record.name].force == pytest.approx(record.force, abs=1e-3)
+    assert (fault is not None) == bool(turned)
+    if fault is not None:
+        assert (fault.effect, fault.factor) == ("sign_flip", -1.0)
+        assert set(fault.records) == {good[i].name for i in turned}
+        assert all((good[i].name in fault.explanation) == (len(turned) < len(good)) for i in turned)
+
+
+def test_a_file_with_another_defect_is_not_read_by_turning_it(good: list[Record], tmp_path: Path) -> None:
+    folder = small.write([replace(good[0], force=-good[0].force), *good[1:]], tmp_path)
+    (folder / good[1].file).write_text("time [s],stroke [mm]\n0,0\n")
+    with pytest.raises(DataError, match=good[1].file):
+        read(folder)
+
+
+@pytest.mark.parametrize(("factor", "unit"), [(1e-3, "kN for N"), (1 / 4.4482216, "lbf for N")])
+def test_a_wrong_unit_of_the_force_is_named_and_put_right(good: list[Record], factor: float, unit: str) -> None:
+    fault, right = unit_error(small.problem([replace(r, force=factor * r.force) for r in good]))
+    assert fault is not None
+    assert (fault.effect, fault.title) == ("unit_error", f"Unit of the force: {unit}")
+    assert fault.factor == pytest.approx(1 / factor)
+    assert right.measured == pytest.approx(small.problem(good).measured)
+
+
+def test_a_calibration_is_no_wrong_unit(good: list[Record]) -> None:
+    for gain in (0.7, 1.0, 1.4):
+        problem = small.problem([replace(r, force=gain * r.force) for r in good])
+        assert unit_error(problem) == (None, problem)
+    stroke = [replace(r, stroke=1.05 * r.stroke, velocity=1.05 * r.velocity) for r in good]
+    assert unit_error(small.problem(stroke))[0] is None
+    assert np.isfinite(small.problem(stroke).measured).all()

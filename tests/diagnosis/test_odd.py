@@ -1,0 +1,68 @@
+"""Single records that do not belong to the others are named, with the fault of their own if a fault explains them."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from tests.diagnosis import small
+from twintube.dampers import load
+from twintube.data import Record
+from twintube.diagnosis.edges import with_edges, with_noise
+from twintube.diagnosis.faults import Fault
+from twintube.diagnosis.odd import odd_records
+
+ODD = 2  # the number of the record that is changed
+
+
+@pytest.fixture(scope="module")
+def good() -> list[Record]:
+    return small.records(speeds=(0.1, 0.3, 0.6, 1.0, 1.3))
+
+
+def judged(records: list[Record]) -> tuple[Fault | None, list[str]]:
+    fault, rest = odd_records(with_edges(with_noise(small.problem(records))))
+    return fault, [record.name for record in rest.records]
+
+
+def changed(records: list[Record], change: Callable[[Record], Record]) -> list[Record]:
+    return [change(r) if i == ODD else r for i, r in enumerate(records)]
+
+
+def test_no_record_of_a_good_dataset_is_odd(good: list[Record]) -> None:
+    assert judged(good) == (None, [r.name for r in good])
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "change"),
+    [
+        ("force_gain", 1.3, lambda r: replace(r, force=1.3 * r.force)),
+        ("force_offset", 60.0, lambda r: replace(r, force=r.force + 60.0)),
+        ("stroke_gain", 1.1, lambda r: replace(r, stroke=1.1 * r.stroke, velocity=1.1 * r.velocity)),
+        ("unit_error", 1000.0, lambda r: replace(r, force=1e-3 * r.force)),
+    ],
+)
+def test_a_fault_of_a_single_file_is_named(
+    good: list[Record], kind: str, value: float, change: Callable[[Record], Record]
+) -> None:
+    fault, rest = judged(changed(good, change))
+    assert fault is not None
+    assert (fault.effect, fault.records) == (kind, (good[ODD].name,))
+    assert fault.factor == pytest.approx(value, rel=0.03)
+    assert good[ODD].name in fault.explanation
+    assert rest == [r.name for i, r in enumerate(good) if i != ODD]
+
+
+@pytest.mark.parametrize("stranger", ["another damper", "another fill"])
+def test_a_record_of_something_else_is_named(good: list[Record], stranger: str) -> None:
+    run = small.run(0.6, damper=load("SA7")) if stranger == "another damper" else small.run(0.6, small.DEGRADED)
+    other = replace(small.record(run), name="stray", oil_level=1.0, gas_preload=True)
+    fault, rest = judged(changed(good, lambda _: other))
+    assert fault is not None
+    assert (fault.effect, fault.records, fault.unit) == ("odd_record", ("stray",), "N")
+    assert "stray does not belong" in fault.explanation
+    assert "stray" not in rest
+
+
+def test_what_is_wrong_in_most_records_makes_none_of_them_odd(good: list[Record]) -> None:
+    assert judged([replace(r, force=1.3 * r.force) for r in good])[0] is None
