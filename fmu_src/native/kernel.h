@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations af002b215bea9b01, body 923174f9f1789e2f; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 37aef4832acc15bd, body c3ac636e825751b2; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -58,9 +58,13 @@ struct kernel_Parameters {
     double C_fluid_co;
     double V_air;
     double tau_fluid;
+    double relief_first;
+    double air_at_rest;
+    double column_share;
     double foam_decay_rate;
     double exhaustion;
     double redissolution_rate;
+    double F_surplus;
     double c_residual;
     double F_residual;
     double C_mount;
@@ -147,6 +151,8 @@ struct kernel_State {
     double elapsed;
     double F_held_re;
     double F_held_co;
+    double F_turn_re;
+    double F_turn_co;
     double F_late;
     double x_mount;
     double v_piston;
@@ -285,7 +291,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
+    if ((p->F_surplus != 0.0) || (p->c_residual != 0.0) || (p->F_residual != 0.0))
     {
         return 1;
     }
@@ -416,6 +422,8 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->elapsed = 0.0;
     s->F_held_re = 0.0;
     s->F_held_co = 0.0;
+    s->F_turn_re = 0.0;
+    s->F_turn_co = 0.0;
     s->F_late = 0.0;
     s->x_mount = 0.0;
     s->v_piston = 0.0;
@@ -467,6 +475,12 @@ static double kernel_end_stop_elastic(struct kernel_Parameters* p, struct kernel
 /* Force [N] at the stroke `z` [m]. */
 static double kernel_gas_spring_elastic(struct kernel_Parameters* p, struct kernel_State* s, double z)
 {
+    double whole;
+    if (p->gas_preload > 0)
+    {
+        whole = p->F_0 + 100000.0 * 0.25 * M_PI * p->D_PR * p->D_PR;
+        return p->F_surplus * (p->c_gas * z / whole - 1.0);
+    }
     return p->c_residual * z - p->F_residual;
 }
 
@@ -484,7 +498,7 @@ static double kernel_effects_elastic(struct kernel_Parameters* p, struct kernel_
     {
         value += kernel_end_stop_elastic(p, s, z);
     }
-    if ((p->c_residual != 0.0) || (p->F_residual != 0.0))
+    if ((p->F_surplus != 0.0) || (p->c_residual != 0.0) || (p->F_residual != 0.0))
     {
         value += kernel_gas_spring_elastic(p, s, z);
     }
@@ -736,35 +750,67 @@ static double kernel_effects_felt(struct kernel_Parameters* p, struct kernel_Sta
     return value;
 }
 
-/* Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N]. */
-static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0001, double* result_2_0001, struct kernel_Parameters* p, double F)
+/* Oil [1] of the column on the side of the force `F` at the stroke `z` [m], in terms of that at stroke 0. */
+static double kernel_fluid_lag_length(struct kernel_Parameters* p, double F, double z)
+{
+    double out;
+    double rod;
+    out = p->column_share * z / (0.5 * (p->h_l - p->dead_length));
+    if (F >= 0.0)
+    {
+        return 1.0 - out;
+    }
+    rod = p->D_PR * p->D_PR;
+    return 1.0 + out * rod / (2.0 * p->D_li * p->D_li - rod);
+}
+
+/* Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N].
+   `z` [m] is the stroke of the piston. */
+static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0001, double* result_2_0001, struct kernel_Parameters* p, double F, double z)
 {
     double rod;
+    double bore;
     double pressure;
-    double area;
+    double length;
+    double air;
     rod = 0.25 * M_PI * p->D_PR * p->D_PR;
-    pressure = 100000.0 + ((p->gas_preload > 0 ? p->F_0 / rod : 0.0));
-    area = (F >= 0.0 ? 0.25 * M_PI * p->D_li * p->D_li - rod : rod);
-    (*result_0_0001) = (F >= 0.0 ? p->C_fluid : p->C_fluid_co);
-    (*result_1_0001) = p->V_air * 100000.0 / (pressure * area);
-    (*result_2_0001) = pressure * area;
+    bore = 0.25 * M_PI * p->D_li * p->D_li;
+    pressure = 100000.0;
+    length = kernel_fluid_lag_length(p, F, z);
+    air = p->V_air * length;
+    if (p->gas_preload > 0)
+    {
+        pressure += p->F_0 / rod;
+        air *= p->air_at_rest + (1.0 - p->air_at_rest) * 100000.0 / pressure;
+    }
+    if (F >= 0.0)
+    {
+        /* The share of the air that is above the piston, on the annulus. */
+        (*result_0_0001) = p->C_fluid * length;
+        (*result_1_0001) = air / (2.0 * bore - rod);
+        (*result_2_0001) = pressure * (bore - rod);
+        return 0;
+    }
+    (*result_0_0001) = p->C_fluid_co * length;
+    (*result_1_0001) = air / rod;
+    (*result_2_0001) = pressure * rod;
     return 0;
 }
 
 /* Stroke [m] by which the column gives under the force `F` [N], with its sign. */
-static double kernel_fluid_lag_given(struct kernel_Parameters* p, double F)
+static double kernel_fluid_lag_given(struct kernel_Parameters* p, double F, double z)
 {
     double C;
     double way;
     double F_half;
-    kernel_fluid_lag_column(&C, &way, &F_half, p, F);
+    kernel_fluid_lag_column(&C, &way, &F_half, p, F, z);
     return C * F + way * F / (fabs(F) + F_half);
 }
 
 /* Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]; for an element in series. */
 static double kernel_fluid_lag_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
 {
-    return (kernel_fluid_lag_given(p, F) - kernel_fluid_lag_given(p, s->F_held_re - s->F_held_co)) / dt;
+    return (kernel_fluid_lag_given(p, F, s->z) - kernel_fluid_lag_given(p, s->F_held_re - s->F_held_co, s->z)) / dt;
 }
 
 static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
@@ -1775,12 +1821,9 @@ static int64_t kernel_fluid_lag_valves(double* result_0_0001, double* result_1, 
 }
 
 /* The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
-   `side` is 1 in rebound and -1 in compression, `k` the degradation of the branch. */
-static double kernel_fluid_lag_inverse(struct kernel_Parameters* p, double w, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
+   `C`, `way` and `F_half` are those of `fluid_lag_column`, `k` the degradation of the branch. */
+static double kernel_fluid_lag_inverse(double C, double way, double F_half, double w, double k, array_double_1d velocities, array_double_1d forces, double dt)
 {
-    double C;
-    double way;
-    double F_half;
     int64_t i;
     double u;
     double F;
@@ -1791,7 +1834,6 @@ static double kernel_fluid_lag_inverse(struct kernel_Parameters* p, double w, do
     double c;
     double root;
     double found;
-    kernel_fluid_lag_column(&C, &way, &F_half, p, side);
     i = 0;
     while((i < 20 - 1) && ((*cspan_at(&velocities, i)) + (C + way / (k * (*cspan_at(&forces, i)) + F_half)) * k * (*cspan_at(&forces, i)) / dt < w))
     {
@@ -1837,7 +1879,7 @@ static double kernel_effects_bypass(struct kernel_Parameters* p, double F)
 }
 
 /* As `fluid_lag_inverse`, with what passes beside the valves: secants for its speed between bounds that close in. */
-static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double w, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
+static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double C, double way, double F_half, double w, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
 {
     double low;
     double high;
@@ -1847,7 +1889,7 @@ static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double w, do
     int64_t n;
     double r;
     double u;
-    u = kernel_fluid_lag_inverse(p, w, k, side, velocities, forces, dt);
+    u = kernel_fluid_lag_inverse(C, way, F_half, w, k, velocities, forces, dt);
     low = 0.0;
     high = side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
     if (high <= 0.0)
@@ -1857,14 +1899,14 @@ static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double w, do
     /* The faster the leak, the less force is left that drives it: `past` less what that force makes of it rises. */
     r_low = -high;
     past = double_min(2, high, w);
-    u = kernel_fluid_lag_inverse(p, w - past, k, side, velocities, forces, dt);
+    u = kernel_fluid_lag_inverse(C, way, F_half, w - past, k, velocities, forces, dt);
     r_high = past - side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
     high = past;
     n = 0;
     while((n < 40) && (high - low > 1e-09))
     {
         past = double_min(2, double_max(2, low - r_low * (high - low) / (r_high - r_low), low + 0.05 * (high - low)), high - 0.05 * (high - low));
-        u = kernel_fluid_lag_inverse(p, w - past, k, side, velocities, forces, dt);
+        u = kernel_fluid_lag_inverse(C, way, F_half, w - past, k, velocities, forces, dt);
         r = past - side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
         if (r < 0.0)
         {
@@ -1881,10 +1923,20 @@ static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double w, do
     return u;
 }
 
-/* Force [N] of a column at the end of a step, mean force [N] and mean speed [m/s] at the valves, all magnitudes.
-   `held` >= 0 [N] is the force at the start, `v0` and `v1` [m/s] the speeds of the piston, positive towards the column. */
-static int64_t kernel_fluid_lag_press(double* result_0, double* result_1_0001, double* result_2, struct kernel_Parameters* p, double held, double v0, double v1, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
+/* Elastic energy [J] of a column under the force `F` >= 0 [N]. */
+static double kernel_fluid_lag_stored(double C, double way, double F_half, double F)
 {
+    return 0.5 * C * F * F + way * F_half * (log(1.0 + F / F_half) - F / (F + F_half));
+}
+
+/* Carry one column over a step: its force at the end, and its part of `F_mean` and `W_step` of the state.
+   A column without force is pressed in the share `free` [1] of the step. Returns that share for the other column. */
+static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_State* s, double side, double k, double free, double dz, array_double_1d velocities, array_double_1d forces, double dt)
+{
+    double held;
+    double turn;
+    double v0;
+    double v1;
     double begun;
     double pressed;
     double C;
@@ -1897,25 +1949,36 @@ static int64_t kernel_fluid_lag_press(double* result_0, double* result_1_0001, d
     double before;
     double w;
     double F;
+    double after;
+    double travelled;
     double through;
     double even;
     double stiff;
+    double mean;
+    double shorter;
+    double bound;
+    held = (side > 0.0 ? s->F_held_re : s->F_held_co);
+    turn = (side > 0.0 ? s->F_turn_re : s->F_turn_co);
+    v0 = side * s->goal_v0;
+    v1 = side * s->goal_v1;
     begun = v0;
     pressed = dt;
-    if ((held <= 0.0) && (v0 < 0.0))
+    if (held <= 0.0)
     {
-        /* The column is pressed from the reversal on. */
-        begun = 0.0;
-        pressed = (v1 > 0.0 ? dt * v1 / (v1 - v0) : 0.0);
+        if (v0 < 0.0)
+        {
+            /* The column is pressed from the reversal on. */
+            begun = 0.0;
+            pressed = (v1 > 0.0 ? dt * v1 / (v1 - v0) : 0.0);
+        }
+        begun = v1 - free * (v1 - begun);
+        pressed *= free;
     }
     if (pressed < 1e-12)
     {
-        (*result_0) = 0.0;
-        (*result_1_0001) = 0.0;
-        (*result_2) = 0.0;
-        return 0;
+        return 1.0;
     }
-    kernel_fluid_lag_column(&C, &way, &F_half, p, side);
+    kernel_fluid_lag_column(&C, &way, &F_half, p, side, s->z);
     kernel_fluid_lag_valves(&u, &slope, held, k, velocities, forces);
     if (k >= 1e-12)
     {
@@ -1925,16 +1988,52 @@ static int64_t kernel_fluid_lag_press(double* result_0, double* result_1_0001, d
     share = (settling > 0.0 ? kernel_end_weight(pressed / settling) : 1.0);
     before = C * held + way * held / (held + F_half);
     w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share;
-    u = (w > 0.0 ? kernel_fluid_lag_leaking(p, w, k, side, velocities, forces, share * pressed) : 0.0);
+    u = (w > 0.0 ? kernel_fluid_lag_leaking(p, C, way, F_half, w, k, side, velocities, forces, share * pressed) : 0.0);
     F = k * kernel_branch(u, velocities, forces);
-    through = double_max(2, 0.0, 0.5 * (begun + v1) * pressed + before - C * F - way * F / (F + F_half)) / dt;
+    after = C * F + way * F / (F + F_half);
+    travelled = 0.5 * (begun + v1) * pressed;
+    through = double_max(2, 0.0, travelled + before - after) / dt;
     /* A stiff column lets the steps of k_degr through, a soft one does not. */
     even = 0.5 * (held + F) * pressed / dt;
     stiff = k * kernel_branch(through, velocities, forces) * kernel_effects_scale_valve(p, side * through);
-    (*result_0) = F;
-    (*result_1_0001) = even + (2.0 * share - 1.0) * (stiff - even);
-    (*result_2) = through;
-    return 0;
+    mean = even + (2.0 * share - 1.0) * (stiff - even);
+    s->F_mean += side * mean;
+    s->W_step += mean * through * dt;
+    if ((held > 0.0) && (p->column_share > 0.0))
+    {
+        shorter = kernel_fluid_lag_length(p, side, s->z - dz) / kernel_fluid_lag_length(p, side, s->z) - 1.0;
+        s->W_step += shorter * kernel_fluid_lag_stored(C, way, F_half, held);
+    }
+    if (side > 0.0)
+    {
+        s->F_held_re = F;
+    }
+    else
+    {
+        s->F_held_co = F;
+    }
+    if (v1 >= 0.0)
+    {
+        if (side > 0.0)
+        {
+            s->F_turn_re = F;
+        }
+        else
+        {
+            s->F_turn_co = F;
+        }
+    }
+    bound = (1.0 - p->relief_first) * turn;
+    if (held <= bound)
+    {
+        return 1.0;
+    }
+    bound = C * bound + way * bound / (bound + F_half);
+    if (F <= 0.0)
+    {
+        after = double_min(2, 0.0, before + travelled);
+    }
+    return (before > after ? double_min(2, 1.0, double_max(2, 0.0, (bound - after) / (before - after))) : 0.0);
 }
 
 /* The fluid force with the memory of the oil columns; a step without time leaves it, but for the first. */
@@ -1942,9 +2041,10 @@ static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_St
 {
     double k_re;
     double k_co;
-    double F;
+    double free;
+    double Dummy_0000;
+    double Dummy_0001;
     double mean;
-    double through;
     if (dt <= 0.0)
     {
         if (s->elapsed > 0.0)
@@ -1957,14 +2057,19 @@ static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_St
     }
     k_re = (dz > 0.0 ? s->k_mean : s->k_re);
     k_co = (dz < 0.0 ? s->k_mean : s->k_co);
-    kernel_fluid_lag_press(&F, &mean, &through, p, s->F_held_re, s->goal_v0, s->goal_v1, k_re, 1.0, p->v_re, p->F_re, dt);
-    s->F_held_re = F;
-    s->F_mean = mean;
-    s->W_step = mean * through * dt;
-    kernel_fluid_lag_press(&F, &mean, &through, p, s->F_held_co, -s->goal_v0, -s->goal_v1, k_co, -1.0, p->v_co, p->F_co, dt);
-    s->F_held_co = F;
-    s->F_mean -= mean;
-    s->W_step += mean * through * dt;
+    s->F_mean = 0.0;
+    s->W_step = 0.0;
+    /* The column that the piston leaves comes first. */
+    if (s->goal_v1 >= 0.0)
+    {
+        free = kernel_fluid_lag_press(p, s, -1.0, k_co, 1.0, dz, p->v_co, p->F_co, dt);
+        Dummy_0000 = kernel_fluid_lag_press(p, s, 1.0, k_re, free, dz, p->v_re, p->F_re, dt);
+    }
+    else
+    {
+        free = kernel_fluid_lag_press(p, s, 1.0, k_re, 1.0, dz, p->v_re, p->F_re, dt);
+        Dummy_0001 = kernel_fluid_lag_press(p, s, -1.0, k_co, free, dz, p->v_co, p->F_co, dt);
+    }
     s->F_fluid = s->F_held_re - s->F_held_co;
     s->F_valve = s->F_fluid;
     if (p->tau_fluid > 0.0)

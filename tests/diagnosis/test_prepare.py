@@ -84,7 +84,6 @@ def test_a_change_of_speed_is_a_kick_and_a_triangle_is_none() -> None:
     assert not prepared(record, 0.1).judged[spoilt].any()
 
 
-@pytest.mark.xfail(strict=True, reason="a sine of fewer than about 21 samples per oscillation passes for kicks throughout")
 def test_a_coarsely_sampled_sine_has_no_kicks() -> None:
     time = np.arange(0.0, 10.0, 0.05)
     assert not driven(-0.045 * np.cos(2 * np.pi * time), time)[2].any()

@@ -121,10 +121,18 @@ class Problem(SimulatedRecords):
         if delay or clock:
             z, v = (np.concatenate(some) for some in zip(*(r.moved(delay, clock) for r in self.records), strict=True))
         force, point, _ = self.sampled(self.rows(), values.items(), (z / gain, v / gain))
+        force = self.averaged_samples(force)
         for record, a, b in zip(self.records, self.starts[:-1], self.starts[1:], strict=True):
             for some in (force, point) if record.averaged else ():
                 some[a:b] = averaged_means(record.time, some[a:b], record.averaged)
         return force, point
+
+    def averaged_samples(self, force: Array) -> Array:
+        """Mean forces (n,) [N] of samples that are means about their times: they reach half a sample beyond an interval."""
+        before, after = np.roll(force, 1), np.roll(force, -1)
+        inside = (self.weight > 0) & (np.roll(self.weight, 1) > 0) & (np.roll(self.weight, -1) > 0)
+        wider = (before - 2.0 * force + after) / (4.0 * np.maximum(self.samples, 1))
+        return np.asarray(force + np.where(inside, wider, 0.0))
 
     def forces(self, values: Mapping[str, float]) -> Array:
         """Predicted mean forces (n,) [N], measurement included."""
@@ -231,4 +239,9 @@ class Problem(SimulatedRecords):
         middle = sum((np.outer(g, g) for g in pulls(J, errors, self.starts)), np.zeros((J.shape[1], J.shape[1])))
         to_starts = J[self.starts[-1] :]
         records = max(2, len(self.records))
-        return sandwich(np.linalg.pinv(J.T @ J), middle * records / (records - 1) + to_starts.T @ to_starts)
+        inverse = np.linalg.pinv(J.T @ J)
+        scattered = sandwich(inverse, middle * records / (records - 1) + to_starts.T @ to_starts)
+        # Few records scatter little by chance: an interval is never narrower than noise alone makes it.
+        least, own = np.diag(inverse), np.diag(scattered)
+        wider = np.sqrt(np.maximum(1.0, least / np.maximum(own, 1e-300)))
+        return np.asarray(scattered * np.outer(wider, wider))

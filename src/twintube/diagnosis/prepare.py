@@ -244,15 +244,19 @@ def comparable(record: Record, at: NDArray[np.int64], stretch: NDArray[np.int64]
     way = np.abs(np.diff(record.stroke[at], prepend=record.stroke[at[0]]))
     still = (way < RULES.still * np.ptp(record.stroke)).astype(np.int8)
     resting = maximum_filter1d(minimum_filter1d(still, RULES.still_run), RULES.still_run).astype(bool)
+    usable = np.asarray(whole & moving & ~resting)
     kicked = np.zeros(len(at), dtype=bool) if record.measurement == "stochastic" else kicks(record, at)
-    return np.asarray(whole & moving & ~resting & ~kicked)
+    calm = usable & ~kicked
+    return calm if calm.sum() > RULES.kicked_most * usable.sum() else usable
 
 
 def kicks(record: Record, at: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Intervals (n,) from where a rig changes its speed at once to the next reversal: between samples anything happened."""
     way, span = np.diff(record.stroke[at]), np.maximum(np.diff(record.time[at]), 1e-9)
     speed = np.abs(way) / span
-    change = np.abs(np.diff(speed, prepend=speed[0])) > RULES.kick * speed.max()
+    changes = np.abs(np.diff(speed, prepend=speed[0]))
+    # With few samples per oscillation every change is large.
+    change = changes > max(RULES.kick * float(speed.max()), RULES.kick_usual * float(np.quantile(changes, 0.9)))
     turned = np.diff(np.sign(way), prepend=np.sign(way[0])) != 0
     # The number of the latest kick lies behind that of the latest reversal.
     number = np.arange(len(way))

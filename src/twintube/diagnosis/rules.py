@@ -47,6 +47,12 @@ class Rules:
     kick: float = records(
         0.3, "1", "of the top speed: a larger change from interval to interval is a kick of the rig", JUDGEMENT
     )
+    kick_usual: float = records(
+        2.0, "1", "times the change that nine of ten intervals do not reach: the least of a kick", JUDGEMENT
+    )
+    kicked_most: float = records(
+        0.3, "1", "of the intervals that must be left after kicks, else none is taken for a kick", JUDGEMENT
+    )
     still_run: int = records(3, "", "... where so many follow each other", JUDGEMENT)
     least_noise: float = records(1e-4, "1", "of the peak: without noise every difference would be significant", JUDGEMENT)
     equal_speeds: float = records(

@@ -171,9 +171,10 @@ def run_means(
                 v0 = speed
                 if gaps > 0 and (j * gaps) % n == 0:
                     now = total_force(s)
-                    if memory == 0 and s.k_degr > 0.0:
-                        # `s.k_degr` is the mean over the step, a sample sees the end.
-                        now += (f.k_degr / s.k_degr - 1.0) * s.F_fluid
+                    flow = s.k_flow if d.extended > 0 else s.k_degr
+                    if memory == 0 and flow > 0.0:
+                        # k_degr is the mean over the step, a sample sees the end.
+                        now += (f.k_degr / flow - 1.0) * s.F_fluid
                     last = now
                     sampled += now if j < n else 0.5 * now
             if gaps == 0:
