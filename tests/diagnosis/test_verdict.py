@@ -77,7 +77,8 @@ def judged(
 def test_the_verdict_follows_from_what_is_chosen_and_what_is_left(
     names: tuple[str, ...], score: float, gain: float, verdict: str
 ) -> None:
-    judgement = judged(selection(option(*names, score=score)), gain=replace(GOOD, heldout=gain))
+    forces = (10.5, 10.5, 10.0) if verdict == "none" else (100.0, 20.0, 10.0)
+    judgement = judged(selection(option(*names, score=score)), gain=replace(GOOD, heldout=gain), forces=forces)
     assert (judgement.verdict, judgement.remaining) == (verdict, verdict)
     assert bool(judgement.causes) == (verdict in ("cause", "measurement_fault"))
 
@@ -100,9 +101,10 @@ def test_the_verdict_follows_from_what_is_chosen_and_what_is_left(
 def test_no_cause_is_named_against_a_figure(name: str, figures: dict[str, object]) -> None:
     chosen = selection(option(name, score=0.0))
     judgement = judged(chosen, **figures)  # type: ignore[arg-type]
-    assert (judgement.verdict, judgement.causes, judgement.kept) == ("unexplained", [], [])
-    small = selection(option(name, score=0.0), start=RULES.right * COUNT)
-    assert judged(small, **figures).verdict == "none"  # type: ignore[arg-type]
+    base, _, floor = figures.get("forces", (100.0, 20.0, 10.0))  # type: ignore[misc]
+    verdict = "none" if base <= RULES.quiet * floor else "unexplained"
+    assert (judgement.verdict, judgement.causes, judgement.kept) == (verdict, [], [])
+    assert judged(chosen, **figures | {"forces": (10.5, 10.6, 10.0)}).verdict == "none"  # type: ignore[arg-type]
 
 
 def test_whatever_the_figures_are_a_named_cause_agrees_with_them() -> None:
@@ -127,7 +129,7 @@ def test_whatever_the_figures_are_a_named_cause_agrees_with_them() -> None:
             assert abs(value.value) > LEAST and not value.low <= 0.0 <= value.high and not value.at_bound
         else:
             assert (judgement.causes, judgement.kept) == ([], [])
-        assert judgement.verdict != "none" or chosen.start.score <= RULES.right * COUNT
+        assert judgement.verdict != "none" or forces[0] <= RULES.quiet * forces[2]
     assert named > 100
 
 
@@ -193,7 +195,8 @@ def test_probabilities_sum_to_one_and_the_verdict_has_the_largest(
     # Without a cause the first candidate that was tried takes nothing away.
     start = SCORE if names or score else 0.0
     chosen = selection(option(*names, score=score), start=start)
-    shares = probabilities(judged(chosen, faults=faults), chosen, KNOWN, faults)
+    forces = (10.0, 10.0, 10.0) if not names and not score else (100.0, 20.0, 10.0)
+    shares = probabilities(judged(chosen, faults=faults, forces=forces), chosen, KNOWN, faults)
     assert set(shares) == {*KNOWN, *PUT_RIGHT, RECALIBRATE, "none", "unknown"}
     assert sum(shares.values()) == pytest.approx(1.0, abs=1e-12)
     assert all(0.0 <= share <= 1.0 for share in shares.values())

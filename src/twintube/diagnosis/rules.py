@@ -159,6 +159,9 @@ class Rules:
     acts: float = selection(1e-3, "1", "of its range: a strength below it is neutral", JUDGEMENT)
 
     right: float = verdict(0.1, "1", "log-misfit per sample up to which nothing is missing: 5 % above the noise", JUDGEMENT)
+    quiet: float = verdict(
+        1.15, "1", "error of the base model over the noise floor, up to which nothing is missing", JUDGEMENT
+    )
     explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", JUDGEMENT)
     close: float = verdict(0.01, "1", "of the explainable misfit: candidates that differ by less are ambiguous", JUDGEMENT)
     alternatives: int = verdict(3, "", "most alternatives of an ambiguous verdict", JUDGEMENT)

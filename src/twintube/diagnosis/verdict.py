@@ -54,10 +54,8 @@ def judge(
     close = rivals(selection)
     if outside:
         remaining = "unexplained"
-    elif not selection.chosen:
-        remaining = "none" if right else "unexplained"
-    elif not proven or not enough or doubts:
-        remaining = "none" if selection.start.score <= RULES.right * selection.count else "unexplained"
+    elif not selection.chosen or not proven or not enough or doubts:
+        remaining = "none" if base <= RULES.quiet * floor else "unexplained"
     elif not causes:
         remaining = "recalibrate"
     elif close:
@@ -118,8 +116,8 @@ def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]
         return f"No effect of the damper: {text}."
     match judgement.remaining:
         case "none":
-            margin = 100 * (np.exp(RULES.right / 2) - 1)
-            return f"Nothing is missing: the error on held-out records is at most {margin:.0f} % above noise and numerics."
+            margin = 100 * (RULES.quiet - 1)
+            return f"Nothing is missing: the error on held-out records is less than {margin:.0f} % above the noise floor."
         case "recalibrate":
             return "No effect is missing: other values of the degradation parameters explain the records."
         case "unexplained":
