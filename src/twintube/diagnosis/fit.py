@@ -145,11 +145,6 @@ class Problem(SimulatedRecords):
         """Simulated less measured force (n,) [N]."""
         return np.asarray(self.forces(values) - self.measured)
 
-    def squares(self, values: Mapping[str, float]) -> float:
-        """Sum of the squared errors [N2], without the zeros of the records."""
-        errors = self.errors(values)
-        return float(np.sum((errors - self.zeros(errors))[self.weight > 0] ** 2))
-
     def residual(self, values: Mapping[str, float]) -> Array:
         """Weighted errors (n,), white where every record has a zero of its own."""
         return self.white(self.errors(values) * self.weight)

@@ -6,7 +6,7 @@ confirm it.
 
 from dataclasses import dataclass
 
-from twintube.fitting.rule import JUDGEMENT, METHOD, NOT_RECORDED, NUMERICS, STATISTICS, TRIALS, Section
+from twintube.fitting.rule import DEVELOPMENT, JUDGEMENT, METHOD, NOT_RECORDED, NUMERICS, STATISTICS, TRIALS, Section
 
 records = Section("Records")
 measurement = Section("What every measurement has")
@@ -42,46 +42,26 @@ class Rules:
         1.1, "1", "oscillations whose durations and ranges are within this factor share noise", JUDGEMENT
     )
     still: float = records(1e-3, "1", "of the range of the stroke: an interval of less is at rest ...", JUDGEMENT)
-    outlier: float = records(8.0, "1", "usual residuals of a record: an interval beyond is an outlier ...", JUDGEMENT)
-    outliers: float = records(0.01, "1", "... where no more of its intervals are than this share", JUDGEMENT)
+    outlier: float = records(8.0, "1", "usual residuals of a record: an interval beyond is an outlier ...", DEVELOPMENT)
+    outliers: float = records(0.01, "1", "... where no more of its intervals are than this share", DEVELOPMENT)
     kick: float = records(
-        0.3, "1", "of the top speed: a larger change from interval to interval is a kick of the rig", JUDGEMENT
+        0.3, "1", "of the top speed: a larger change from interval to interval is a kick of the rig", DEVELOPMENT
     )
     kick_usual: float = records(
-        2.0, "1", "times the change that nine of ten intervals do not reach: the least of a kick", JUDGEMENT
+        2.0, "1", "times the change that nine of ten intervals do not reach: the least of a kick", DEVELOPMENT
     )
     kicked_most: float = records(
-        0.3, "1", "of the intervals that must be left after kicks, else none is taken for a kick", JUDGEMENT
+        0.3, "1", "of the intervals that must be left after kicks, else none is taken for a kick", DEVELOPMENT
     )
     still_run: int = records(3, "", "... where so many follow each other", JUDGEMENT)
     least_noise: float = records(1e-4, "1", "of the peak: without noise every difference would be significant", JUDGEMENT)
     equal_speeds: float = records(
         1.05, "1", "top speeds within this factor are held out together: they hold noise", JUDGEMENT
     )
-
     parts: int = records(10, "", "parts of the records of a single velocity, every second of which is held out", JUDGEMENT)
     most_tolerance: float = records(0.2, "1", "of the largest force: more than a good damper can be off", JUDGEMENT)
-
-    small_zero: float = measurement(0.005, "1", "of the largest force: zero of a good load cell", JUDGEMENT)
-    small_delay: float = measurement(3e-4, "s", "delay that sampling leaves open; a shorter lag is not a cause", JUDGEMENT)
-    small_gain: float = measurement(0.01, "1", "error of a calibrated channel's gain", JUDGEMENT)
-    small_force: float = measurement(1e-3, "1", "of the largest force: less of a force is not a cause", JUDGEMENT)
-    open_samples: float = measurement(
-        0.6, "1", "samples of delay that sampling leaves open: 0.5 of a mean, 0.56 of a filter at 0.4 of its rate", METHOD
-    )
-    open_step: float = measurement(0.1, "1", "of a sample, by which a step of the force is known no better", JUDGEMENT)
-    warm: float = measurement(3.0, "K", "change of temperature that shows in forces", JUDGEMENT)
-    open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", JUDGEMENT)
-    open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", JUDGEMENT)
-    usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
-    least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
-
-    model_error: float = fitting(1.5e-3, "1", "of the peak: error of sampling and time step, tests/diagnosis", NUMERICS)
-    steps_per_interval: int = fitting(
-        4, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
-    )
     history_gain: float = records(
-        0.1, "1", "log-misfit per sample by which slow strokes before a record must explain it better", JUDGEMENT
+        0.1, "1", "log-misfit per sample by which slow strokes before a record must explain it better", DEVELOPMENT
     )
     history_least: int = records(
         2, "", "slow strokes that may have been before a record instead of the plan's six", JUDGEMENT
@@ -89,13 +69,34 @@ class Rules:
     history_rest: float = records(5.0, "s", "rest after them", JUDGEMENT)
     slow_share: float = records(0.2, "1", "of the top speed: slower is preconditioning", JUDGEMENT)
     slow_way: float = records(2.0, "1", "of the range of the stroke that preconditioning goes at least", JUDGEMENT)
-    odd: float = records(4.0, "1", "times the largest misfit of all others, at which a record does not belong", JUDGEMENT)
+    odd: float = records(4.0, "1", "times the largest misfit of all others, at which a record does not belong", DEVELOPMENT)
     odd_share: float = records(1 / 3, "1", "of the records that may contradict the others", JUDGEMENT)
     odd_force: float = records(
-        0.03, "1", "of the largest force by which a record of something else differs at least", JUDGEMENT
+        0.03, "1", "of the largest force by which a record of something else differs at least", DEVELOPMENT
     )
     odd_right: float = records(2.0, "1", "misfit up to which a fault of their own explains such records", JUDGEMENT)
 
+    small_zero: float = measurement(0.005, "1", "of the largest force: zero of a good load cell", JUDGEMENT)
+    small_delay: float = measurement(3e-4, "s", "delay that sampling leaves open; a shorter lag is not a cause", JUDGEMENT)
+    small_gain: float = measurement(0.01, "1", "error of a calibrated channel's gain", DEVELOPMENT)
+    small_force: float = measurement(1e-3, "1", "of the largest force: less of a force is not a cause", JUDGEMENT)
+    open_samples: float = measurement(
+        0.6,
+        "1",
+        "samples of delay that sampling leaves open: 0.5 of a mean, 0.56 of a filter at 0.4 of its rate",
+        DEVELOPMENT,
+    )
+    open_step: float = measurement(0.1, "1", "of a sample, by which a step of the force is known no better", DEVELOPMENT)
+    warm: float = measurement(3.0, "K", "change of temperature that shows in forces", JUDGEMENT)
+    open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
+    open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", DEVELOPMENT)
+    usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
+    least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
+
+    model_error: float = fitting(1.5e-3, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)
+    steps_per_interval: int = fitting(
+        4, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
+    )
     pull: float = fitting(
         0.5, "1", "of the range: standard deviation of a weak pull that keeps idle parameters in place", JUDGEMENT
     )
@@ -110,7 +111,7 @@ class Rules:
     )
 
     start_records: int = starts(6, "", "records to fit that a search looks at, of all states and velocities", JUDGEMENT)
-    joins: float = starts(0.02, "1", "of the squared error that a further strength of a cause must take away", JUDGEMENT)
+    joins: float = starts(0.02, "1", "of the squared error that a further strength of a cause must take away", DEVELOPMENT)
     shapes: int = starts(2, "", "lengths, times and powers that are sought, the first in the effect's file", JUDGEMENT)
     shares: tuple[float, ...] = starts(
         (0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", JUDGEMENT
@@ -128,13 +129,13 @@ class Rules:
     alarm: float = selection(0.01, "1", "datasets without a cause in which noise makes any; gives the limit c", STATISTICS)
     least_misfit: float = selection(0.5, "1", "mean squared weighted error below which nothing is gained", JUDGEMENT)
     worth: float = selection(
-        0.01, "1", "least gain in log-likelihood per held-out sample: below it numerics decide", NUMERICS
+        0.01, "1", "least gain in log-likelihood per held-out sample: below it numerics decide", DEVELOPMENT
     )
     least_share: float = selection(
-        0.03, "1", "of the squared error of the held-out records, noise included, that a cause must take away", JUDGEMENT
+        0.03, "1", "of the squared error of the held-out records, noise included, that a cause must take away", DEVELOPMENT
     )
     clear_share: float = selection(
-        0.1, "1", "the like for other degradation parameters, and where the base model is right within noise", JUDGEMENT
+        0.1, "1", "the like for other degradation parameters, and where the base model is right within noise", DEVELOPMENT
     )
     sure: float = selection(
         0.9, "1", "interval by resampling the held-out records, in which the squared error must fall", STATISTICS
@@ -146,11 +147,11 @@ class Rules:
         0.5, "1", "of the misfit left, for a further cause that does not raise the squared error", TRIALS
     )
     second_share: float = selection(
-        0.1, "1", "of the whole squared error beyond noise, which a further cause must explain", JUDGEMENT
+        0.1, "1", "of the whole squared error beyond noise, which a further cause must explain", DEVELOPMENT
     )
     near_best: float = selection(0.75, "1", "of the best gain, from which a third less squared error decides", TRIALS)
     promise: float = selection(
-        0.005, "1", "of the squared error that the start of a candidate takes away, for it to be fitted", JUDGEMENT
+        0.005, "1", "of the squared error that the start of a candidate takes away, for it to be fitted", DEVELOPMENT
     )
     first_fits: int = selection(7, "", "candidates fitted in the first round: those with the best starts", JUDGEMENT)
     further_fits: int = selection(4, "", "candidates fitted in further rounds", JUDGEMENT)
@@ -160,9 +161,9 @@ class Rules:
 
     right: float = verdict(0.1, "1", "log-misfit per sample up to which nothing is missing: 5 % above the noise", JUDGEMENT)
     quiet: float = verdict(
-        1.15, "1", "error of the base model over the noise floor, up to which nothing is missing", JUDGEMENT
+        1.15, "1", "error of the base model over the noise floor, up to which nothing is missing", DEVELOPMENT
     )
-    explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", JUDGEMENT)
+    explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
     close: float = verdict(0.01, "1", "of the explainable misfit: candidates that differ by less are ambiguous", JUDGEMENT)
     alternatives: int = verdict(3, "", "most alternatives of an ambiguous verdict", JUDGEMENT)
     shows: float = verdict(0.3, "1", "of the base model's error: a signature of less is only mentioned", JUDGEMENT)

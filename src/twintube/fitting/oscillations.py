@@ -75,13 +75,6 @@ def slopes(time: Array, stroke: Array, at: NDArray[np.int64], reach: NDArray[np.
     return velocity
 
 
-def reaches(at: NDArray[np.int64], count: int) -> NDArray[np.int64]:
-    """Samples to each side (n,) that lie within half the way to the neighbours among `at`, of `count` samples in all."""
-    gaps = np.diff(np.concatenate([[0], at, [count - 1]]))
-    half: NDArray[np.int64] = np.minimum(gaps[:-1], gaps[1:]) // 2
-    return half
-
-
 def smooth_velocity(record: Record) -> Array:
     """The measured velocity, or else that of the stroke, smoothed over a hundredth of each oscillation."""
     if record.velocity_source == MEASURED:

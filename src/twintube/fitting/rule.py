@@ -11,6 +11,7 @@ STATISTICS = "statistics"  # a stated rate of errors
 METHOD = "follows from the method"
 NUMERICS = "numerics"
 TRIALS = "blind_trials, seeds 100 to 109"
+DEVELOPMENT = "foreign datasets and challenge, development seeds"
 JUDGEMENT = "judgement"
 NOT_RECORDED = "not recorded"
 
