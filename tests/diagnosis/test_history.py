@@ -29,14 +29,18 @@ def test_slow_strokes_that_are_not_in_the_file_are_noticed(intact: list[Record])
     assert names == [record.name for record in cut]
     misfits = [p.misfits(p.residual({})) for p in (before, after)]
     assert np.all(misfits[1][2:] < misfits[0][2:] / 3)
-    assert misfits[1][:2] == pytest.approx(misfits[0][:2])
-    assert list(after.counts) == list(before.counts)  # what was simulated before a record is not compared
+    assert misfits[1][:2] == pytest.approx(misfits[0][:2], rel=0.3)
+    # What was simulated before a record is not compared, nor its first oscillation.
+    assert np.all(after.counts < before.counts)
+    assert np.all(after.counts > 0.5 * before.counts)
 
 
 def test_a_damper_that_rested_before_and_a_file_with_slow_strokes_are_left_as_they_are(intact: list[Record]) -> None:
     rested = [small.record(small.run(v, small.DEGRADED), seed=i) for i, v in enumerate(SPEEDS)]
     problem = ready([*intact, *rested])
-    assert with_history(problem) == (problem, [])
+    after, names = with_history(problem)
+    assert names == []
+    assert [len(r.time) for r in after.records] == [len(r.time) for r in problem.records]
     whole = ready([small.record(small.run(v, small.DEGRADED, slow=3), seed=i) for i, v in enumerate(SPEEDS)])
     assert not any(unprepared(record) for record in whole.records)
     assert with_history(whole) == (whole, [])

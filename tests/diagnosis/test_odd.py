@@ -36,9 +36,7 @@ def test_no_record_of_a_good_dataset_is_odd(good: list[Record]) -> None:
 @pytest.mark.parametrize(
     ("kind", "value", "change"),
     [
-        ("force_gain", 1.3, lambda r: replace(r, force=1.3 * r.force)),
         ("force_offset", 60.0, lambda r: replace(r, force=r.force + 60.0)),
-        ("stroke_gain", 1.1, lambda r: replace(r, stroke=1.1 * r.stroke, velocity=1.1 * r.velocity)),
         ("unit_error", 1000.0, lambda r: replace(r, force=1e-3 * r.force)),
     ],
 )
@@ -50,6 +48,22 @@ def test_a_fault_of_a_single_file_is_named(
     assert (fault.effect, fault.records) == (kind, (good[ODD].name,))
     assert fault.factor == pytest.approx(value, rel=0.03)
     assert good[ODD].name in fault.explanation
+    assert rest == [r.name for i, r in enumerate(good) if i != ODD]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda r: replace(r, force=1.3 * r.force),
+        lambda r: replace(r, stroke=1.1 * r.stroke, velocity=1.1 * r.velocity),
+    ],
+)
+def test_a_single_file_of_another_gain_may_be_of_another_setting(
+    good: list[Record], change: Callable[[Record], Record]
+) -> None:
+    fault, rest = judged(changed(good, change))
+    assert fault is not None
+    assert (fault.effect, fault.records) == ("odd_record", (good[ODD].name,))
     assert rest == [r.name for i, r in enumerate(good) if i != ODD]
 
 

@@ -130,13 +130,14 @@ def test_samples_that_are_not_usable_are_not_compared(runs: list[small.Run]) -> 
     assert inside.any() and not ready.judged[inside].any()
 
 
-def test_what_samples_miss_at_a_jump_is_no_misfit() -> None:
-    """The model is exactly right, and its force jumps between samples at equal places in every oscillation."""
-    runs = [small.run(v, small.DEGRADED, slow=2) for v in (0.3, 0.6, 1.0)]
-    bare = with_noise(small.problem([small.record(r, noise=0.0) for r in runs]))
+def test_what_a_fill_leaves_open_at_a_jump_is_no_misfit() -> None:
+    """The fill is off by as much as is known of it: the force jumps a bit earlier in every oscillation."""
+    runs = [small.run(v, small.DEGRADED + RULES.open_level, slow=2) for v in (0.3, 0.6, 1.0)]
+    records = [replace(small.record(r, noise=0.0), oil_level=small.DEGRADED) for r in runs]
+    bare = with_noise(small.problem(records))
     known = with_edges(bare)
     missed = np.abs(bare.errors({})) > 0.01 * bare.spread(np.array([record.peak for record in bare.records]))
-    assert (missed & (bare.weight > 0)).sum() > 20
+    assert (missed & (bare.weight > 0)).sum() > 5
     misfits = [p.misfits(p.residual({})) for p in (bare, known)]
     assert np.all(misfits[1] < misfits[0] / 2)
     assert misfits[1].max() < 1.5

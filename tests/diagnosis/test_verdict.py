@@ -38,7 +38,7 @@ KNOWN = {
 
 
 def option(*names: str, score: float) -> Option:
-    return Option(names, (), np.ones(1), np.zeros(1), np.ones(1), score)
+    return Option(names, (), (), np.ones(1), np.zeros(1), np.ones(1), score)
 
 
 def selection(final: Option, *others: Option, start: float = SCORE) -> Selection:
@@ -156,6 +156,8 @@ def test_a_signature_decides_where_it_is_a_good_part_of_the_error() -> None:
     assert (judgement.verdict, judgement.causes) == ("unexplained", [])
     assert "the joint has play" in sentence(judgement, KNOWN, [])
     assert judged(selection(final), seen=[replace(play, size=0.5 * play.size)]).verdict == "cause"
+    # A cause that leaves noise alone leaves nothing to the signature.
+    assert judged(selection(final), seen=[play], forces=(100.0, 10.5, 10.0)).verdict == "cause"
 
 
 def test_forces_that_were_cut_do_not_hide_a_cause_and_nothing_cut_off_is_called_good() -> None:

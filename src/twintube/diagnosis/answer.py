@@ -99,7 +99,7 @@ def predictions(selector: Selector, options: Sequence[Option]) -> list[RecordRes
     """The records that a fold holds out, simulated by base, recalibrated and extended model that do not know them."""
     results: dict[str, RecordResult] = {}
     for k, fold in enumerate(selector.folds):
-        for r in simulated(fold.held, "heldout", [o.fits[k].values for o in options]):
+        for r in simulated(fold.held, "heldout", [o.seen[k] for o in options]):
             before = results.get(r.record.name)
             results[r.record.name] = r if before is None else joined(before, r)
     return list(results.values())

@@ -9,7 +9,7 @@ import numpy as np
 
 from twintube.core import effects
 from twintube.core.hooks import Effect, sources
-from twintube.diagnosis.fit import CLOCK, DELAY, STROKE_GAIN, Free, Problem
+from twintube.diagnosis.fit import CLOCK, DELAY, NEIGHBOURS, STROKE_GAIN, Free, Problem
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.parameters import DEGRADATION, ranges
 
@@ -55,9 +55,15 @@ def nuisances(problem: Problem) -> tuple[Free, ...]:
     """What every measurement has: a small zero of the load cell, a part of a sample of delay, means or points as samples."""
     zero = RULES.small_zero * max(record.peak for record in problem.records)
     late = usual_delay(problem)
-    free = [Free("force_offset", 0.0, -zero, zero), Free("channel_delay", 0.0, -late, late)]
+    known = problem.usual
+    free = [
+        Free("force_offset", known.get("force_offset", 0.0), -zero, zero),
+        Free("channel_delay", known.get("channel_delay", 0.0), -late, late),
+    ]
     if any((record.samples[record.judged] < RULES.steps_per_interval).any() for record in problem.records):
-        free.append(Free("sample_mean", 0.5, 0.0, 1.0))
+        free.append(Free("sample_mean", known.get("sample_mean", 0.5), 0.0, 1.0))
+        most = RULES.neighbours
+        free += [Free(name, known.get(name, 0.0), -most, most) for name in NEIGHBOURS]
     return tuple(free)
 
 
@@ -96,11 +102,11 @@ def candidates(problem: Problem) -> list[Candidate]:
             low, high, start = meta["lower"], meta["upper"], meta["default"]
             if meta["role"] == "place" and high > reach > low:
                 high, start = reach, RULES.place * reach
-            free.append(Free(item.name, start, low, high))
+            free.append(Free(item.name, start, low, high, meta["default"] if meta["role"] == "strength" else None))
             if meta["role"] == "strength":
                 # A time constant below a sample cannot be told from sampling.
                 time = max(RULES.small_delay, period(problem))
-                usual = {"s": time, "1": RULES.small_gain, "N": RULES.small_force * peak}
+                usual = {"s": time, "N": RULES.small_force * peak}
                 least[item.name] = usual.get(meta["unit"], RULES.acts * (high - low))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}
         laws = tuple(item.name for item in effect.parameters if item.metadata["role"] == "law" and item.name not in unknown)
@@ -144,7 +150,15 @@ def faults(problem: Problem) -> list[Candidate]:
     ]  # fmt: skip
     return [
         Candidate(
-            name, FAULT_TITLES[name], text, (Free(name, *bounds),), (name,), {name: unit}, True, decides, {name: least}
+            name,
+            FAULT_TITLES[name],
+            text,
+            (Free(name, *bounds, neutral=bounds[0]),),
+            (name,),
+            {name: unit},
+            True,
+            decides,
+            {name: least},
         )
         for name, unit, bounds, least, text, decides in several
     ]
@@ -179,9 +193,10 @@ def best_start(
     best, low = {f.name: f.start for f in candidate.free}, np.inf
     left = list(candidate.strength)
     while left:
-        # Lengths and times are sought with the first strength only.
-        others = itertools.product(*(grids[name] for name in shapes)) if len(left) == len(candidate.strength) else [()]
-        some = [dict(zip(shapes, other, strict=False)) for other in others]
+        # Lengths and times are sought together with the first strength, then each by itself: a stop has an onset of its own.
+        some = [dict(zip(shapes, other, strict=True)) for other in itertools.product(*(grids[name] for name in shapes))]
+        if len(left) < len(candidate.strength):
+            some = [{}, *({name: x} for name in shapes for x in grids[name])]
         points = [best | {name: x} | shape for name in left for x in grids[name] for shape in some]
         costs = [
             problem.costs([{**values, **point} for point in points], zero)

@@ -9,9 +9,10 @@ from copy import copy
 from dataclasses import replace
 
 import numpy as np
+from scipy.interpolate import PPoly, make_interp_spline
 
 from twintube.arrays import Array
-from twintube.diagnosis.fit import STROKE_GAIN, Problem
+from twintube.diagnosis.fit import SAMPLING, STROKE_GAIN, Problem
 from twintube.diagnosis.prepare import SCATTER, PreparedRecord, noise
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.simulation import MARGIN
@@ -20,17 +21,31 @@ from twintube.fitting.simulation import MARGIN
 def with_edges(problem: Problem) -> Problem:
     """The problem with the error that its steps leave open, `edges` of its records."""
     # Point samples: whether a step falls before or after a sample matters most.
-    base = problem.simulated(())[1]
-    others = [refilled(problem, s * RULES.open_level).simulate(())[1] for s in (-1, 1)]
+    base = problem.simulated(problem.damping({}))[1]
+    others = [refilled(problem, s * RULES.open_level).simulate(problem.damping({}))[1] for s in (-1, 1)]
     changes = [{STROKE_GAIN: 1.0 + s * RULES.open_stroke} for s in (-1, 1)]
     # Fits take the threshold of foam a bit above the given value, see fitting/simulation.py.
     changes += [{"v_foam": s * problem.given.parameters.v_foam} for s in (1.0, 2 * MARGIN - 1)]
     others += [problem.simulated(problem.damping(change))[1] for change in changes]
     several = np.sqrt(sum(((other - base) ** 2 for other in others), np.zeros(len(base))) / 2)
+    motion = RULES.open_motion * np.abs(between_samples(problem).simulate(problem.damping({}))[1] - base)
+    filtered = min(1.0, sum(abs(problem.usual.get(name, 0.0)) for name in SAMPLING))
     records = []
     for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
-        edges = np.sqrt(record.edges**2 + several[a:b] ** 2 + steps(record, base[a:b]) ** 2)
+        sharp = np.hypot(steps(record, base[a:b]), motion[a:b])
+        edges = np.sqrt(record.edges**2 + several[a:b] ** 2 + passed_on(record, base[a:b], sharp, filtered) ** 2)
         records.append(replace(record, edges=edges))
+    return problem.with_records(records)
+
+
+def between_samples(problem: Problem) -> Problem:
+    """The problem with another smooth motion through the same samples of the stroke; at a sharp turn it differs."""
+    records = []
+    for record in problem.records:
+        path = PPoly.from_spline(make_interp_spline(record.path.x, record.path(record.path.x), k=5))
+        at = np.clip(record.time, path.x[0], path.x[-1])
+        speed = np.where(record.time >= record.begin, path(at, 1), record.velocity)
+        records.append(replace(record, path=path, velocity=speed))
     return problem.with_records(records)
 
 
@@ -64,6 +79,18 @@ def without_outliers(problem: Problem) -> Problem:
         few = out.sum() <= RULES.outliers * record.judged.sum()
         records.append(replace(record, judged=record.judged & ~out) if few and out.any() else record)
     return problem.with_records(records)
+
+
+def passed_on(record: PreparedRecord, force: Array, edges: Array, filtered: float) -> Array:
+    """Errors (n,) [N] at the steps of a force (n,) [N] with what a filter passes on; `filtered` is 0 for samples of points.
+
+    What is known of the filter is open by a part of each bend of the force, in the samples around, too.
+    """
+    bend = np.abs(np.diff(force, 2, prepend=force[0], append=force[-1])) / np.maximum(record.samples, 1)
+    reach = range(-2, 4)
+    bends = np.maximum.reduce([np.roll(bend, by) for by in reach])
+    around = np.maximum.reduce([np.roll(edges, by) for by in (-1, 1, 2)])
+    return np.asarray(np.maximum(edges, filtered * np.hypot(0.5 * around, RULES.open_filter * bends)))
 
 
 def steps(record: PreparedRecord, force: Array) -> Array:

@@ -19,9 +19,10 @@ from twintube.diagnosis.odd import odd_records
 from twintube.diagnosis.prepare import PreparedRecord, prepare
 from twintube.diagnosis.result import Diagnosis, Gain
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.sampling import with_sampling
 from twintube.diagnosis.select import Fold, Selector
 from twintube.diagnosis.signature import signatures
-from twintube.diagnosis.zeros import zero_drift
+from twintube.diagnosis.zeros import zero_change, zero_drift
 from twintube.engine.simulate import InputError
 from twintube.fitting.splits import distinct
 
@@ -45,7 +46,10 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     recorded = problem = Problem(dataset.damper, records, tolerance=tolerance)
     wrong, problem = unit_error(problem)
     smoothed, problem, notes = force_averaging(dataset.records, problem)
-    problem, drift = zero_drift(with_edges(with_noise(problem)))
+    problem = with_sampling(problem)
+    recorded = recorded.with_usual(problem.usual)
+    stepped, problem = zero_change(with_edges(with_noise(problem)))
+    problem, drift = zero_drift(problem)
     problem, bare = with_history(problem)
     problem = without_outliers(problem)
     odd, problem = odd_records(problem)
@@ -58,7 +62,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     selector = selector_of(problem, folds)
     selection = selector.run(progress)
     progress("fitting the model to all records")
-    faults = put_right([turned, wrong, smoothed], recorded, problem)
+    faults = put_right([turned, wrong, smoothed, stepped], recorded, problem)
     if odd is not None:
         faults[odd] = excluded_gain(recorded, problem)
     answered = answer(dataset, problem, selector, selection, signatures(dataset.records), faults)
@@ -83,7 +87,7 @@ def selector_of(problem: Problem, folds: Sequence[Halves]) -> Selector:
 def known_gain(path: str | Path, causes: Sequence[str]) -> float:
     """Share of the explainable held-out error that goes away with the given causes, whatever a diagnosis would choose."""
     dataset, _ = read(path)
-    problem, _ = zero_drift(with_edges(with_noise(Problem(dataset.damper, prepare(dataset)))))
+    problem, _ = zero_drift(with_edges(with_noise(with_sampling(Problem(dataset.damper, prepare(dataset))))))
     selector = selector_of(problem, split(dataset.title, problem.records)[0])
     option = selector.start
     for name in causes:

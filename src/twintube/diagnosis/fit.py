@@ -1,11 +1,12 @@
 """The model against all records at once: residuals for any parameters of damper and measurement, and their least squares."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, fields
 from functools import lru_cache
 
 import numpy as np
+from scipy.optimize import lsq_linear
 
 from twintube.arrays import Array
 from twintube.core import effects
@@ -16,8 +17,12 @@ from twintube.fitting.averaging import averaged_means
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
 from twintube.fitting.simulation import SimulatedRecords
 
-# What the measurement adds to the force; `sample_mean` is how far a sample is a mean over its interval, not a point.
-ADDED = ("force_offset", "force_gain", "zero_drift", "sample_mean")
+# What a sample holds beside the force at its time: of the mean over its interval, and of those of its neighbours.
+NEIGHBOURS = {"sample_ahead": 1, "sample_before": -1, "sample_earlier": -2}
+SAMPLING = ("sample_mean", *NEIGHBOURS)
+LINEAR = ("force_offset", *SAMPLING)  # the force is linear in them, and every measurement has them
+# What the measurement adds to the force.
+ADDED = ("force_offset", "force_gain", "zero_drift", *SAMPLING)
 # What it changes of the motion under which the force is seen; a simulation of its own for each value.
 STROKE_GAIN, DELAY, CLOCK = "stroke_gain", "channel_delay", "clock_error"
 MOTION = (STROKE_GAIN, DELAY, CLOCK)
@@ -33,11 +38,19 @@ class Free:
     start: float
     low: float
     high: float
+    neutral: float | None = None  # of a strength: where it does nothing
 
     @property
     def width(self) -> float:
         """Its range."""
         return self.high - self.low
+
+    def size(self, value: float) -> float:
+        """The scale on which a change of it matters: a strength's distance from doing nothing, else a part of its range."""
+        if self.neutral is None:
+            return self.width / 3.0
+        apart = value - self.neutral
+        return float(np.copysign(max(abs(apart), RULES.acts * self.width), apart))
 
 
 @dataclass(frozen=True)
@@ -58,12 +71,21 @@ class Problem(SimulatedRecords):
     """
 
     def __init__(
-        self, damper: Damper, records: Sequence[PreparedRecord], drift: float = 0.0, tolerance: float = 0.0
+        self,
+        damper: Damper,
+        records: Sequence[PreparedRecord],
+        drift: float = 0.0,
+        tolerance: float = 0.0,
+        usual: Mapping[str, float] | None = None,
     ) -> None:
         super().__init__(damper, records, parts=RULES.steps_per_interval, failed=RULES.failed_force)
         self.records = list(records)
         self.drift, self.tolerance = drift, tolerance
+        self.usual = dict(usual or {})  # values of the measurement where no others are given, see sampling.py
         self.measured = np.concatenate([r.force for r in records])
+        lengths = np.diff(self.starts)
+        first, last = np.repeat(self.starts[:-1], lengths), np.repeat(self.starts[1:] - 1, lengths)
+        self.neighbours = {by: np.clip(np.arange(len(self.z)) + by, first, last) for by in NEIGHBOURS.values()}
         self.elapsed = np.concatenate([r.time - r.begin for r in records])
         model = max(RULES.model_error, tolerance)
         self.sigma = np.concatenate([np.sqrt(r.noise**2 + r.edges**2 + (model * r.peak) ** 2) for r in records])
@@ -78,11 +100,15 @@ class Problem(SimulatedRecords):
 
     def with_records(self, records: Sequence[PreparedRecord]) -> "Problem":
         """The damper with other records."""
-        return Problem(self.given, records, self.drift, self.tolerance)
+        return Problem(self.given, records, self.drift, self.tolerance, self.usual)
 
     def with_drift(self, drift: float) -> "Problem":
         """The problem with a zero of the load cell that differs from record to record by `drift` [N]."""
-        return Problem(self.given, self.records, drift, self.tolerance)
+        return Problem(self.given, self.records, drift, self.tolerance, self.usual)
+
+    def with_usual(self, usual: Mapping[str, float]) -> "Problem":
+        """The problem with values of the measurement where no others are given."""
+        return Problem(self.given, self.records, self.drift, self.tolerance, usual)
 
     def sparse(self, most: int) -> "Problem":
         """The problem with at most so many of its records, of all states and velocities, as balanced as this."""
@@ -105,6 +131,7 @@ class Problem(SimulatedRecords):
 
     def damping(self, values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
         """The values that need a simulation: those of the damper's parameters and of the motion that it sees."""
+        values = {**self.usual, **values}
         named = {n: x for n, x in values.items() if n in self.known}
         named |= {
             n: values[n]
@@ -137,9 +164,21 @@ class Problem(SimulatedRecords):
     def forces(self, values: Mapping[str, float]) -> Array:
         """Predicted mean forces (n,) [N], measurement included."""
         force, point = self.simulated(self.damping(values))
-        seen = point + values.get("sample_mean", 0.0) * (force - point)
+        values = {**self.usual, **values}
+        seen = point + sum(values[name] * part for name, part in self.parts_of_samples(force, point, values).items())
         zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * self.elapsed
         return np.asarray(values.get("force_gain", 1.0) * seen + zero)
+
+    def parts_of_samples(self, force: Array, point: Array, names: Container[str] = SAMPLING) -> dict[str, Array]:
+        """What each of SAMPLING that is among `names` adds to the forces of samples that are points (n,) [N].
+
+        An anti-alias filter near the sampling rate reaches over some samples; of an interval of many it changes little.
+        """
+        parts: dict[str, Array] = {"sample_mean": force - point} if "sample_mean" in names else {}
+        for name, by in NEIGHBOURS.items():
+            if name in names:
+                parts[name] = (force[self.neighbours[by]] - force) / np.maximum(self.samples, 1)
+        return parts
 
     def errors(self, values: Mapping[str, float]) -> Array:
         """Simulated less measured force (n,) [N]."""
@@ -170,6 +209,24 @@ class Problem(SimulatedRecords):
         expected = pull / (1.0 + pull) * self.means(errors * self.weight)
         most = RULES.usual_zeros * self.drift
         return self.spread(np.clip(expected, -most, most))
+
+    def adjusted(self, values: Mapping[str, float], free: Sequence[Free]) -> dict[str, float]:
+        """The values with those of `free`, in which forces are linear, as they suit these records best.
+
+        They are of the measurement, not of the damper: what a cause explains shows beside them.
+        """
+        if not free:
+            return dict(values)
+        errors = self.residual(values)
+        force, point = self.simulated(self.damping(values))
+        parts = {"force_offset": np.ones(len(point))} | self.parts_of_samples(force, point)
+        gains = {name: values.get("force_gain", 1.0) if name in SAMPLING else 1.0 for name in parts}
+        share = self.spread(1.0 / np.sqrt(np.maximum(1.0, self.misfits(errors))))
+        rows = np.column_stack([self.white(gains[f.name] * parts[f.name] * self.weight) * share for f in free])
+        now = np.array([values.get(f.name, f.start) for f in free])
+        low, high = (np.array([getattr(f, name) for f in free]) for name in ("low", "high"))
+        less = lsq_linear(rows, -errors * share, (np.minimum(low - now, -1e-12), np.maximum(high - now, 1e-12))).x
+        return {**values, **{f.name: float(x) for f, x in zip(free, now + less, strict=True)}}
 
     def spread(self, values: Array) -> Array:
         """A value (r,) of each record for all of its samples (n,)."""
@@ -221,12 +278,36 @@ class Problem(SimulatedRecords):
             return np.vstack([J, np.diag(held / RULES.pull)])
 
         if free:
-            u, _ = bounded(errors, slopes, u0, RULES.evaluations, RULES.fit_ends)
+            u, cost = bounded(errors, slopes, u0, RULES.evaluations, RULES.fit_ends)
+            better, less = self.polished(free, values, u, cost)
+            if less < cost * (1.0 - RULES.fit_ends):
+                u, _ = bounded(errors, slopes, better, RULES.evaluations, RULES.fit_ends)
             covariance = self.robust(slopes(u), errors(u)) * np.outer(width, width)
         else:
             u, covariance = u0, np.zeros((0, 0))
         best = values(u)
         return Fit(free, best, self.misfits(self.residual(best)), covariance)
+
+    def polished(
+        self, free: Sequence[Free], values: Callable[[Array], dict[str, float]], u: Array, cost: float
+    ) -> tuple[Array, float]:
+        """A better point (k,) near `u`, and its cost: where forces step, derivatives do not show the way.
+
+        Parameter after parameter is moved to both sides, near and far (compass search: Kolda et al. 2003).
+        """
+        moved = [i for i, f in enumerate(free) if f.name not in ADDED and (f.name != DELAY or f.neutral is not None)]
+        for _ in range(RULES.moves if moved else 0):
+            here = values(u)
+            points = []
+            for i in moved:
+                step = free[i].size(here[free[i].name]) / free[i].width * np.eye(len(free))[i]
+                points += [u + (factor - 1.0) * step for factor in RULES.factors_tried]
+            several = np.clip(points, RULES.inside, 1 - RULES.inside)
+            costs = [float(np.sum(r**2)) for r in self.residuals([values(row) for row in several])]
+            if min(costs) >= cost * (1.0 - RULES.fit_ends):
+                break
+            u, cost = several[int(np.argmin(costs))], min(costs)
+        return u, cost
 
     def robust(self, J: Array, errors: Array) -> Array:
         """Covariance (k, k) of the parameters from the scatter of the records' pulls, and of the pull to the starts."""

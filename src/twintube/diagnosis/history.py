@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.prepare import PreparedRecord
@@ -17,13 +18,19 @@ def with_history(problem: Problem) -> tuple[Problem, list[str]]:
 
     Beyond that the names of these records.
     """
+    if any(sudden(record) for record in problem.records):
+        problem = problem.with_records([begun(record) if sudden(record) else record for record in problem.records])
     bare = [record.name for record in problem.records if unprepared(record)]
     if not bare:
         return problem, []
-    other, short = (
-        problem.with_records([conditioned(r, count) if r.name in bare else r for r in problem.records])
-        for count in (PRECONDITIONING, RULES.history_least)
-    )
+    widest = max((record for record in problem.records), key=lambda record: float(np.ptp(record.stroke)))
+
+    def prepared(count: int, over: PreparedRecord | None) -> Problem:
+        return problem.with_records([conditioned(r, count, over or r) if r.name in bare else r for r in problem.records])
+
+    # Over the range of each record or over that of the whole campaign.
+    over = min((None, widest), key=lambda over: sum(logs(prepared(PRECONDITIONING, over))))
+    other, short = (prepared(count, over) for count in (PRECONDITIONING, RULES.history_least))
     before, after = (logs(p) for p in (problem, other))
     gained = [b - a for record, b, a in zip(problem.records, before, after, strict=True) if record.name in bare]
     clear = sum(gained) > RULES.history_gain * sum(problem.counts) and sum(x > 0 for x in gained) > len(gained) / 2
@@ -32,7 +39,7 @@ def with_history(problem: Problem) -> tuple[Problem, list[str]]:
 
 def uncertain(problem: Problem, short: Problem) -> Problem:
     """The problem with what a shorter history changes in its forces as a further error: how long it was is not known."""
-    forces = [p.simulated(())[1] for p in (problem, short)]
+    forces = [p.simulated(p.damping({}))[1] for p in (problem, short)]
     records = []
     for record, end, other in zip(problem.records, problem.starts[1:], short.starts[1:], strict=True):
         count = int(np.sum(record.time >= record.begin))
@@ -48,19 +55,38 @@ def logs(problem: Problem) -> Sequence[float]:
     return [float(x) for x in problem.counts * np.log(np.maximum(RULES.least_misfit, misfit))]
 
 
+def begun(record: PreparedRecord) -> PreparedRecord:
+    """The record without its first oscillation, which depends on what was before it; as it is where it has few."""
+    whole = np.flatnonzero(record.cycle >= 1)
+    if not len(whole) or len(np.unique(record.cycle[record.cycle >= 0])) <= RULES.repeats:
+        return record
+    after = np.arange(len(record.cycle)) >= whole[0]
+    return replace(record, judged=record.judged & after)
+
+
 def unprepared(record: PreparedRecord) -> bool:
     """Whether a record of the degraded damper comes to a fast motion without slow strokes over its range before it."""
-    if record.intact or record.measurement == "quasi-static":
+    return not record.intact and sudden(record) and not slow(record).all()
+
+
+def sudden(record: PreparedRecord) -> bool:
+    """Whether a record is slow all along or has no slow strokes over its range before its fast motion."""
+    if record.measurement == "quasi-static":
         return False
-    slow = np.abs(record.velocity) < RULES.slow_share * record.top_speed + V_PRECONDITIONING
-    first = int(np.argmin(slow)) if not slow.all() else len(slow)
+    calm = slow(record)
+    first = int(np.argmin(calm)) if not calm.all() else 0
     way = float(np.abs(np.diff(record.stroke[: first + 1])).sum())
-    return way < RULES.slow_way * float(np.ptp(record.stroke)) and not slow.all()
+    return way < RULES.slow_way * float(np.ptp(record.stroke))
 
 
-def conditioned(record: PreparedRecord, count: int) -> PreparedRecord:
-    """The record with `count` of the plan's slow oscillations, over its own range, before it; they are not compared."""
-    middle, reach = float(record.stroke.max() + record.stroke.min()) / 2, float(np.ptp(record.stroke)) / 2
+def slow(record: PreparedRecord) -> NDArray[np.bool_]:
+    """Where (n,) a record is as slow as preconditioning."""
+    return np.asarray(np.abs(record.velocity) < RULES.slow_share * record.top_speed + V_PRECONDITIONING)
+
+
+def conditioned(record: PreparedRecord, count: int, over: PreparedRecord) -> PreparedRecord:
+    """The record with `count` slow oscillations of the plan, over the range of `over`, before it; they are not compared."""
+    middle, reach = float(over.stroke.max() + over.stroke.min()) / 2, float(np.ptp(over.stroke)) / 2
     dt = 2 * np.pi * reach / V_PRECONDITIONING / RULES.intervals_slow
     slow = oscillations(V_PRECONDITIONING, reach, count, dt)
     back = approach(0.0, float(record.stroke[0]) - middle, dt)

@@ -6,7 +6,7 @@ import numpy as np
 
 from twintube.diagnosis.candidates import faults
 from twintube.diagnosis.faults import Fault, unit_error
-from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.fit import STROKE_GAIN, Problem
 from twintube.diagnosis.rules import RULES
 
 
@@ -18,7 +18,10 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     part = problem.with_records([problem.records[i] for i in odd])
     others = problem.with_records([r for i, r in enumerate(problem.records) if i not in odd])
     names = tuple(record.name for record in part.records)
-    fault = own_fault(part, names) or stranger(part, names)
+    fault = own_fault(part, names)
+    # A single record of another setting looks as if its gain were wrong.
+    if fault is None or (len(names) == 1 and fault.effect in ("force_gain", STROKE_GAIN)):
+        fault = stranger(part, names) or fault
     return (fault, others) if fault is not None else (None, problem)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline, PPoly
+from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 from scipy.signal import find_peaks
 
@@ -75,6 +75,23 @@ class PreparedRecord:
         return np.where(recorded, self.path(at), self.stroke), np.where(recorded, speed, self.velocity)
 
 
+@dataclass(frozen=True)
+class Motion:
+    """The motion of a stretch without its noise; arrays (n,) in SI units."""
+
+    time: Array
+    stroke: Array
+    speed: Array
+    slack: float  # [m/s] to which the speed must be followed
+
+
+def motion_of(time: Array, stroke: Array) -> Motion:
+    """The motion through the samples of a stretch."""
+    smooth = quiet(time, stroke)
+    speed = CubicSpline(time, smooth)(time, 1) if len(time) > 1 else np.zeros(len(time))
+    return Motion(time, smooth, speed, RULES.followed * float(np.quantile(np.abs(speed), RULES.speed_quantile)) + 1e-9)
+
+
 def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """The samples to keep, the oscillation and the stretch of each."""
     kept, cycles, stretches = [], [], []
@@ -82,8 +99,9 @@ def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[
     parts = segments(record.time, record.stroke)
     for s, part in enumerate(parts):
         stroke = record.stroke[part]
+        motion = motion_of(record.time[part], stroke)
         if record.measurement == "stochastic":
-            picks = along(stroke)
+            picks = followed(motion, along(stroke))
             kept.append(part[picks])
             cycles.append(np.full(len(picks), -1))
             stretches.append(np.full(len(picks), s))
@@ -97,7 +115,7 @@ def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[
             inside = 0 < i < len(edges) - 2
             span = record.time[part[b]] - record.time[part[a]]
             count = intervals(record, span, inside, float(durations.min()))
-            picks = between(stroke, a, b, count)
+            picks = followed(motion, np.append(between(stroke, a, b, count), b))[:-1]
             kept.append(part[picks])
             cycles.append(np.full(len(picks), number if inside else -1))
             stretches.append(np.full(len(picks), s))
@@ -137,6 +155,21 @@ def along(stroke: Array) -> NDArray[np.int64]:
     return np.unique(np.concatenate(pieces))
 
 
+def followed(motion: Motion, picks: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The picked samples with as many between them as the model's cubic from pick to pick needs to follow the velocity."""
+    for _ in range(RULES.halvings):
+        some = slice(picks[0], picks[-1] + 1)
+        path = CubicHermiteSpline(motion.time[picks], motion.stroke[picks], motion.speed[picks])
+        missed = np.abs(path(motion.time[some], 1) - motion.speed[some]) > motion.slack
+        within = np.searchsorted(picks, picks[0] + np.flatnonzero(missed), side="right") - 1
+        halves = [(picks[i] + picks[i + 1]) // 2 for i in np.unique(within) if i + 1 < len(picks)]
+        more = np.unique(np.concatenate([picks, np.array(halves, dtype=np.int64)]))
+        if len(more) == len(picks):
+            break
+        picks = more
+    return picks
+
+
 def intervals(record: Record, span: float, oscillation: bool, shortest: float) -> int:
     """Number of intervals for a part of a record that lasts `span` [s]."""
     if record.measurement == "quasi-static":
@@ -160,9 +193,15 @@ def repeat_noise(force: Array, cycle: NDArray[np.int64]) -> float:
     return SCATTER * float(np.median(np.abs(bent))) if bent.size else 0.0
 
 
+def averaging_noise(held: NDArray[np.int64]) -> Array:
+    """Noise of the mean force over intervals of `held` samples (n,), in units of that of a sample: the trapezoidal rule."""
+    return np.asarray(np.sqrt(held - 0.5) / held)
+
+
 def neighbour_noise(force: Array, held: NDArray[np.int64]) -> float:
     """Standard deviation [N] of a sample from neighbouring intervals, for records without enough oscillations."""
-    bent = np.diff(force * np.sqrt(held), 2) / BEND
+    # Neighbours share a sample, so that they differ less than their noise would make them.
+    bent = np.diff(force / averaging_noise(held), 2) / np.sqrt(BEND**2 - 2.0 / (held[1:-1] - 0.5))
     return SCATTER * float(np.median(np.abs(bent))) if len(bent) else 0.0
 
 
@@ -184,13 +223,16 @@ def noise(record: "PreparedRecord", force: Array) -> Array:
         size = repeat_noise(force[inside], cycle[inside])
         if size > 0.0:
             usual = float(np.median(held[inside]))
-            each[inside] = size * np.sqrt(usual / held[inside])
+            sample = size / averaging_noise(np.array(usual))
+            each[inside] = sample * averaging_noise(held[inside])
             if len(alike) > most:
-                most, common = len(alike), size * np.sqrt(usual)
+                most, common = len(alike), float(sample)
     common = common or neighbour_noise(force[record.samples > 0], held[record.samples > 0])
     # Errors of rounding are like in neighbouring samples where no noise is larger than the step.
     rounding = record.resolution / np.sqrt(12.0) if common < record.resolution else 0.0
-    return np.hypot(np.where(np.isnan(each), common / np.sqrt(held), each), max(rounding, RULES.least_noise * record.peak))
+    return np.hypot(
+        np.where(np.isnan(each), common * averaging_noise(held), each), max(rounding, RULES.least_noise * record.peak)
+    )
 
 
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:

@@ -32,6 +32,10 @@ class Rules:
     interval_drive: float = records(5e-3, "s", "interval of harmonic records without a full oscillation", JUDGEMENT)
     reversal: float = records(0.02, "1", "of the range of the stroke, by which a random motion must turn", JUDGEMENT)
     intervals_least: int = records(3, "", "intervals between two reversals of a random motion", JUDGEMENT)
+    followed: float = records(
+        0.02, "1", "of the top speed, to which a random motion is followed between two samples", JUDGEMENT
+    )
+    halvings: int = records(8, "", "most halvings of its intervals for that", NUMERICS)
     block_factor: float = records(
         1.5, "1", "oscillations longer than this times the shortest are not the main block", JUDGEMENT
     )
@@ -78,7 +82,7 @@ class Rules:
 
     small_zero: float = measurement(0.005, "1", "of the largest force: zero of a good load cell", JUDGEMENT)
     small_delay: float = measurement(3e-4, "s", "delay that sampling leaves open; a shorter lag is not a cause", JUDGEMENT)
-    small_gain: float = measurement(0.01, "1", "error of a calibrated channel's gain", DEVELOPMENT)
+    small_gain: float = measurement(0.003, "1", "error of a calibrated channel's gain", DEVELOPMENT)
     small_force: float = measurement(1e-3, "1", "of the largest force: less of a force is not a cause", JUDGEMENT)
     open_samples: float = measurement(
         0.6,
@@ -90,10 +94,24 @@ class Rules:
     warm: float = measurement(3.0, "K", "change of temperature that shows in forces", JUDGEMENT)
     open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
     open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", DEVELOPMENT)
+    delays_tried: int = measurement(9, "", "delays up to that at which the search for the sampling begins", JUDGEMENT)
+    neighbours: float = measurement(0.5, "1", "of a neighbour that a sample of a filtered force holds at most", JUDGEMENT)
+    sampling_known: float = measurement(0.02, "1", "of that delay, to which it is sought", JUDGEMENT)
+    sampling_rounds: int = measurement(4, "", "rounds in which records that differ lose weight", NUMERICS)
+    open_motion: float = measurement(
+        2.0, "1", "of what another spline through the stroke changes in the force: error between samples", DEVELOPMENT
+    )
+    open_filter: float = measurement(0.03, "1", "of a bend of the force, to which a filter is known", DEVELOPMENT)
     usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
+    order_least: int = measurement(6, "", "records in which a zero is seen to move from record to record", JUDGEMENT)
+    order_side: int = measurement(2, "", "records before and after a step of the zero at least", JUDGEMENT)
+    order_left: float = measurement(
+        0.15, "1", "of the squared means of the records that a moving zero leaves at most", JUDGEMENT
+    )
+    order_state: float = measurement(0.5, "1", "the like in each state of filling", JUDGEMENT)
     least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
 
-    model_error: float = fitting(1.5e-3, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)
+    model_error: float = fitting(3e-4, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)
     steps_per_interval: int = fitting(
         4, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
     )
@@ -110,11 +128,19 @@ class Rules:
         1e-4, "1", "relative change of cost or parameters; a cause changes the cost by percents", JUDGEMENT
     )
 
+    factors_tried: tuple[float, ...] = fitting(
+        (0.1, 0.3, 0.6, 0.85, 0.96, 1.04, 1.2, 1.6, 2.5),
+        "1",
+        "of a parameter, to which an optimum is moved for a better",
+        JUDGEMENT,
+    )
+    moves: int = fitting(4, "", "most such moves", JUDGEMENT)
+
     start_records: int = starts(6, "", "records to fit that a search looks at, of all states and velocities", JUDGEMENT)
     joins: float = starts(0.02, "1", "of the squared error that a further strength of a cause must take away", DEVELOPMENT)
     shapes: int = starts(2, "", "lengths, times and powers that are sought, the first in the effect's file", JUDGEMENT)
     shares: tuple[float, ...] = starts(
-        (0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", JUDGEMENT
+        (0.0007, 0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", JUDGEMENT
     )
     place: float = starts(0.9, "1", "of the largest stroke, at which the search for a place begins", JUDGEMENT)
     zero_range: float = starts(0.5, "1", "of the largest force: range of a zero that is a fault", JUDGEMENT)
@@ -129,13 +155,13 @@ class Rules:
     alarm: float = selection(0.01, "1", "datasets without a cause in which noise makes any; gives the limit c", STATISTICS)
     least_misfit: float = selection(0.5, "1", "mean squared weighted error below which nothing is gained", JUDGEMENT)
     worth: float = selection(
-        0.01, "1", "least gain in log-likelihood per held-out sample: below it numerics decide", DEVELOPMENT
+        0.005, "1", "least gain in log-likelihood per held-out sample: below it numerics decide", DEVELOPMENT
     )
     least_share: float = selection(
-        0.03, "1", "of the squared error of the held-out records, noise included, that a cause must take away", DEVELOPMENT
+        0.01, "1", "of the squared error of the held-out records, noise included, that a cause must take away", DEVELOPMENT
     )
     clear_share: float = selection(
-        0.1, "1", "the like for other degradation parameters, and where the base model is right within noise", DEVELOPMENT
+        0.03, "1", "the like for other degradation parameters, and where the base model is right within noise", DEVELOPMENT
     )
     sure: float = selection(
         0.9, "1", "interval by resampling the held-out records, in which the squared error must fall", STATISTICS
@@ -161,10 +187,10 @@ class Rules:
 
     right: float = verdict(0.1, "1", "log-misfit per sample up to which nothing is missing: 5 % above the noise", JUDGEMENT)
     quiet: float = verdict(
-        1.15, "1", "error of the base model over the noise floor, up to which nothing is missing", DEVELOPMENT
+        1.1, "1", "error of the base model over the noise floor, up to which nothing is missing", DEVELOPMENT
     )
-    explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
-    close: float = verdict(0.01, "1", "of the explainable misfit: candidates that differ by less are ambiguous", JUDGEMENT)
+    explained: float = verdict(0.5, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
+    close: float = verdict(0.03, "1", "of the explainable misfit: candidates that differ by less are ambiguous", JUDGEMENT)
     alternatives: int = verdict(3, "", "most alternatives of an ambiguous verdict", JUDGEMENT)
     shows: float = verdict(0.3, "1", "of the base model's error: a signature of less is only mentioned", JUDGEMENT)
     at_bound: float = verdict(1e-3, "1", "of the range: nearer to its end the range decides, not the records", JUDGEMENT)

@@ -13,7 +13,7 @@ from scipy.stats import norm
 
 from twintube.arrays import Array
 from twintube.diagnosis.candidates import LATE, Candidate, base, best_start, nuisances
-from twintube.diagnosis.fit import MEASUREMENT, Fit, Free, Problem
+from twintube.diagnosis.fit import LINEAR, MEASUREMENT, Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, removed
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.zeros import differ, step
@@ -35,6 +35,7 @@ class Option:
 
     names: tuple[str, ...]  # of all causes in the model, the new cause last
     fits: tuple[Fit, ...]  # fold after fold
+    seen: tuple[Mapping[str, float], ...]  # their values, with those of the measurement as the held-out records ask for
     misfit: Array  # (h,) mean squared weighted error of the held-out records, fold after fold
     means: Array  # (h,) their mean errors [N]
     squares: Array  # (h,) sums of squared weighted errors
@@ -63,11 +64,13 @@ class Selection:
 def fitted(folds: Sequence[Fold], names: Sequence[str], frees: Sequence[Sequence[Free]]) -> Option:
     """The model with some causes, fitted in every fold from the starts given for it."""
     fits = tuple(fold.fitted.fit(free) for fold, free in zip(folds, frees, strict=True))
-    held = [(fold.held, fit.values) for fold, fit in zip(folds, fits, strict=True)]
+    linear = [[f for f in nuisances(fold.held) if f.name in LINEAR and f.name not in names] for fold in folds]
+    seen = tuple(fold.held.adjusted(fit.values, some) for fold, fit, some in zip(folds, fits, linear, strict=True))
+    held = [(fold.held, values) for fold, values in zip(folds, seen, strict=True)]
     misfit = np.concatenate([judge.misfits(judge.residual(values)) for judge, values in held])
     means = np.concatenate([judge.means(judge.errors(values) * judge.weight) for judge, values in held])
     counts = counts_of(folds)
-    return Option(tuple(names), fits, misfit, means, counts * misfit, float(logs(counts, misfit).sum()))
+    return Option(tuple(names), fits, seen, misfit, means, counts * misfit, float(logs(counts, misfit).sum()))
 
 
 def counts_of(folds: Sequence[Fold]) -> Array:
@@ -118,7 +121,7 @@ class Selector:
                 added = tuple(replace(f, low=max(f.low, f.start - least[f.name]), high=min(f.high, f.start + least[f.name]))
                               if f.name in least else f for f in added)  # fmt: skip
             wanted |= {f.name: f for f in added}
-        return [Free(name, min(max(values.get(name, f.start), f.low), f.high), f.low, f.high) for name, f in wanted.items()]
+        return [replace(f, start=min(max(values.get(name, f.start), f.low), f.high)) for name, f in wanted.items()]
 
     def beginning(self, current: Option, name: str) -> tuple[float, dict[str, float]]:
         """Where a further cause begins in all folds, and the sum of squares there.

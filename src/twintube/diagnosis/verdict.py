@@ -52,9 +52,10 @@ def judge(
     proven = gain.heldout > 0.0 and gain.heldout_interval[0] > 0.0 and extended < base and base > floor
     enough = gain.heldout >= RULES.explained or right
     close = rivals(selection)
-    if outside:
+    solved = bool(selection.chosen) and proven and enough and not doubts
+    if outside and not (solved and extended <= RULES.quiet * floor):
         remaining = "unexplained"
-    elif not selection.chosen or not proven or not enough or doubts:
+    elif not solved:
         remaining = "none" if base <= RULES.quiet * floor else "unexplained"
     elif not causes:
         remaining = "recalibrate"
@@ -73,7 +74,7 @@ def judge(
         nearest=causes if remaining == "unexplained" else [],
         doubts=doubts,
         rivals=close if remaining == "ambiguous" else [],
-        outside=outside,
+        outside=outside if remaining == "unexplained" else [],
         explained=gain.heldout,
     )
 

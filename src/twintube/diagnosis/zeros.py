@@ -5,11 +5,13 @@ those of a preload do; zeros do neither.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.stats import kruskal
 
 from twintube.arrays import Array
+from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.prepare import BEND, SCATTER, PreparedRecord
 from twintube.diagnosis.rules import RULES
@@ -18,10 +20,55 @@ from twintube.diagnosis.rules import RULES
 def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
     """The problem with the scatter of the records' zeros in it, and a remark where a good load cell has less."""
     drift = scatter(problem.records, problem.means(problem.errors({}) * problem.weight))
-    share = drift / max(record.peak for record in problem.records)
+    share = drift / largest(problem.records)
     size = f"about {drift:.2g} N, {100 * share:.2g} % of the largest force"
     text = f"the zero of the force channel differs from record to record by {size}; every comparison allows for it"
     return problem.with_drift(drift), [text] if share > RULES.small_zero else []
+
+
+def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
+    """A zero that moves from record to record in the order of the dataset, at once or evenly, and the problem without it.
+
+    What begins with the loss of oil is no zero, but maybe the force of gas.
+    """
+    means = problem.means(problem.errors({}) * problem.weight)
+    count = len(means)
+    if count < RULES.order_least:
+        return None, problem
+    rest = float(np.sum((means - means.mean()) ** 2))
+    order = np.arange(count) - (count - 1) / 2
+    fits = {0: order * float(order @ means) / float(order @ order)}
+    keys = [(record.oil_level, record.gas_preload) for record in problem.records]
+    for cut in range(RULES.order_side, count - RULES.order_side + 1):
+        same = keys[cut] == keys[cut - 1]
+        if same or not (problem.records[cut].intact or problem.records[cut - 1].intact):
+            side = np.arange(count) >= cut
+            fits[cut] = np.where(side, means[side].mean(), means[~side].mean()) - means.mean()
+    left = {cut: float(np.sum((means - means.mean() - fit) ** 2)) for cut, fit in fits.items()}
+    cut = min(left, key=lambda cut: left[cut])
+    size = float(fits[cut][0] - fits[cut][-1])  # errors are simulated less measured forces
+    if left[cut] > RULES.order_left * rest or abs(size) < RULES.small_force * largest(problem.records):
+        return None, problem
+    # In each state of several records the zero must move as in all.
+    for some in states(problem.records):
+        fit, own = (x[some] - x[some].mean() for x in (fits[cut], means))
+        if np.sum(fit**2) > 0.0 and np.sum((own - fit) ** 2) > RULES.order_state * np.sum(own**2):
+            return None, problem
+    shift = fits[cut] - fits[cut][0]
+    still = problem.with_records(
+        [replace(r, force=r.force + x) for r, x in zip(problem.records, shift.tolist(), strict=True)]
+    )
+    if cut == 0:
+        text = "The zero of the force channel moves evenly from the first record to the last."
+        return Fault("zero_drift", "Drifting zero of the load cell", text, size, "zero_moved", "N"), still
+    names = tuple(record.name for record in problem.records[cut:])
+    text = f"From {names[0]} on the force channel reads a constant that the records before do not have."
+    return Fault("force_offset", "Zero of the load cell", text, size, "force_offset", "N", names), still
+
+
+def largest(records: Sequence[PreparedRecord]) -> float:
+    """Largest force [N] of all records."""
+    return max(record.peak for record in records)
 
 
 def states(records: Sequence[PreparedRecord]) -> list[list[int]]:
@@ -34,8 +81,15 @@ def states(records: Sequence[PreparedRecord]) -> list[list[int]]:
 
 def scatter(records: Sequence[PreparedRecord], means: Array) -> float:
     """Standard deviation [N] of the zeros from the mean errors (r,) [N] of the records; 0 where there are too few."""
-    bent = np.concatenate([np.diff(means[some], 2) for some in states(records)])
-    return SCATTER * float(np.median(np.abs(bent))) / BEND if len(bent) >= RULES.least_bends else 0.0
+    several = states(records)
+    bent = np.concatenate([np.diff(means[some], 2) for some in several])
+    if len(bent) >= RULES.least_bends:
+        return SCATTER * float(np.median(np.abs(bent))) / BEND
+    # Few records tell zeros from a smooth error no better than by their scatter, of which a good load cell has little.
+    apart = np.concatenate([means[some] - means[some].mean() for some in several])
+    free = max(1, len(means) - len(several))
+    most = RULES.small_zero * largest(records)
+    return min(most, float(np.sqrt(np.sum(apart**2) / free)))
 
 
 def step(records: Sequence[PreparedRecord], means: Array) -> float:
@@ -48,6 +102,6 @@ def differ(records: Sequence[PreparedRecord], means: Array, alarm: float) -> boo
 
     Zeros that scatter do not depend on the filling. A difference that the model's numerics may make does not count.
     """
-    if step(records, means) <= RULES.model_error * max(record.peak for record in records):
+    if step(records, means) <= RULES.model_error * largest(records):
         return False
     return bool(kruskal(*(means[some] for some in states(records))).pvalue < alarm)

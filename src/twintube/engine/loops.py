@@ -6,7 +6,8 @@
 import math
 from typing import Any
 
-from twintube.core.effects import effects_parts, effects_remember
+from twintube.core.effects import effects_parts, effects_remember, effects_scale_valve
+from twintube.core.frame import stroke_limit
 from twintube.core.model import advance, advance_whole, set_up, start
 from twintube.core.outputs import reserve_gas, total_force
 
@@ -141,7 +142,8 @@ def run_means(
             n = max(parts, effects_parts(p, dt)) if d.extended > 0 else parts
             if dt <= 0.0 or (dt > REST and abs(z[i] - at) < UNMOVED * dt * max(abs(before), abs(v[i]))):
                 n = 1
-            gaps = samples[i] if samples[i] < n else 0
+            # By the samples alone, so that all models see the same of them.
+            gaps = samples[i] if samples[i] <= 2 * parts else 0
             if gaps > 0:
                 n = gaps * math.ceil(n / gaps)
             v0 = before
@@ -153,7 +155,8 @@ def run_means(
                 goal = z[i]
                 speed = v[i]
                 if j < n:
-                    goal = cubic(x, z0, before, z[i], v[i], dt)
+                    # Between samples the cubic may leave the tube by a hair.
+                    goal = max(-stroke_limit(d), min(stroke_limit(d), cubic(x, z0, before, z[i], v[i], dt)))
                     speed = cubic_slope(x, z0, before, z[i], v[i], dt)
                 from_work = s.work
                 from_impulse = s.impulse
@@ -171,10 +174,13 @@ def run_means(
                 v0 = speed
                 if gaps > 0 and (j * gaps) % n == 0:
                     now = total_force(s)
-                    flow = s.k_flow if d.extended > 0 else s.k_degr
-                    if memory == 0 and flow > 0.0:
+                    ended = f.k_degr
+                    if d.extended > 0:
+                        rebound = speed > 0.0 or (speed == 0.0 and way > 0.0)
+                        ended = (s.k_re if rebound else s.k_co) * effects_scale_valve(p, speed)
+                    if memory == 0 and s.k_degr > 0.0:
                         # k_degr is the mean over the step, a sample sees the end.
-                        now += (f.k_degr / flow - 1.0) * s.F_fluid
+                        now += (ended / s.k_degr - 1.0) * s.F_fluid
                     last = now
                     sampled += now if j < n else 0.5 * now
             if gaps == 0:

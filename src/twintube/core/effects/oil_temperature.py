@@ -38,7 +38,7 @@ class Parameters(variables.Parameters):
                          lower=-2000, upper=2000, source="some kelvins of a rig's room", default=0.0,
                          role="scale")  # fmt: skip
     fade_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of fluid force per kelvin measured", lower=0,
-                             upper=0.03, source="Reynolds 1886 (viscosity)", default=0.0, role="strength")  # fmt: skip
+                             upper=0.08, source="Reynolds 1886 (viscosity)", default=0.0, role="strength")  # fmt: skip
     friction_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of friction per kelvin measured", lower=0,
                                  upper=0.03, source="seals soften, the film thins", default=0.0,
                                  role="strength")  # fmt: skip

@@ -1,0 +1,54 @@
+"""How the force was sampled: the delay, the zero and the filter that every measurement has, before anything else is judged.
+
+A sample of the force may be a point, a mean over its interval or what a filter makes of it, and late by a part of it. Until
+this is known a fast step of the force looks like noise, like a record that is odd, or like a cause.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.optimize import lsq_linear
+
+from twintube.diagnosis.candidates import nuisances
+from twintube.diagnosis.fit import DELAY, Free, Problem
+from twintube.diagnosis.rules import RULES
+
+
+def with_sampling(problem: Problem) -> Problem:
+    """The problem with delay, zero and samples of its force channel as most of its records have them, `usual`."""
+    free = nuisances(problem)
+    late = next(f for f in free if f.name == DELAY)
+    linear = [f for f in free if f is not late]
+    delays, step = np.linspace(late.low, late.high, RULES.delays_tried), (late.high - late.low) / RULES.delays_tried
+    best: dict[str, float] = {}
+    low = np.inf
+    while step > RULES.sampling_known * late.high:
+        points = [{DELAY: float(delay)} for delay in delays]
+        list(problem.threads.map(problem.simulated, {problem.damping(point) for point in points}))
+        for point in points:
+            cost, values = filtered(problem, point, linear)
+            if cost < low:
+                low, best = cost, values
+        delays = np.clip(best[DELAY] + step * np.array([-0.5, 0.5]), late.low, late.high)
+        step /= 2.0
+    return problem.with_usual(best)
+
+
+def filtered(problem: Problem, point: dict[str, float], free: Sequence[Free]) -> tuple[float, dict[str, float]]:
+    """The values of `free`, linear in the force, that suit most records at the delay of `point`, and their cost.
+
+    Misfits count by their logarithms, so that records of which the model knows nothing do not decide.
+    """
+    force, seen = problem.simulated(problem.damping(point))
+    parts = {"force_offset": np.ones(len(seen)), **problem.parts_of_samples(force, seen)}
+    rows = np.column_stack([parts[f.name] * problem.weight for f in free])
+    wanted = (problem.measured - seen) * problem.weight
+    bounds = np.array([f.low for f in free]), np.array([f.high for f in free])
+    x = np.array([f.start for f in free])
+    misfit = problem.misfits(wanted)
+    for _ in range(RULES.sampling_rounds):
+        share = problem.spread(1.0 / np.sqrt(RULES.least_misfit + misfit))
+        x = lsq_linear(rows * share[:, None], wanted * share, bounds).x
+        misfit = problem.misfits(wanted - rows @ x)
+    cost = float(np.average(np.log(RULES.least_misfit + misfit), weights=problem.counts))
+    return cost, point | {f.name: float(value) for f, value in zip(free, x, strict=True)}
