@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 37aef4832acc15bd, body c3ac636e825751b2; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations e10ecb5c1199774f, body 8054a67ab87f4f2d; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -1645,8 +1645,9 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
     double known;
     double full;
     double near;
-    double rise;
+    double share;
     double k;
+    double ended;
     double jump;
     double free;
     double missing;
@@ -1667,17 +1668,19 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
     {
         full = (side > 0.0 ? s->k_full_re : s->k_full_co);
         near = double_max(2, 0.0, 1.0 - depth / length);
-        rise = double_max(2, 0.0, full - f->k_mean) * p->early_share * near * near;
+        share = p->early_share * near * near;
         s->k_mixed = f->k_mean;
         s->y_free = 0.0;
-        f->k_mean += rise;
-        f->k_degr = f->k_mean;
+        f->k_mean += double_max(2, 0.0, full - f->k_mean) * share;
+        f->k_degr += double_max(2, 0.0, full - f->k_degr) * share;
     }
     else if (side != 0.0)
     {
         k = (side > 0.0 ? s->k_full_re : s->k_full_co);
+        ended = k;
         if (dz != 0.0)
         {
+            ended = f->k_degr;
             k = (s->y_free > 0.0 ? f->k_mean : f->k_degr);
         }
         target = k;
@@ -1697,7 +1700,7 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
             f->k_mean = double_max(2, 0.0, f->k_mean + early - missing * kernel_smooth_transition_fade(way) * free / fabs(dz));
         }
         s->y_free += way;
-        f->k_degr = k - missing * exp(-way);
+        f->k_degr = ended - missing * exp(-way);
         if (side > 0.0)
         {
             s->k_full_re = k;

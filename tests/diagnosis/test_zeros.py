@@ -1,5 +1,7 @@
 """Zeros of the load cell that differ from record to record, and what passes for them."""
 
+import itertools
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +11,8 @@ from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.prepare import PreparedRecord
-from twintube.diagnosis.zeros import differ, step, zero_drift
+from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.zeros import differ, step, zero_change, zero_drift
 
 SPEEDS = (0.131, 0.262, 0.524, 0.786, 1.048)  # [m/s]
 COUNT = 300  # draws of a rate of alarms
@@ -54,3 +57,38 @@ def test_a_constant_force_of_a_state_differs_from_zeros_that_scatter(records: li
     assert not differ(records, one_wrong, 0.05)
     assert not differ(records, 1e-3 * (scattered[0] + 3 * drift * degraded), 0.05)  # numerics
     assert step(records, drift * degraded) == drift
+
+
+def zeroed(records: list[PreparedRecord], zeros: Sequence[float]) -> Problem:
+    """Records of a right model whose forces read constants beside the force."""
+    right = Problem(load("SA8"), records)
+    forces = [right.forces({})[a:b] for a, b in itertools.pairwise(right.starts)]
+    moved = [replace(r, force=f + z, noise=np.full(len(f), 1.0)) for r, f, z in zip(records, forces, zeros, strict=True)]
+    return Problem(load("SA8"), moved)
+
+
+def test_a_zero_that_moves_in_the_order_of_the_records_is_a_fault_and_is_put_right(records: list[PreparedRecord]) -> None:
+    count = len(records)
+    rng = np.random.default_rng(3)
+    evenly, at_once = np.linspace(0.0, 30.0, count), np.where(np.arange(count) >= count // 2, 20.0, 0.0)
+    for zeros, effect, size in ((evenly, "zero_drift", 30.0), (at_once, "force_offset", 20.0)):
+        fault, still = zero_change(zeroed(records, zeros + rng.standard_normal(count)))
+        assert fault is not None
+        assert (fault.effect, fault.factor) == (effect, pytest.approx(size, rel=0.15))
+        assert np.std(still.means(still.errors({}) * still.weight)) < 2.5
+    assert fault.records == tuple(record.name for record in records[count // 2 :])
+
+
+def test_zeros_that_scatter_and_a_force_that_comes_with_the_loss_of_oil_do_not_move(records: list[PreparedRecord]) -> None:
+    rng = np.random.default_rng(5)
+    lost = np.array([20.0 * (not record.intact) for record in records])
+    for zeros in (10.0 * rng.standard_normal(len(records)), lost + rng.standard_normal(len(records))):
+        problem = zeroed(records, zeros)
+        assert zero_change(problem) == (None, problem)
+
+
+def test_few_records_give_a_scatter_of_zeros_that_a_good_load_cell_has(records: list[PreparedRecord]) -> None:
+    some = records[:2] + records[5:7]
+    drift = [zero_drift(zeroed(some, size * np.array([1.0, -1.0, -1.0, 1.0])))[0].drift for size in (1.0, 300.0)]
+    assert drift[0] == pytest.approx(np.sqrt(2.0), rel=0.01)
+    assert drift[1] == pytest.approx(RULES.small_zero * max(record.peak for record in some), rel=0.01)

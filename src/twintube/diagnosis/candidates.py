@@ -9,7 +9,7 @@ import numpy as np
 
 from twintube.core import effects
 from twintube.core.hooks import Effect, sources
-from twintube.diagnosis.fit import CLOCK, DELAY, NEIGHBOURS, STROKE_GAIN, Free, Problem
+from twintube.diagnosis.fit import BENDS, CLOCK, DELAY, STROKE_GAIN, Free, Problem
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.parameters import DEGRADATION, ranges
 
@@ -62,8 +62,8 @@ def nuisances(problem: Problem) -> tuple[Free, ...]:
     ]
     if any((record.samples[record.judged] < RULES.steps_per_interval).any() for record in problem.records):
         free.append(Free("sample_mean", known.get("sample_mean", 0.5), 0.0, 1.0))
-        most = RULES.neighbours
-        free += [Free(name, known.get(name, 0.0), -most, most) for name in NEIGHBOURS]
+        most = RULES.bends
+        free += [Free(name, known.get(name, 0.0), -most, most) for name in BENDS]
     return tuple(free)
 
 

@@ -17,7 +17,8 @@ from twintube.fitting.averaging import averaging, through
 
 # Factors by which a channel is wrong if its unit is not the stated one.
 FORCE_UNITS = {"kN for N": 1e3, "N for kN": 1e-3, "lbf for N": 4.4482216, "N for lbf": 1 / 4.4482216,
-               "kgf for N": 9.80665, "N for kgf": 1 / 9.80665}  # fmt: skip
+               "kgf for N": 9.80665, "N for kgf": 1 / 9.80665,
+               "daN for N": 10.0, "N for daN": 0.1}  # fmt: skip
 STROKE_UNITS = {
     "m for mm": 1e3,
     "mm for m": 1e-3,

@@ -17,9 +17,10 @@ from twintube.fitting.averaging import averaged_means
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
 from twintube.fitting.simulation import SimulatedRecords
 
-# What a sample holds beside the force at its time: of the mean over its interval, and of those of its neighbours.
-NEIGHBOURS = {"sample_ahead": 1, "sample_before": -1, "sample_earlier": -2}
-SAMPLING = ("sample_mean", *NEIGHBOURS)
+# What a sample holds beside the force at its time: of the mean over its interval, and of the bends of the force a sample
+# ahead, about it and before, as a filter gives them. None of them is late: the delay is a parameter of its own.
+BENDS = {"bend_ahead": 1, "bend_about": 0, "bend_before": -1}
+SAMPLING = ("sample_mean", *BENDS)
 LINEAR = ("force_offset", *SAMPLING)  # the force is linear in them, and every measurement has them
 # What the measurement adds to the force.
 ADDED = ("force_offset", "force_gain", "zero_drift", *SAMPLING)
@@ -85,7 +86,7 @@ class Problem(SimulatedRecords):
         self.measured = np.concatenate([r.force for r in records])
         lengths = np.diff(self.starts)
         first, last = np.repeat(self.starts[:-1], lengths), np.repeat(self.starts[1:] - 1, lengths)
-        self.neighbours = {by: np.clip(np.arange(len(self.z)) + by, first, last) for by in NEIGHBOURS.values()}
+        self.shifted = {by: np.clip(np.arange(len(self.z)) + by, first, last) for by in range(-2, 3)}
         self.elapsed = np.concatenate([r.time - r.begin for r in records])
         model = max(RULES.model_error, tolerance)
         self.sigma = np.concatenate([np.sqrt(r.noise**2 + r.edges**2 + (model * r.peak) ** 2) for r in records])
@@ -175,9 +176,10 @@ class Problem(SimulatedRecords):
         An anti-alias filter near the sampling rate reaches over some samples; of an interval of many it changes little.
         """
         parts: dict[str, Array] = {"sample_mean": force - point} if "sample_mean" in names else {}
-        for name, by in NEIGHBOURS.items():
+        for name, by in BENDS.items():
             if name in names:
-                parts[name] = (force[self.neighbours[by]] - force) / np.maximum(self.samples, 1)
+                after, about, before = (force[self.shifted[by + side]] for side in (1, 0, -1))
+                parts[name] = (after - 2.0 * about + before) / np.maximum(self.samples, 1) ** 2
         return parts
 
     def errors(self, values: Mapping[str, float]) -> Array:

@@ -56,11 +56,19 @@ def logs(problem: Problem) -> Sequence[float]:
 
 
 def begun(record: PreparedRecord) -> PreparedRecord:
-    """The record without its first oscillation, which depends on what was before it; as it is where it has few."""
-    whole = np.flatnonzero(record.cycle >= 1)
-    if not len(whole) or len(np.unique(record.cycle[record.cycle >= 0])) <= RULES.repeats:
+    """The record without its first oscillation, which depends on what was before it; as it is where it has few.
+
+    Of a random motion that is the way of an oscillation over its range.
+    """
+    if (record.cycle >= 0).any():
+        whole = record.cycle >= 1
+        few = len(np.unique(record.cycle[record.cycle >= 0])) <= RULES.repeats
+    else:
+        way = np.cumsum(np.abs(np.diff(record.stroke, prepend=record.stroke[0]))) / float(np.ptp(record.stroke))
+        whole, few = way >= RULES.slow_way, bool(way[-1] < RULES.repeats * RULES.slow_way)
+    if few or not whole.any():
         return record
-    after = np.arange(len(record.cycle)) >= whole[0]
+    after = np.arange(len(record.cycle)) >= int(np.argmax(whole))
     return replace(record, judged=record.judged & after)
 
 

@@ -19,6 +19,7 @@ from twintube.diagnosis.rules import RULES
 from twintube.engine.simulate import checked
 from twintube.fitting.intervals import impulse, means
 from twintube.fitting.oscillations import beginnings, segments
+from twintube.fitting.strokes import noise as stroke_noise
 from twintube.fitting.strokes import quiet
 
 SCATTER = 1.4826  # standard deviation of normal errors over their median absolute value
@@ -83,13 +84,15 @@ class Motion:
     stroke: Array
     speed: Array
     slack: float  # [m/s] to which the speed must be followed
+    noise: float  # [m] of the stroke, which is not followed
 
 
 def motion_of(time: Array, stroke: Array) -> Motion:
     """The motion through the samples of a stretch."""
     smooth = quiet(time, stroke)
     speed = CubicSpline(time, smooth)(time, 1) if len(time) > 1 else np.zeros(len(time))
-    return Motion(time, smooth, speed, RULES.followed * float(np.quantile(np.abs(speed), RULES.speed_quantile)) + 1e-9)
+    slack = RULES.followed * float(np.quantile(np.abs(speed), RULES.speed_quantile)) + 1e-9
+    return Motion(time, smooth, speed, slack, RULES.noise_followed * stroke_noise(stroke)[0])
 
 
 def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
@@ -115,6 +118,8 @@ def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[
             inside = 0 < i < len(edges) - 2
             span = record.time[part[b]] - record.time[part[a]]
             count = intervals(record, span, inside, float(durations.min()))
+            if len(marks) * count > RULES.intervals_most:  # an endurance run
+                count = min(count, RULES.intervals_endurance)
             picks = followed(motion, np.append(between(stroke, a, b, count), b))[:-1]
             kept.append(part[picks])
             cycles.append(np.full(len(picks), number if inside else -1))
@@ -160,8 +165,10 @@ def followed(motion: Motion, picks: NDArray[np.int64]) -> NDArray[np.int64]:
     for _ in range(RULES.halvings):
         some = slice(picks[0], picks[-1] + 1)
         path = CubicHermiteSpline(motion.time[picks], motion.stroke[picks], motion.speed[picks])
-        missed = np.abs(path(motion.time[some], 1) - motion.speed[some]) > motion.slack
-        within = np.searchsorted(picks, picks[0] + np.flatnonzero(missed), side="right") - 1
+        within = np.clip(np.searchsorted(picks, np.arange(len(motion.time))[some], side="right") - 1, 0, len(picks) - 2)
+        # A cubic over h that misses the speed by e in its middle misses the stroke by about e h / 4.
+        slack = np.maximum(motion.slack * np.diff(motion.time[picks])[within] / 4.0, motion.noise)
+        within = within[np.abs(path(motion.time[some]) - motion.stroke[some]) > slack]
         halves = [(picks[i] + picks[i + 1]) // 2 for i in np.unique(within) if i + 1 < len(picks)]
         more = np.unique(np.concatenate([picks, np.array(halves, dtype=np.int64)]))
         if len(more) == len(picks):

@@ -28,13 +28,16 @@ class Rules:
 
     intervals_fast: int = records(48, "", "intervals per oscillation of the main block", NUMERICS)
     intervals_slow: int = records(24, "", "intervals of slower oscillations, which are not what is looked at", JUDGEMENT)
+    intervals_most: int = records(5000, "", "intervals of a record, beyond which an oscillation has ...", JUDGEMENT)
+    intervals_endurance: int = records(16, "", "... so many: an endurance run of hundreds", JUDGEMENT)
     intervals_ramp: int = records(240, "", "of a quasi-static record: friction reverses within tenths of a mm", JUDGEMENT)
     interval_drive: float = records(5e-3, "s", "interval of harmonic records without a full oscillation", JUDGEMENT)
-    reversal: float = records(0.02, "1", "of the range of the stroke, by which a random motion must turn", JUDGEMENT)
+    reversal: float = records(0.005, "1", "of the range of the stroke, by which a random motion must turn", JUDGEMENT)
     intervals_least: int = records(3, "", "intervals between two reversals of a random motion", JUDGEMENT)
     followed: float = records(
-        0.02, "1", "of the top speed, to which a random motion is followed between two samples", JUDGEMENT
+        0.005, "1", "of the top speed, to which a random motion is followed between two samples", JUDGEMENT
     )
+    noise_followed: float = records(3.0, "1", "standard deviations of the stroke's noise, which is not followed", JUDGEMENT)
     halvings: int = records(8, "", "most halvings of its intervals for that", NUMERICS)
     block_factor: float = records(
         1.5, "1", "oscillations longer than this times the shortest are not the main block", JUDGEMENT
@@ -95,7 +98,7 @@ class Rules:
     open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
     open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", DEVELOPMENT)
     delays_tried: int = measurement(9, "", "delays up to that at which the search for the sampling begins", JUDGEMENT)
-    neighbours: float = measurement(0.5, "1", "of a neighbour that a sample of a filtered force holds at most", JUDGEMENT)
+    bends: float = measurement(0.5, "1", "of a bend of the force that a sample of a filtered force holds at most", JUDGEMENT)
     sampling_known: float = measurement(0.02, "1", "of that delay, to which it is sought", JUDGEMENT)
     sampling_rounds: int = measurement(4, "", "rounds in which records that differ lose weight", NUMERICS)
     open_motion: float = measurement(
@@ -111,7 +114,7 @@ class Rules:
     order_state: float = measurement(0.5, "1", "the like in each state of filling", JUDGEMENT)
     least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
 
-    model_error: float = fitting(3e-4, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)
+    model_error: float = fitting(4e-4, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)
     steps_per_interval: int = fitting(
         4, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
     )

@@ -13,7 +13,7 @@ from scipy.stats import norm
 
 from twintube.arrays import Array
 from twintube.diagnosis.candidates import LATE, Candidate, base, best_start, nuisances
-from twintube.diagnosis.fit import LINEAR, MEASUREMENT, Fit, Free, Problem
+from twintube.diagnosis.fit import DELAY, LINEAR, MEASUREMENT, Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, removed
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.zeros import differ, step
@@ -90,7 +90,7 @@ class Selector:
     """
 
     def __init__(self, whole: Problem, candidates: Sequence[Candidate], folds: Sequence[Fold]) -> None:
-        self.start = fitted(folds, (), [nuisances(whole)] * len(folds))
+        self.start = fitted(folds, (), [self.usual(whole, ())] * len(folds))
         first = self.start.fits[0].values
         self.whole = whole.balanced(whole.misfits(whole.residual(first)))
         pairs = zip(folds, self.start.fits, strict=True)
@@ -113,7 +113,7 @@ class Selector:
 
     def free(self, names: Sequence[str], values: Mapping[str, float]) -> list[Free]:
         """The free parameters of a model, from the values where they are known."""
-        wanted = {f.name: f for f in nuisances(self.whole)}
+        wanted = {f.name: f for f in self.usual(self.whole, names)}
         for name in names:
             added = base(self.whole) if name == RECALIBRATE else self.candidates[name].joined(values)
             if name in self.sampling:
@@ -122,6 +122,11 @@ class Selector:
                               if f.name in least else f for f in added)  # fmt: skip
             wanted |= {f.name: f for f in added}
         return [replace(f, start=min(max(values.get(name, f.start), f.low), f.high)) for name, f in wanted.items()]
+
+    @staticmethod
+    def usual(problem: Problem, names: Sequence[str]) -> list[Free]:
+        """What of the measurement is free in a model: the delay, known from all records, beside what is late itself."""
+        return [f for f in nuisances(problem) if f.name != DELAY or any(name in LATE for name in names)]
 
     def beginning(self, current: Option, name: str) -> tuple[float, dict[str, float]]:
         """Where a further cause begins in all folds, and the sum of squares there.

@@ -58,7 +58,8 @@ def judge(
     elif not solved:
         remaining = "none" if base <= RULES.quiet * floor else "unexplained"
     elif not causes:
-        remaining = "recalibrate"
+        # So many parameters take something away of any error.
+        remaining = "none" if base <= RULES.quiet * floor else "recalibrate"
     elif close:
         remaining = "ambiguous"
     else:

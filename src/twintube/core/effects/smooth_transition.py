@@ -85,14 +85,16 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
     if depth > 0.0:
         full = s.k_full_re if side > 0.0 else s.k_full_co
         near = max(0.0, 1.0 - depth / length)
-        rise = max(0.0, full - f.k_mean) * p.early_share * near * near
+        share = p.early_share * near * near
         s.k_mixed = f.k_mean
         s.y_free = 0.0
-        f.k_mean += rise
-        f.k_degr = f.k_mean
+        f.k_mean += max(0.0, full - f.k_mean) * share
+        f.k_degr += max(0.0, full - f.k_degr) * share
     elif side != 0.0:
         k = s.k_full_re if side > 0.0 else s.k_full_co
+        ended = k
         if dz != 0.0:
+            ended = f.k_degr
             k = f.k_mean if s.y_free > 0.0 else f.k_degr
         target = k
         jump = max(0.0, k - s.k_mixed)
@@ -107,7 +109,7 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
             early = (1.0 - free / abs(dz)) * jump * p.early_share
             f.k_mean = max(0.0, f.k_mean + early - missing * smooth_transition_fade(way) * free / abs(dz))
         s.y_free += way
-        f.k_degr = k - missing * math.exp(-way)
+        f.k_degr = ended - missing * math.exp(-way)
         if side > 0.0:
             s.k_full_re = k
         else:
