@@ -72,7 +72,7 @@ def test_structure_is_more_than_white_noise_with_the_stated_false_alarms(nothing
         return several
 
     assert sum(bool(structured(results(0.0), "base")) for _ in range(200)) <= 8
-    assert len(structured(results(1.0), "base")) == len(nothing.records)
+    assert len(structured(results(2.0), "base")) == len(nothing.records)
 
 
 def test_fit_recovers_a_parameter(nothing: Problem) -> None:

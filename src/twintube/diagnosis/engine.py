@@ -15,7 +15,7 @@ from twintube.diagnosis.faults import Fault, force_averaging, read, scaled, unit
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.history import with_history
-from twintube.diagnosis.odd import odd_records
+from twintube.diagnosis.odd import STRANGER, odd_records
 from twintube.diagnosis.prepare import PreparedRecord, prepare
 from twintube.diagnosis.result import Diagnosis, Gain
 from twintube.diagnosis.rules import RULES
@@ -52,21 +52,30 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     problem, drift = zero_drift(problem)
     problem, bare = with_history(problem)
     problem = without_outliers(problem)
-    odd, problem = odd_records(problem)
-    folds, split_remarks = split(dataset.title, problem.records)
-    remarks += [*split_remarks, *notes, *drift, *([history_remark(bare)] if bare else [])]
+    remarks += [*notes, *drift, *([history_remark(bare)] if bare else [])]
     if turned is not None:
         recorded = recorded.with_records(
             [scaled(r, turned.factor, 1.0) if r.name in turned.records else r for r in recorded.records]
         )
-    selector = selector_of(problem, folds)
-    selection = selector.run(progress)
-    progress("fitting the model to all records")
-    faults = put_right([turned, wrong, smoothed, stepped], recorded, problem)
-    if odd is not None:
-        faults[odd] = excluded_gain(recorded, problem)
-    answered = answer(dataset, problem, selector, selection, signatures(dataset.records), faults)
-    return replace(answered, remarks=[*remarks, *answered.remarks], seconds=time.monotonic() - began, tolerance=tolerance)
+
+    def concluded(judged: Problem, odd: Fault | None = None) -> Diagnosis:
+        folds, split_remarks = split(dataset.title, judged.records)
+        selector = selector_of(judged, folds)
+        selection = selector.run(progress)
+        progress("fitting the model to all records")
+        faults = put_right(before, recorded, judged)
+        if odd is not None:
+            faults[odd] = excluded_gain(recorded, judged)
+        answered = answer(dataset, judged, selector, selection, signatures(dataset.records), faults)
+        return replace(answered, remarks=[*split_remarks, *remarks, *answered.remarks])
+
+    before = [fault for fault in (turned, wrong, smoothed, stepped) if fault is not None]
+    odd, others = odd_records(problem)
+    answered = concluded(problem) if odd is None or odd.effect == STRANGER else concluded(others, odd)
+    # Some records may differ because a cause acts in them alone, as foam does after a rest.
+    if odd is not None and odd.effect == STRANGER and len(answered.causes) == len(before):
+        answered = concluded(others, odd)
+    return replace(answered, seconds=time.monotonic() - began, tolerance=tolerance)
 
 
 def history_remark(bare: Sequence[str]) -> str:

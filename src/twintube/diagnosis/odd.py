@@ -9,6 +9,8 @@ from twintube.diagnosis.faults import Fault, unit_error
 from twintube.diagnosis.fit import STROKE_GAIN, Problem
 from twintube.diagnosis.rules import RULES
 
+STRANGER = "odd_record"
+
 
 def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     """The few records that the model contradicts while it explains all others, and the problem without them."""
@@ -76,4 +78,4 @@ def stranger(part: Problem, names: tuple[str, ...]) -> Fault | None:
     size = max(sizes)
     kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
     text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."
-    return Fault("odd_record", f"The {kind} {', '.join(names)}", text, size, "force_rmse_N", "N", names)
+    return Fault(STRANGER, f"The {kind} {', '.join(names)}", text, size, "force_rmse_N", "N", names)

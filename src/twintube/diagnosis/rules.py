@@ -192,7 +192,7 @@ class Rules:
     quiet: float = verdict(
         1.1, "1", "error of the base model over the noise floor, up to which nothing is missing", DEVELOPMENT
     )
-    explained: float = verdict(0.5, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
+    explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
     close: float = verdict(0.03, "1", "of the explainable misfit: candidates that differ by less are ambiguous", JUDGEMENT)
     alternatives: int = verdict(3, "", "most alternatives of an ambiguous verdict", JUDGEMENT)
     shows: float = verdict(0.3, "1", "of the base model's error: a signature of less is only mentioned", JUDGEMENT)
