@@ -14,7 +14,7 @@ from twintube.diagnosis.edges import with_edges, with_noise, without_outliers
 from twintube.diagnosis.faults import Fault, force_averaging, read, scaled, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
-from twintube.diagnosis.history import with_history
+from twintube.diagnosis.history import settled, with_history
 from twintube.diagnosis.odd import STRANGER, odd_records
 from twintube.diagnosis.prepare import PreparedRecord, prepare
 from twintube.diagnosis.result import Diagnosis, Gain
@@ -46,7 +46,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     recorded = problem = Problem(dataset.damper, records, tolerance=tolerance)
     wrong, problem = unit_error(problem)
     smoothed, problem, notes = force_averaging(dataset.records, problem)
-    problem = with_sampling(problem)
+    problem = with_sampling(settled(problem))
     recorded = recorded.with_usual(problem.usual)
     stepped, problem = zero_change(with_edges(with_noise(problem)))
     problem, drift = zero_drift(problem)
@@ -96,7 +96,7 @@ def selector_of(problem: Problem, folds: Sequence[Halves]) -> Selector:
 def known_gain(path: str | Path, causes: Sequence[str]) -> float:
     """Share of the explainable held-out error that goes away with the given causes, whatever a diagnosis would choose."""
     dataset, _ = read(path)
-    problem, _ = zero_drift(with_edges(with_noise(with_sampling(Problem(dataset.damper, prepare(dataset))))))
+    problem, _ = zero_drift(with_edges(with_noise(with_sampling(settled(Problem(dataset.damper, prepare(dataset)))))))
     selector = selector_of(problem, split(dataset.title, problem.records)[0])
     option = selector.start
     for name in causes:

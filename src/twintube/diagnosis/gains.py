@@ -23,7 +23,8 @@ def errors(records: Sequence[RecordResult]) -> dict[str, Errors]:
         force = float(np.sqrt(np.sum(weights * squares) / weights.sum()))
         models[name] = Errors(force, float(np.sqrt(np.mean((works / turns) ** 2))))
     noise = np.sqrt(floor(records) * np.sum(weights > 0) / weights.sum())
-    models["noise_floor"] = Errors(float(noise), 0.0)
+    least = min(float(noise), *(model.force_rmse_N for model in models.values()))  # equal but for rounding
+    models["noise_floor"] = Errors(least, 0.0)
     return models
 
 

@@ -18,8 +18,6 @@ def with_history(problem: Problem) -> tuple[Problem, list[str]]:
 
     Beyond that the names of these records.
     """
-    if any(sudden(record) for record in problem.records):
-        problem = problem.with_records([begun(record) if sudden(record) else record for record in problem.records])
     bare = [record.name for record in problem.records if unprepared(record)]
     if not bare:
         return problem, []
@@ -35,6 +33,13 @@ def with_history(problem: Problem) -> tuple[Problem, list[str]]:
     gained = [b - a for record, b, a in zip(problem.records, before, after, strict=True) if record.name in bare]
     clear = sum(gained) > RULES.history_gain * sum(problem.counts) and sum(x > 0 for x in gained) > len(gained) / 2
     return (uncertain(other, short), bare) if clear else (problem, [])
+
+
+def settled(problem: Problem) -> Problem:
+    """The problem without the first oscillation of the records that are sudden."""
+    if not any(sudden(record) for record in problem.records):
+        return problem
+    return problem.with_records([begun(record) if sudden(record) else record for record in problem.records])
 
 
 def uncertain(problem: Problem, short: Problem) -> Problem:

@@ -163,8 +163,12 @@ class Rules:
     least_share: float = selection(
         0.01, "1", "of the squared error of the held-out records, noise included, that a cause must take away", DEVELOPMENT
     )
-    clear_share: float = selection(
-        0.03, "1", "the like for other degradation parameters, and where the base model is right within noise", DEVELOPMENT
+    clear_share: float = selection(0.03, "1", "the like where the base model is right within noise", DEVELOPMENT)
+    loose_share: float = selection(
+        0.1,
+        "1",
+        "the like for other degradation parameters and for what is late: edges and sampling ask for a bit",
+        DEVELOPMENT,
     )
     sure: float = selection(
         0.9, "1", "interval by resampling the held-out records, in which the squared error must fall", STATISTICS

@@ -156,8 +156,11 @@ class Selector:
             return False  # noise, or a single record decides
         if self.levelled(before, after):
             return True
-        clear = after.names[-1:] == (RECALIBRATE,) or before.score <= RULES.right * self.count
-        small = after.total > (1 - (RULES.clear_share if clear else RULES.least_share)) * before.total
+        right = before.score <= RULES.right * self.count
+        share = RULES.clear_share if right else RULES.least_share
+        if after.names[-1] in (RECALIBRATE, *LATE):
+            share = RULES.loose_share
+        small = after.total > (1 - share) * before.total
         if gained <= RULES.worth * self.count or small or not self.surely(before, after):
             return False
         if before.names == self.sampling:
