@@ -28,16 +28,16 @@ class Rules:
 
     intervals_fast: int = records(48, "", "intervals per oscillation of the main block", NUMERICS)
     intervals_slow: int = records(24, "", "intervals of slower oscillations, which are not what is looked at", JUDGEMENT)
-    intervals_most: int = records(5000, "", "intervals of a record, beyond which an oscillation has ...", JUDGEMENT)
-    intervals_endurance: int = records(16, "", "... so many: an endurance run of hundreds", JUDGEMENT)
+    intervals_most: int = records(5000, "", "intervals of a record, beyond which an oscillation has ...", DEVELOPMENT)
+    intervals_endurance: int = records(16, "", "... so many: an endurance run of hundreds", DEVELOPMENT)
     intervals_ramp: int = records(240, "", "of a quasi-static record: friction reverses within tenths of a mm", JUDGEMENT)
     interval_drive: float = records(5e-3, "s", "interval of harmonic records without a full oscillation", JUDGEMENT)
-    reversal: float = records(0.005, "1", "of the range of the stroke, by which a random motion must turn", JUDGEMENT)
+    reversal: float = records(0.005, "1", "of the range of the stroke, by which a random motion must turn", DEVELOPMENT)
     intervals_least: int = records(3, "", "intervals between two reversals of a random motion", JUDGEMENT)
-    followed: float = records(
-        0.005, "1", "of the top speed, to which a random motion is followed between two samples", JUDGEMENT
+    followed: float = records(0.005, "1", "of the top speed, to which a motion is followed between two samples", DEVELOPMENT)
+    noise_followed: float = records(
+        3.0, "1", "standard deviations of the stroke's noise, which is not followed", DEVELOPMENT
     )
-    noise_followed: float = records(3.0, "1", "standard deviations of the stroke's noise, which is not followed", JUDGEMENT)
     halvings: int = records(8, "", "most halvings of its intervals for that", NUMERICS)
     block_factor: float = records(
         1.5, "1", "oscillations longer than this times the shortest are not the main block", JUDGEMENT
@@ -98,7 +98,9 @@ class Rules:
     open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
     open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", DEVELOPMENT)
     delays_tried: int = measurement(9, "", "delays up to that at which the search for the sampling begins", JUDGEMENT)
-    bends: float = measurement(0.5, "1", "of a bend of the force that a sample of a filtered force holds at most", JUDGEMENT)
+    bends: float = measurement(
+        0.5, "1", "of a bend of the force that a sample of a filtered force holds at most", DEVELOPMENT
+    )
     sampling_known: float = measurement(0.02, "1", "of that delay, to which it is sought", JUDGEMENT)
     sampling_rounds: int = measurement(4, "", "rounds in which records that differ lose weight", NUMERICS)
     open_motion: float = measurement(
@@ -106,12 +108,12 @@ class Rules:
     )
     open_filter: float = measurement(0.03, "1", "of a bend of the force, to which a filter is known", DEVELOPMENT)
     usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
-    order_least: int = measurement(6, "", "records in which a zero is seen to move from record to record", JUDGEMENT)
-    order_side: int = measurement(2, "", "records before and after a step of the zero at least", JUDGEMENT)
+    order_least: int = measurement(6, "", "records in which a zero is seen to move from record to record", DEVELOPMENT)
+    order_side: int = measurement(2, "", "records before and after a step of the zero at least", DEVELOPMENT)
     order_left: float = measurement(
-        0.15, "1", "of the squared means of the records that a moving zero leaves at most", JUDGEMENT
+        0.15, "1", "of the squared means of the records that a moving zero leaves at most", DEVELOPMENT
     )
-    order_state: float = measurement(0.5, "1", "the like in each state of filling", JUDGEMENT)
+    order_state: float = measurement(0.5, "1", "the like in each state of filling", DEVELOPMENT)
     least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
 
     model_error: float = fitting(4e-4, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)
@@ -135,15 +137,15 @@ class Rules:
         (0.1, 0.3, 0.6, 0.85, 0.96, 1.04, 1.2, 1.6, 2.5),
         "1",
         "of a parameter, to which an optimum is moved for a better",
-        JUDGEMENT,
+        DEVELOPMENT,
     )
-    moves: int = fitting(4, "", "most such moves", JUDGEMENT)
+    moves: int = fitting(4, "", "most such moves", DEVELOPMENT)
 
     start_records: int = starts(6, "", "records to fit that a search looks at, of all states and velocities", JUDGEMENT)
     joins: float = starts(0.02, "1", "of the squared error that a further strength of a cause must take away", DEVELOPMENT)
     shapes: int = starts(2, "", "lengths, times and powers that are sought, the first in the effect's file", JUDGEMENT)
     shares: tuple[float, ...] = starts(
-        (0.0007, 0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", JUDGEMENT
+        (0.0007, 0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", DEVELOPMENT
     )
     place: float = starts(0.9, "1", "of the largest stroke, at which the search for a place begins", JUDGEMENT)
     zero_range: float = starts(0.5, "1", "of the largest force: range of a zero that is a fault", JUDGEMENT)
@@ -197,7 +199,7 @@ class Rules:
         1.1, "1", "error of the base model over the noise floor, up to which nothing is missing", DEVELOPMENT
     )
     explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
-    close: float = verdict(0.03, "1", "of the explainable misfit: candidates that differ by less are ambiguous", JUDGEMENT)
+    close: float = verdict(0.03, "1", "of the explainable misfit: candidates that differ by less are ambiguous", DEVELOPMENT)
     alternatives: int = verdict(3, "", "most alternatives of an ambiguous verdict", JUDGEMENT)
     shows: float = verdict(0.3, "1", "of the base model's error: a signature of less is only mentioned", JUDGEMENT)
     at_bound: float = verdict(1e-3, "1", "of the range: nearer to its end the range decides, not the records", JUDGEMENT)
