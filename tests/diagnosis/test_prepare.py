@@ -9,8 +9,9 @@ from tests.diagnosis import small
 from twintube.arrays import Array
 from twintube.data import Record
 from twintube.diagnosis.edges import steps, with_edges, with_noise, without_outliers
-from twintube.diagnosis.prepare import PreparedRecord, kicks, prepared, thin
+from twintube.diagnosis.prepare import PreparedRecord, kicks, prepared
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.thinning import thin
 from twintube.fitting.intervals import impulse
 
 SIGMA = 4.0  # [N]

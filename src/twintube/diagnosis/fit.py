@@ -213,22 +213,24 @@ class Problem(SimulatedRecords):
         return self.spread(np.clip(expected, -most, most))
 
     def adjusted(self, values: Mapping[str, float], free: Sequence[Free]) -> dict[str, float]:
-        """The values with those of `free`, in which forces are linear, as they suit these records best.
+        """The values with those of `free`, in which forces are linear, as they suit most of these records best.
 
         They are of the measurement, not of the damper: what a cause explains shows beside them.
         """
         if not free:
             return dict(values)
+        values = {f.name: f.start for f in free} | dict(values)
         errors = self.residual(values)
         force, point = self.simulated(self.damping(values))
-        parts = {"force_offset": np.ones(len(point))} | self.parts_of_samples(force, point)
-        gains = {name: values.get("force_gain", 1.0) if name in SAMPLING else 1.0 for name in parts}
+        gain = values.get("force_gain", 1.0)
+        parts: dict[str, Array] = {"force_offset": np.ones(len(point))}
+        parts |= {name: gain * part for name, part in self.parts_of_samples(force, point).items()}
         share = self.spread(1.0 / np.sqrt(np.maximum(1.0, self.misfits(errors))))
-        rows = np.column_stack([self.white(gains[f.name] * parts[f.name] * self.weight) * share for f in free])
-        now = np.array([values.get(f.name, f.start) for f in free])
+        rows = np.column_stack([self.white(parts[f.name] * self.weight) * share for f in free])
+        now = np.array([values[f.name] for f in free])
         low, high = (np.array([getattr(f, name) for f in free]) for name in ("low", "high"))
-        less = lsq_linear(rows, -errors * share, (np.minimum(low - now, -1e-12), np.maximum(high - now, 1e-12))).x
-        return {**values, **{f.name: float(x) for f, x in zip(free, now + less, strict=True)}}
+        more = lsq_linear(rows, -errors * share, (np.minimum(low - now, -1e-12), np.maximum(high - now, 1e-12))).x
+        return values | {f.name: float(x) for f, x in zip(free, now + more, strict=True)}
 
     def spread(self, values: Array) -> Array:
         """A value (r,) of each record for all of its samples (n,)."""

@@ -7,7 +7,6 @@ this is known a fast step of the force looks like noise, like a record that is o
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import lsq_linear
 
 from twintube.diagnosis.candidates import nuisances
 from twintube.diagnosis.fit import DELAY, Free, Problem
@@ -39,16 +38,8 @@ def filtered(problem: Problem, point: dict[str, float], free: Sequence[Free]) ->
 
     Misfits count by their logarithms, so that records of which the model knows nothing do not decide.
     """
-    force, seen = problem.simulated(problem.damping(point))
-    parts = {"force_offset": np.ones(len(seen)), **problem.parts_of_samples(force, seen)}
-    rows = np.column_stack([parts[f.name] * problem.weight for f in free])
-    wanted = (problem.measured - seen) * problem.weight
-    bounds = np.array([f.low for f in free]), np.array([f.high for f in free])
-    x = np.array([f.start for f in free])
-    misfit = problem.misfits(wanted)
+    values = point
     for _ in range(RULES.sampling_rounds):
-        share = problem.spread(1.0 / np.sqrt(RULES.least_misfit + misfit))
-        x = lsq_linear(rows * share[:, None], wanted * share, bounds).x
-        misfit = problem.misfits(wanted - rows @ x)
-    cost = float(np.average(np.log(RULES.least_misfit + misfit), weights=problem.counts))
-    return cost, point | {f.name: float(value) for f, value in zip(free, x, strict=True)}
+        values = problem.adjusted(values, free)
+    misfit = problem.misfits(problem.residual(values))
+    return float(np.average(np.log(RULES.least_misfit + misfit), weights=problem.counts)), values

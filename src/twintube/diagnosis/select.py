@@ -90,7 +90,7 @@ class Selector:
     """
 
     def __init__(self, whole: Problem, candidates: Sequence[Candidate], folds: Sequence[Fold]) -> None:
-        self.start = fitted(folds, (), [self.usual(whole, ())] * len(folds))
+        self.start = fitted(folds, (), [self.of_measurement(whole, ())] * len(folds))
         first = self.start.fits[0].values
         self.whole = whole.balanced(whole.misfits(whole.residual(first)))
         pairs = zip(folds, self.start.fits, strict=True)
@@ -113,7 +113,7 @@ class Selector:
 
     def free(self, names: Sequence[str], values: Mapping[str, float]) -> list[Free]:
         """The free parameters of a model, from the values where they are known."""
-        wanted = {f.name: f for f in self.usual(self.whole, names)}
+        wanted = {f.name: f for f in self.of_measurement(self.whole, names)}
         for name in names:
             added = base(self.whole) if name == RECALIBRATE else self.candidates[name].joined(values)
             if name in self.sampling:
@@ -124,7 +124,7 @@ class Selector:
         return [replace(f, start=min(max(values.get(name, f.start), f.low), f.high)) for name, f in wanted.items()]
 
     @staticmethod
-    def usual(problem: Problem, names: Sequence[str]) -> list[Free]:
+    def of_measurement(problem: Problem, names: Sequence[str]) -> list[Free]:
         """What of the measurement is free in a model: the delay, known from all records, beside what is late itself."""
         return [f for f in nuisances(problem) if f.name != DELAY or any(name in LATE for name in names)]
 
