@@ -1,4 +1,4 @@
-"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, identify, diagnosis, detection, challenge."""
+"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, identify, diagnosis, detection, challenge, calibrate."""
 
 import json
 import os
@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from benchmarks.calibrate import bench_calibrate
 from benchmarks.challenge import bench_challenge
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
@@ -26,7 +27,7 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,
     "detection": bench_detection,
 }
-NAMES = ", ".join((*BENCHMARKS, *SEEDED, "challenge"))
+NAMES = ", ".join((*BENCHMARKS, *SEEDED, "challenge", "calibrate"))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
@@ -47,13 +48,18 @@ def main(
 
     diagnosis and detection measure hit rates on hidden causes and take hours with 10 seeds.
     """
-    if name not in (*BENCHMARKS, *SEEDED, "challenge"):
+    if name not in (*BENCHMARKS, *SEEDED, "challenge", "calibrate"):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
+        raise typer.Exit(2)
+    if name == "calibrate" and (keep is None or not keep.exists()):
+        typer.echo(f"error: keep = {keep}: calibrate needs a file that the challenge has kept", err=True)
         raise typer.Exit(2)
     compiled.module()
     figures: dict[str, Any]
     if name == "challenge":
         figures = bench_challenge(seeds, keep, first_seed, causes, plot)
+    elif name == "calibrate" and keep is not None:
+        figures = dict(bench_calibrate(keep))
     else:
         figures = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds, keep)
     typer.echo(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}")

@@ -8,7 +8,7 @@ import pytest
 from tests.diagnosis import small
 from twintube.arrays import Array
 from twintube.data import Record
-from twintube.diagnosis.edges import steps, with_edges, with_noise, without_outliers
+from twintube.diagnosis.edges import alone, with_edges, with_noise, without_outliers
 from twintube.diagnosis.prepare import PreparedRecord, kicks, prepared
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.thinning import thin
@@ -90,22 +90,13 @@ def test_a_coarsely_sampled_sine_has_no_kicks() -> None:
     assert not driven(-0.045 * np.cos(2 * np.pi * time), time)[2].any()
 
 
-def test_a_step_of_the_simulated_force_is_open_by_a_share_of_a_sample_and_a_smooth_force_is_not(
-    runs: list[small.Run],
-) -> None:
-    ready = prepared(small.record(runs[0]), 0.1)
-    ready = replace(ready, samples=np.full(len(ready.time), 4))
-    smooth = 500.0 * np.sin(2 * np.pi * ready.time)
-    number = int(np.argmin(np.abs(ready.time - 2.0)))  # where the smooth force changes most
-    jumped = smooth + 800.0 * (np.arange(len(smooth)) >= number)
-    before, after = steps(ready, smooth), steps(ready, jumped)
-    assert np.all(before < 0.01 * 500.0)
-    new = np.flatnonzero(after > 10 * before.max())
-    assert set(new) <= {number - 1, number, number + 1}
-    assert after[number] == pytest.approx(RULES.open_step * 800.0 / 4, rel=0.15)
-    assert steps(replace(ready, samples=np.ones(len(smooth), dtype=np.int64)), jumped)[number] == pytest.approx(
-        4 * after[number]
-    )
+def test_what_another_moment_changes_is_open_at_a_step_and_not_on_a_slope() -> None:
+    slope = 50.0 * np.abs(np.sin(np.linspace(0.0, 20.0, 400)))
+    assert np.all(alone(slope) < 0.15 * slope.max())
+    jumped = slope.copy()
+    jumped[200:202] += 800.0  # a step lies in two intervals
+    assert alone(jumped)[200:202] == pytest.approx(jumped[200:202] - slope[198], abs=15.0)
+    assert np.array_equal(np.flatnonzero(alone(jumped) > 100.0), [200, 201])
 
 
 def test_a_spike_is_left_out_and_a_model_that_is_wrong_everywhere_is_not(runs: list[small.Run]) -> None:

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from twintube.diagnosis.candidates import Candidate
-from twintube.diagnosis.confidence import probabilities
-from twintube.diagnosis.faults import PUT_RIGHT, Fault
+from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.select import RECALIBRATE, Option, Selection
@@ -178,36 +177,3 @@ def test_faults_that_were_put_right_come_first_and_what_is_left_is_said() -> Non
 def test_several_causes_are_listed_as_several() -> None:
     text = sentence(judged(selection(option("valve_wear", "fluid_lag", score=0.0))), KNOWN, [])
     assert text.startswith("Two causes: (1) change of the F-v curve; (2) lag of the fluid force.")
-
-
-@pytest.mark.parametrize(
-    ("names", "score", "faults", "first"),
-    [
-        ((), 0.0, [], "none"),
-        ((), SCORE, [], "unknown"),
-        (("valve_wear",), 0.0, [], "valve_wear"),
-        (("force_gain",), 0.0, [], "force_gain"),
-        ((RECALIBRATE,), 0.0, [], RECALIBRATE),
-        ((), 0.0, [TURNED], "sign_flip"),
-    ],
-)
-def test_probabilities_sum_to_one_and_the_verdict_has_the_largest(
-    names: tuple[str, ...], score: float, faults: list[Fault], first: str
-) -> None:
-    # Without a cause the first candidate that was tried takes nothing away.
-    start = SCORE if names or score else 0.0
-    chosen = selection(option(*names, score=score), start=start)
-    forces = (10.0, 10.0, 10.0) if not names and not score else (100.0, 20.0, 10.0)
-    shares = probabilities(judged(chosen, faults=faults, forces=forces), chosen, KNOWN, faults)
-    assert set(shares) == {*KNOWN, *PUT_RIGHT, RECALIBRATE, "none", "unknown"}
-    assert sum(shares.values()) == pytest.approx(1.0, abs=1e-12)
-    assert all(0.0 <= share <= 1.0 for share in shares.values())
-    assert next(iter(shares)) == first
-    assert list(shares.values()) == sorted(shares.values(), reverse=True)
-
-
-def test_a_rival_gets_more_than_other_candidates_and_less_than_the_named() -> None:
-    final = option("valve_wear", score=0.0)
-    chosen = selection(final, option("fluid_lag", score=5.0), option("force_gain", score=0.9 * SCORE))
-    shares = probabilities(judged(chosen), chosen, KNOWN, [])
-    assert shares["valve_wear"] > shares["fluid_lag"] > 10 * shares["force_gain"]

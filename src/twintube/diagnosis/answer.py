@@ -9,9 +9,9 @@ from twintube.core import effects
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset
 from twintube.diagnosis.candidates import Candidate
-from twintube.diagnosis.confidence import probabilities
+from twintube.diagnosis.confidence import evidence, probabilities
 from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.fit import Fit, Problem
+from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, errors, gains, removed, whole, worst
 from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, Gain, RecordResult, Signature, Tried
 from twintube.diagnosis.rules import RULES
@@ -42,9 +42,12 @@ def answer(
     known = selector.candidates
     shares = gains(fitted), gains(held)
     gain = Gain(whole(shares[0]), whole(shares[1]), bootstrap(shares[1]), worst(shares[1]))
-    estimates = {name: estimated(known[name], extended) for name in selection.chosen if name != RECALIBRATE}
+    estimates = {name: estimated(selector.whole, known[name], extended) for name in selection.chosen if name != RECALIBRATE}
     judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults))
     residuals = maps(records)
+    attempts = tried(selector, selection)
+    named = [*judgement.causes, *(fault.effect for fault in faults)]
+    probable = evidence(judgement.verdict, named, [o.names[-1] for o in judgement.rivals], attempts)
     left = [describe(residuals, left=True)] if judgement.remaining == "unexplained" else []
     rivals = [(o, known[o.names[-1]]) for o in judgement.rivals]
     return Diagnosis(
@@ -62,13 +65,13 @@ def answer(
         where=describe(residuals),
         signature="" if faults else "; ".join([signature.text for signature in seen] + left),
         maps=residuals,
-        tried=tried(selector, selection),
+        tried=attempts,
         records=records,
         base=dataset.damper,
         recalibrated=damper_of(dataset.damper, refitted[1], [RECALIBRATE], {}),
         extended=damper_of(dataset.damper, extended, judgement.kept, known),
         next_measurements=[apart(c) for _, c in rivals],
-        probabilities=probabilities(judgement, selection, known, list(faults)),
+        probabilities=probabilities(probable, known),
         structure={model: structured(records, model) for model in ("base", "recalibrated", "extended")},
         remarks=["faults were put right for everything shown here; their gain is relative to the force"] if faults else [],
     )
@@ -113,7 +116,7 @@ def joined(first: RecordResult, second: RecordResult) -> RecordResult:
     return replace(first, record=replace(first.record, judged=first.record.judged | own), **arrays)
 
 
-def estimated(candidate: Candidate, fit: Fit) -> dict[str, Estimate]:
+def estimated(problem: Problem, candidate: Candidate, fit: Fit) -> dict[str, Estimate]:
     """The parameters of a chosen cause with their intervals."""
     values = {}
     for f in candidate.joined(fit.values):
@@ -121,8 +124,24 @@ def estimated(candidate: Candidate, fit: Fit) -> dict[str, Estimate]:
         spread = RULES.interval * float(np.sqrt(max(0.0, fit.covariance[at, at])))
         value = fit.values[f.name]
         low, high = max(f.low, value - spread), min(f.high, value + spread)
+        if f.neutral is not None and low <= f.neutral <= high:
+            near = RULES.interval * abs(value - f.neutral) / max(needed(problem, fit, f), 1e-9)
+            low, high = (max(low, value - near), high) if value > f.neutral else (low, min(high, value + near))
         values[f.name] = Estimate(value, low, high, candidate.units[f.name], (f.low, f.high), f.start)
     return values
+
+
+def needed(problem: Problem, fit: Fit, strength: Free) -> float:
+    """By how many standard deviations a strength is off its neutral value: the root of the likelihood ratio.
+
+    Where a strength and an onset trade off, the curvature at the optimum does not know that without the strength the
+    records are not explained.
+    """
+    without = [replace(g, start=fit.values[g.name]) for g in fit.free if g.name != strength.name]
+    neutral = problem.fit(without).values if without else {}
+    costs = [float(np.sum(problem.shared(values) ** 2)) for values in (neutral, fit.values)]
+    scatter = max(1.0, costs[1] / max(1, int(problem.counts.sum())))
+    return float(np.sqrt(max(0.0, costs[0] - costs[1]) / scatter))
 
 
 def faulty(fault: Fault, gain: Gain) -> Cause:

@@ -23,12 +23,14 @@ FAULT_TITLES = {
 }
 
 
-# All of them make the force late: a second of them mends the formulation of the first.
+# All of them make the force late.
 LATE = (
     *(name for name, text in sources().items() if re.search(rf"^def {name}_(force|transition)\(", text, re.M)),
     DELAY,
     CLOCK,
 )
+FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
+ALIKE = (LATE, FRICTION)  # of each a second only mends the formulation of the first
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,8 @@ import numpy as np
 from scipy.interpolate import PPoly, make_interp_spline
 
 from twintube.arrays import Array
-from twintube.diagnosis.fit import SAMPLING, STROKE_GAIN, Problem
+from twintube.diagnosis.candidates import period
+from twintube.diagnosis.fit import DELAY, SAMPLING, STROKE_GAIN, Problem
 from twintube.diagnosis.prepare import SCATTER, PreparedRecord, noise
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.simulation import MARGIN
@@ -28,11 +29,12 @@ def with_edges(problem: Problem) -> Problem:
     changes += [{"v_foam": s * problem.given.parameters.v_foam} for s in (1.0, 2 * MARGIN - 1)]
     others += [problem.simulated(problem.damping(change))[1] for change in changes]
     several = np.sqrt(sum(((other - base) ** 2 for other in others), np.zeros(len(base))) / 2)
+    late = moved_in_time(problem, RULES.open_step * period(problem))
     motion = RULES.open_motion * np.abs(between_samples(problem).simulate(problem.damping({}))[1] - base)
     filtered = min(1.0, sum(abs(problem.usual.get(name, 0.0)) for name in SAMPLING))
     records = []
     for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
-        sharp = np.hypot(steps(record, base[a:b]), motion[a:b])
+        sharp = np.hypot(alone(late[a:b]), motion[a:b])
         edges = np.sqrt(record.edges**2 + several[a:b] ** 2 + passed_on(record, base[a:b], sharp, filtered) ** 2)
         records.append(replace(record, edges=edges))
     return problem.with_records(records)
@@ -93,10 +95,13 @@ def passed_on(record: PreparedRecord, force: Array, edges: Array, filtered: floa
     return np.asarray(np.maximum(edges, filtered * np.hypot(0.5 * around, RULES.open_filter * bends)))
 
 
-def steps(record: PreparedRecord, force: Array) -> Array:
-    """Error bound [N] of the intervals (n,) next to a step of the simulated force (n,) [N], by at most a sample."""
-    change = np.abs(np.diff(force, prepend=force[0]))
-    around = np.maximum(np.roll(change, 1), np.roll(change, -1))
-    beyond = np.maximum(change - around, 0.0)
-    open_part = beyond * RULES.open_step / np.maximum(record.samples, 1)
-    return np.asarray(np.hypot(open_part, np.append(open_part[1:], 0.0)))
+def moved_in_time(problem: Problem, time: float) -> Array:
+    """What the simulated force (n,) [N] changes by where it is seen so much [s] earlier or later."""
+    usual = problem.usual.get(DELAY, 0.0)
+    early, late = (problem.simulated(problem.damping({DELAY: usual + s * time}))[1] for s in (-1, 1))
+    return np.asarray(np.abs(late - early) / 2.0)
+
+
+def alone(change: Array) -> Array:
+    """The part of changes (n,) that the intervals around do not have: a step lies in two intervals at most."""
+    return np.asarray(np.maximum(change - np.maximum(np.roll(change, 2), np.roll(change, -2)), 0.0))

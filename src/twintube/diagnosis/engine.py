@@ -11,7 +11,7 @@ from twintube.arrays import Array
 from twintube.diagnosis.answer import answer, predictions
 from twintube.diagnosis.candidates import candidates
 from twintube.diagnosis.edges import with_edges, with_noise, without_outliers
-from twintube.diagnosis.faults import Fault, force_averaging, read, scaled, unit_error
+from twintube.diagnosis.faults import Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.history import settled, with_history
@@ -43,7 +43,8 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     remarks = []
     if not any(record.intact for record in records):
         remarks.append("no record of the intact damper: what is wrong in every state looks like an effect of the oil loss")
-    recorded = problem = Problem(dataset.damper, records, tolerance=tolerance)
+    turned, problem = really_turned(turned, Problem(dataset.damper, records, tolerance=tolerance))
+    recorded = problem
     wrong, problem = unit_error(problem)
     smoothed, problem, notes = force_averaging(dataset.records, problem)
     problem = with_sampling(settled(problem))

@@ -70,10 +70,25 @@ def read(path: str | Path) -> tuple[LoadedDataset, Fault | None]:
 def scaled(record: PreparedRecord, force: float, stroke: float) -> PreparedRecord:
     """A record with its channels in other units."""
     return replace(
-        record, force=record.force * force, noise=record.noise * force, peak=record.peak * force,
-        path=PPoly(record.path.c * stroke, record.path.x), resolution=record.resolution * force,
+        record, force=record.force * force, noise=record.noise * abs(force), peak=record.peak * abs(force),
+        path=PPoly(record.path.c * stroke, record.path.x), resolution=record.resolution * abs(force),
         stroke=record.stroke * stroke, velocity=record.velocity * stroke, top_speed=record.top_speed * stroke,
     )  # fmt: skip
+
+
+def really_turned(turned: Fault | None, problem: Problem) -> tuple[Fault | None, Problem]:
+    """The fault if the model, too, explains the turned records far better, else none, and the records as they were.
+
+    A clock that is wrong makes the work of a long record negative as well.
+    """
+    if turned is None:
+        return None, problem
+    part = problem.with_records([r for r in problem.records if r.name in turned.records])
+    back = part.with_records([scaled(r, -1.0, 1.0) for r in part.records])
+    if relative(part) <= relative(back) - RULES.unit_gain:
+        return turned, problem
+    before = {record.name: record for record in back.records}
+    return None, problem.with_records([before.get(record.name, record) for record in problem.records])
 
 
 def unit_error(problem: Problem) -> tuple[Fault | None, Problem]:

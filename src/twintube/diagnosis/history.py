@@ -16,7 +16,7 @@ from twintube.rig.signals import PRECONDITIONING, V_PRECONDITIONING, approach, j
 def with_history(problem: Problem) -> tuple[Problem, list[str]]:
     """The problem with the plan's preconditioning before the records that do not hold it, where that explains them better.
 
-    Beyond that the names of these records.
+    What another history would change is open in either case. Beyond that the names of the records that got strokes.
     """
     bare = [record.name for record in problem.records if unprepared(record)]
     if not bare:
@@ -32,7 +32,7 @@ def with_history(problem: Problem) -> tuple[Problem, list[str]]:
     before, after = (logs(p) for p in (problem, other))
     gained = [b - a for record, b, a in zip(problem.records, before, after, strict=True) if record.name in bare]
     clear = sum(gained) > RULES.history_gain * sum(problem.counts) and sum(x > 0 for x in gained) > len(gained) / 2
-    return (uncertain(other, short), bare) if clear else (problem, [])
+    return (uncertain(other, short), bare) if clear else (uncertain(problem, other), [])
 
 
 def settled(problem: Problem) -> Problem:
@@ -42,14 +42,14 @@ def settled(problem: Problem) -> Problem:
     return problem.with_records([begun(record) if sudden(record) else record for record in problem.records])
 
 
-def uncertain(problem: Problem, short: Problem) -> Problem:
-    """The problem with what a shorter history changes in its forces as a further error: how long it was is not known."""
-    forces = [p.simulated(p.damping({}))[1] for p in (problem, short)]
+def uncertain(problem: Problem, other: Problem) -> Problem:
+    """The problem with what the history of the `other` one changes in its forces as a further error: it is not known."""
+    forces = [p.simulated(p.damping({}))[1] for p in (problem, other)]
     records = []
-    for record, end, other in zip(problem.records, problem.starts[1:], short.starts[1:], strict=True):
+    for record, end, last in zip(problem.records, problem.starts[1:], other.starts[1:], strict=True):
         count = int(np.sum(record.time >= record.begin))
         change = np.zeros(len(record.time))
-        change[-count:] = forces[0][end - count : end] - forces[1][other - count : other]
+        change[-count:] = forces[0][end - count : end] - forces[1][last - count : last]
         records.append(replace(record, edges=np.hypot(record.edges, change)))
     return problem.with_records(records)
 

@@ -28,7 +28,10 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
 
 
 def contradicting(problem: Problem) -> Sequence[int]:
-    """The numbers of the fewest records without which the model is right; none where it is right or that does not help."""
+    """The numbers of the fewest records without which the model is right; none where it is right or that does not help.
+
+    What is far beyond all others, as in another unit, needs no right model.
+    """
     misfit = problem.misfits(problem.residual({}))
     logs = problem.counts * np.log(np.maximum(RULES.least_misfit, misfit))
     order = np.argsort(-misfit)
@@ -36,7 +39,7 @@ def contradicting(problem: Problem) -> Sequence[int]:
         odd, rest = order[:count], order[count:]
         usual = max(1.0, float(misfit[rest].max()))
         right = logs[rest].sum() <= RULES.right * problem.counts[rest].sum()
-        if right and misfit[odd].min() >= RULES.odd * usual:
+        if misfit[odd].min() >= (RULES.odd if right else RULES.odd_far) * usual:
             return sorted(odd.tolist())
     return []
 

@@ -6,7 +6,17 @@ confirm it.
 
 from dataclasses import dataclass
 
-from twintube.fitting.rule import DEVELOPMENT, JUDGEMENT, METHOD, NOT_RECORDED, NUMERICS, STATISTICS, TRIALS, Section
+from twintube.fitting.rule import (
+    DEVELOPMENT,
+    JUDGEMENT,
+    LIKELIHOOD,
+    METHOD,
+    NOT_RECORDED,
+    NUMERICS,
+    STATISTICS,
+    TRIALS,
+    Section,
+)
 
 records = Section("Records")
 measurement = Section("What every measurement has")
@@ -77,6 +87,7 @@ class Rules:
     slow_share: float = records(0.2, "1", "of the top speed: slower is preconditioning", JUDGEMENT)
     slow_way: float = records(2.0, "1", "of the range of the stroke that preconditioning goes at least", JUDGEMENT)
     odd: float = records(4.0, "1", "times the largest misfit of all others, at which a record does not belong", DEVELOPMENT)
+    odd_far: float = records(1000.0, "1", "the like where the others are not explained within noise", DEVELOPMENT)
     odd_share: float = records(1 / 3, "1", "of the records that may contradict the others", JUDGEMENT)
     odd_force: float = records(
         0.03, "1", "of the largest force by which a record of something else differs at least", DEVELOPMENT
@@ -93,7 +104,7 @@ class Rules:
         "samples of delay that sampling leaves open: 0.5 of a mean, 0.56 of a filter at 0.4 of its rate",
         DEVELOPMENT,
     )
-    open_step: float = measurement(0.1, "1", "of a sample, by which a step of the force is known no better", DEVELOPMENT)
+    open_step: float = measurement(0.05, "1", "of a sample, by which a step of the force is known no better", DEVELOPMENT)
     warm: float = measurement(3.0, "K", "change of temperature that shows in forces", JUDGEMENT)
     open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
     open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", DEVELOPMENT)
@@ -106,7 +117,7 @@ class Rules:
     open_motion: float = measurement(
         2.0, "1", "of what another spline through the stroke changes in the force: error between samples", DEVELOPMENT
     )
-    open_filter: float = measurement(0.03, "1", "of a bend of the force, to which a filter is known", DEVELOPMENT)
+    open_filter: float = measurement(0.05, "1", "of a bend of the force, to which a filter is known", DEVELOPMENT)
     usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
     order_least: int = measurement(6, "", "records in which a zero is seen to move from record to record", DEVELOPMENT)
     order_side: int = measurement(2, "", "records before and after a step of the zero at least", DEVELOPMENT)
@@ -184,6 +195,10 @@ class Rules:
     second_share: float = selection(
         0.1, "1", "of the whole squared error beyond noise, which a further cause must explain", DEVELOPMENT
     )
+    little_share: float = selection(0.02, "1", "of it, below which no further cause is sought ...", DEVELOPMENT)
+    rest_share: float = selection(
+        0.75, "1", "... and of what is left, which a smaller further cause must explain", DEVELOPMENT
+    )
     near_best: float = selection(0.75, "1", "of the best gain, from which a third less squared error decides", TRIALS)
     promise: float = selection(
         0.005, "1", "of the squared error that the start of a candidate takes away, for it to be fitted", DEVELOPMENT
@@ -200,6 +215,9 @@ class Rules:
     )
     explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
     close: float = verdict(0.03, "1", "of the explainable misfit: candidates that differ by less are ambiguous", DEVELOPMENT)
+    law_apart: float = verdict(
+        0.25, "1", "the like of the misfit that a single cause leaves, where it leaves more than noise", DEVELOPMENT
+    )
     alternatives: int = verdict(3, "", "most alternatives of an ambiguous verdict", JUDGEMENT)
     shows: float = verdict(0.3, "1", "of the base model's error: a signature of less is only mentioned", JUDGEMENT)
     at_bound: float = verdict(1e-3, "1", "of the range: nearer to its end the range decides, not the records", JUDGEMENT)
@@ -209,13 +227,15 @@ class Rules:
     resamples: int = verdict(2000, "", "of the records, for the intervals of gains", JUDGEMENT)
     worst_share: float = verdict(0.01, "1", "of the explainable error that a record must hold to be the worst", JUDGEMENT)
 
-    logit_share: float = confidence(6.0, "1", "per share of the log error that a candidate removes", JUDGEMENT)
-    logit_named: float = confidence(6.0, "1", "of what the verdict names", JUDGEMENT)
-    logit_rival: float = confidence(5.0, "1", "of an alternative of an ambiguous verdict", JUDGEMENT)
-    logit_none: float = confidence(2.0, "1", "of `none`", JUDGEMENT)
-    logit_said: float = confidence(6.0, "1", "of `none` and of `unknown` where that is the verdict", JUDGEMENT)
-    logit_unknown: float = confidence(2.0, "1", "of a cause outside the catalogue", JUDGEMENT)
-    logit_left: float = confidence(4.0, "1", "per share of the log error that the best candidate leaves", JUDGEMENT)
+    logit_share: float = confidence(2.6, "1", "per share of the error that a candidate removes", LIKELIHOOD)
+    logit_named: float = confidence(4.1, "1", "of what the verdict names", LIKELIHOOD)
+    logit_rival: float = confidence(2.3, "1", "of each of several that an ambiguous verdict does not tell apart", LIKELIHOOD)
+    logit_near: float = confidence(3.3, "1", "of what explains most, but too little to be named", LIKELIHOOD)
+    logit_none: float = confidence(1.9, "1", "of `none`", LIKELIHOOD)
+    logit_none_said: float = confidence(1.9, "1", "of `none` where that is the verdict", LIKELIHOOD)
+    logit_unknown: float = confidence(1.45, "1", "of a cause outside the catalogue", LIKELIHOOD)
+    logit_left: float = confidence(0.8, "1", "per share of the error that the best candidate leaves", LIKELIHOOD)
+    logit_unexplained: float = confidence(0.9, "1", "of `unknown` where the verdict is `unexplained`", LIKELIHOOD)
 
     unit_gain: float = units(1.5, "1", "log-misfit per sample: an error twice as small is not a calibration", JUDGEMENT)
 

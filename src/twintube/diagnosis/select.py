@@ -12,7 +12,7 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import LATE, Candidate, base, best_start, nuisances
+from twintube.diagnosis.candidates import ALIKE, LATE, Candidate, base, best_start, nuisances
 from twintube.diagnosis.fit import DELAY, LINEAR, MEASUREMENT, Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, removed
 from twintube.diagnosis.rules import RULES
@@ -165,9 +165,14 @@ class Selector:
             return False
         if before.names == self.sampling:
             return True
-        # Many records a little better and some far worse is a formulation, not a second cause.
-        if before.total - after.total < RULES.second_share * self.excess(self.start):
+        # Many records a little better and some far worse is a formulation, not a second cause. So is a small part of the
+        # error of which another cause explains some.
+        less, whole = before.total - after.total, self.excess(self.start)
+        rest = less >= RULES.rest_share * self.excess(before) and less >= RULES.little_share * whole
+        if less < RULES.second_share * whole and not rest:
             return False
+        if rest:
+            return True
         left = removed(before.score, after.score, self.count)
         much = left >= RULES.half and gained >= RULES.second_share * self.start.score
         return (much and after.total <= before.total) or after.total <= (1 - RULES.next_share) * before.total
@@ -178,7 +183,7 @@ class Selector:
 
     def enough(self, option: Option) -> bool:
         """Whether what is left is too little to hold a further cause."""
-        little = self.excess(option) < RULES.second_share * self.excess(self.start)
+        little = self.excess(option) < RULES.little_share * self.excess(self.start)
         return (option.score <= RULES.right * self.count or little) and not self.uneven(option)
 
     def surely(self, before: Option, after: Option) -> bool:
@@ -278,7 +283,8 @@ class Selector:
 
     def alike(self, name: str, names: Sequence[str]) -> bool:
         """Whether a candidate would only mend the formulation of a chosen cause."""
-        return name in LATE and any(other in LATE for other in names if other not in self.sampling)
+        causes = [other for other in names if other not in self.sampling]
+        return any(name in group and any(other in group for other in causes) for group in ALIKE)
 
     def exchanged(self, current: Option, progress: Callable[[str], None]) -> Option:
         """With each of several causes exchanged for another where that is better: the first was chosen alone."""

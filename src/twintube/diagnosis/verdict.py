@@ -51,7 +51,10 @@ def judge(
     doubts = {name: doubt for name in causes if (doubt := doubtful(candidates[name], estimates[name]))}
     proven = gain.heldout > 0.0 and gain.heldout_interval[0] > 0.0 and extended < base and base > floor
     enough = gain.heldout >= RULES.explained or right
-    close = rivals(selection)
+    if base <= RULES.quiet * floor:
+        # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained.
+        enough = selection.final.score <= (1 - RULES.half) * selection.start.score
+    close = rivals(selection, extended > RULES.quiet * floor)
     solved = bool(selection.chosen) and proven and enough and not doubts
     if outside and not (solved and extended <= RULES.quiet * floor):
         remaining = "unexplained"
@@ -89,12 +92,17 @@ def doubtful(candidate: Candidate, values: Mapping[str, Estimate]) -> str:
     return f"its strength is {ends[0]}" if ends else ""
 
 
-def rivals(selection: Selection) -> list[Option]:
-    """Options of the first round that are as good as the chosen candidate."""
+def rivals(selection: Selection, left: bool) -> list[Option]:
+    """Options of the first round that are as good as the chosen candidate; `left` says that more than noise is left.
+
+    A law that leaves much may be that of another cause, which leaves little more.
+    """
     best, *others = selection.rounds[0]
     if best.names[-1] == RECALIBRATE or not selection.chosen:
         return []
     margin = max(selection.limit, RULES.close * max(selection.start.score - best.score, 0.0))
+    if left and len(selection.chosen) == 1:
+        margin = max(margin, RULES.law_apart * best.score)
     others = [o for o in others if o.names[-1] not in (RECALIBRATE, *selection.neutral)]
     near = [o for o in others if 0.0 <= o.score - best.score <= margin]
     return near[: RULES.alternatives]

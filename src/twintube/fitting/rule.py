@@ -12,6 +12,7 @@ METHOD = "follows from the method"
 NUMERICS = "numerics"
 TRIALS = "blind_trials, seeds 100 to 109"
 DEVELOPMENT = "foreign datasets and challenge, development seeds"
+LIKELIHOOD = "maximum likelihood, challenge, development seeds"
 JUDGEMENT = "judgement"
 NOT_RECORDED = "not recorded"
 
