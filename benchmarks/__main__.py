@@ -1,4 +1,4 @@
-"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, identify, diagnosis, detection, challenge, calibrate."""
+"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, car, identify, diagnosis and its relatives."""
 
 import json
 import os
@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from benchmarks.calibrate import bench_calibrate
+from benchmarks.car import bench_car
 from benchmarks.challenge import bench_challenge
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
@@ -21,6 +22,7 @@ BENCHMARKS = {
     "kernel": bench_kernel,
     "fmu_step": bench_fmu_step,
     "quarter_car": bench_quarter_car,
+    "car": bench_car,
     "identify": bench_identify,
 }
 SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {

@@ -164,7 +164,7 @@ def test_ride_says_when_the_damping_is_lost(tmp_path: Path) -> None:
     [
         (["--road-class", "F"], "error: --road-class F: must be one of A, B, C, D, E"),
         (["--closure", "x"], "error: --closure x: must be one of letter, return"),
-        (["--car", "x"], "error: unknown car x: neither a file nor one of passat_b8"),
+        (["--car", "x"], "error: unknown car x: neither a file nor one of escort, passat_b8"),
         (["--oil-level", "2"], "error: SA8: oil_level = 2: must be a number from 0 to 1"),
     ],
 )

@@ -308,8 +308,7 @@ def test_the_answer_is_alike_on_page_and_terminal_and_in_json(pages):
     assert amount(held["noise_floor"]["force_rmse_N"], "N") in label and "95 %" in label
     assert f"{value}: {label}" in lines(d)
     assert confidence(d) == (
-        "Very likely (93 %, not calibrated); next: compressible oil and late check valves (6 %), "
-        "oil leaks past the rod seal (1 %)"
+        "Very likely (93 %); next: compressible oil and late check valves (6 %), oil leaks past the rod seal (1 %)"
     )
 
 

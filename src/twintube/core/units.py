@@ -22,6 +22,14 @@ UNITS: dict[str, tuple[str, dict[str, str]]] = {
     "K": ("TemperatureDifference", {"K": "1"}),
     "1/K": ("RelativeChangePerTemperature", {"K": "-1"}),
     "J": ("Energy", {"kg": "1", "m": "2", "s": "-2"}),
+    "rad": ("Angle", {"rad": "1"}),
+    "rad/s": ("AngularVelocity", {"rad": "1", "s": "-1"}),
+    "rad/N": ("AngularCompliance", {"rad": "1", "kg": "-1", "m": "-1", "s": "2"}),
+    "m/s2": ("Acceleration", {"m": "1", "s": "-2"}),
+    "kg/m": ("MassPerLength", {"kg": "1", "m": "-1"}),
+    "kg.m2": ("MomentOfInertia", {"kg": "1", "m": "2"}),
+    "Pa": ("Pressure", {"kg": "1", "m": "-1", "s": "-2"}),
+    "Pa/s": ("PressureRate", {"kg": "1", "m": "-1", "s": "-3"}),
 }
 
 # What importers may show instead: the unit's name, and how many of it make the SI unit.

@@ -12,6 +12,7 @@ from typing import Final
 
 from twintube.core.effects import EFFECTS
 from twintube.dampers import Damper, ParameterError
+from twintube.dampers.variants import scalar_factor
 
 HALF_LIFE_RETURN: Final = (6.1, 10.2)  # [s] until half of the gas is dissolved again, Section 3.2
 HALF_LIFE_RELEASE: Final = (3.6, 7.6)  # [s] until half of the dissolved gas is released, Section 3.2
@@ -57,6 +58,7 @@ CLOSURES: Final = {item.name: item for item in (
 )}  # fmt: skip
 LETTER: Final = "letter"
 DEFAULT: Final = "return"
+SCALAR: Final = "scalar factor"  # variant 1 of Section 3.4: no closure, the usual shortcut
 GAS = ("gas_redissolution", "gas_exhaustion", "oil_displacement")  # the effects that a closure is made of
 OWN = tuple(name for effect in GAS for name in EFFECTS[effect].strength)
 
@@ -80,3 +82,10 @@ def acting(damper: Damper) -> str:
         if all(math.isclose(values[name], item.parameters.get(name, 0.0)) for name in OWN):
             return f"{item.name}: {item.says}"
     return "its own: " + ", ".join(f"{name} = {value:g}" for name, value in values.items() if value != 0.0)
+
+
+def condition(damper: Damper, oil_level: float, gas_preload: int, name: str = DEFAULT) -> Damper:
+    """The damper at an oil level with a closure, or with the oil level as a factor of the fluid force (SCALAR)."""
+    if name == SCALAR:
+        return damper.with_(gas_preload=0, **scalar_factor(oil_level))
+    return closed(damper.with_(oil_level=oil_level, gas_preload=gas_preload), name)

@@ -10,8 +10,7 @@ from typing import Any
 from tqdm import tqdm
 
 from twintube.dampers import Damper, ParameterError
-from twintube.dampers.closures import CLOSURES, DEFAULT, closed
-from twintube.dampers.variants import scalar_factor
+from twintube.dampers.closures import CLOSURES, DEFAULT, condition
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import Drive
 from twintube.vehicle.ride import Track, measures, ride, track
@@ -28,7 +27,6 @@ NAMES = {  # of the car's values, for pictures
     "ratio": "motion ratio",
     "travel": "bump travel [m]",
 }
-SCALAR = "scalar factor"  # variant 1 of Section 3.4
 
 
 @dataclass(frozen=True)
@@ -52,13 +50,6 @@ def changed(damper: Damper, setting: Setting) -> Damper:
     if setting.dead_length != 0.0:
         values["dead_length"] = p.dead_length + setting.dead_length
     return damper.with_(**values)
-
-
-def condition(damper: Damper, oil_level: float, gas_preload: int, closure: str) -> Damper:
-    """The damper at an oil level with a closure, or with the oil level as a factor of the fluid force (variant 1)."""
-    if closure == SCALAR:
-        return damper.with_(gas_preload=0, **scalar_factor(oil_level))
-    return closed(damper.with_(oil_level=oil_level, gas_preload=gas_preload), closure)
 
 
 @lru_cache(maxsize=64)

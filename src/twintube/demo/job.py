@@ -13,8 +13,8 @@ from tqdm import tqdm
 from twintube.core import effects
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
-from twintube.dampers.closures import CLOSURES, DEFAULT, LETTER, acting, closed
-from twintube.demo.bands import SCALAR, SPEEDS, Rides, Setting, bands, everything
+from twintube.dampers.closures import CLOSURES, DEFAULT, LETTER, SCALAR, acting, closed
+from twintube.demo.bands import SPEEDS, Rides, Setting, bands, everything
 from twintube.demo.moments import SPAN, Moment, moments
 from twintube.demo.ride import Ride, RideCase, ride
 from twintube.demo.words import sentences

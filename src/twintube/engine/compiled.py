@@ -22,7 +22,15 @@ from twintube.engine.code_cache import CodeCache
 from twintube.parsing import parsed
 
 PACKAGE = Path(__file__).parents[1]
-LOOPS = ("engine/loops.py", "vehicle/quarter_car.py", "vehicle/loops.py")
+LOOPS = (
+    "engine/loops.py",
+    "vehicle/quarter_car.py",
+    "vehicle/loops.py",
+    "vehicle/full/tyre.py",
+    "vehicle/full/brakes.py",
+    "vehicle/full/body.py",
+    "vehicle/full/loop.py",
+)
 LOADING = Lock()
 HEAD = f"import math\nimport numba\n\nFV_POINTS = {FV_POINTS}\n"
 

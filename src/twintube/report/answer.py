@@ -84,7 +84,7 @@ def named(d: Diagnosis) -> list[str]:
 
 
 def confidence(d: Diagnosis) -> str:
-    """The probability of the verdict in words and percent, and the answers that come next; its weights are judgement."""
+    """The probability of the verdict in words and percent, and the answers that come next."""
     if not d.probabilities:
         return ""
     names = named(d)
@@ -93,7 +93,7 @@ def confidence(d: Diagnosis) -> str:
     others = [(name, x) for name, x in d.probabilities.items() if name not in names and x >= LEAST][:OTHERS]
     listed = ", ".join(f"{ANSWERS.get(name, lower(title_of(name)))} ({chance(x)})" for name, x in others)
     first = f"{title_of(names[0])}: {word}" if d.verdict == "ambiguous" else f"{word[0].upper()}{word[1:]}"
-    return f"{first} ({chance(p)}, not calibrated); " + (f"next: {listed}" if listed else "no other answer above 1 %")
+    return f"{first} ({chance(p)}); " + (f"next: {listed}" if listed else "no other answer above 1 %")
 
 
 def chance(p: float) -> str:

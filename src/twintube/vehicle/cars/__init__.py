@@ -10,13 +10,27 @@ from twintube.dampers import Damper
 from twintube.dampers.damper import refuse, suggestion
 from twintube.dampers.quantity import quantity
 from twintube.dampers.toml import as_table, line_of, read_named, read_text, read_texts, unknown_keys, wrong_tables
+from twintube.vehicle.full.brakes import Brakes
+from twintube.vehicle.full.car import Layout, Suspension, Tyre
 from twintube.vehicle.quarter_car import Car
 
 FOLDER = Path(__file__).parent
 DEFAULT = "passat_b8"
 AXLES = ("front", "rear")
 TABLE = {item.name: item.metadata for item in fields(Car) if item.name != "F_rest"}
-TABLES = {*AXLES, "band", "sources", "assumed"}
+# What only the whole car needs, table by table.
+WHOLE: dict[str, type] = {
+    "body": Layout,
+    "front_axle": Suspension,
+    "rear_axle": Suspension,
+    "front_tyre": Tyre,
+    "rear_tyre": Tyre,
+    "brakes": Brakes,
+}
+METAS = {name: TABLE for name in AXLES} | {
+    name: {item.name: item.metadata for item in fields(record)} for name, record in WHOLE.items()
+}
+TABLES = {*METAS, "band", "sources", "assumed"}
 KEYS = ("name", "title", *sorted(TABLES))
 RUBBER = 0.025  # [m] compression of a rubber stop at the damper's maximum stroke
 
@@ -28,6 +42,7 @@ class CarSet:
     name: str
     title: str
     axles: Mapping[str, dict[str, float]]
+    whole: Mapping[str, dict[str, float]]  # tables of WHOLE, empty where the file has only the corners
     band: Mapping[str, tuple[float, float]]
     sources: Mapping[str, str]
     assumed: Mapping[str, str]
@@ -37,7 +52,11 @@ class CarSet:
 
         The rubber stops begin early enough to be compressed by RUBBER at the damper's maximum stroke.
         """
-        values = self.axles[axle(damper)] | changes
+        return self.corner_of(axle(damper), damper, **changes)
+
+    def corner_of(self, place: str, damper: Damper, **changes: float) -> Car:
+        """The corner of an axle with a damper."""
+        values = self.axles[place] | changes
         room = damper.parameters.stroke_max / values["ratio"] - RUBBER
         values["travel"] = min(values["travel"], max(room, RUBBER))
         return Car(**values, F_rest=-damper.parameters.F_0)
@@ -52,18 +71,20 @@ def load_car(car: str | Path = DEFAULT) -> CarSet:
     """A named car or a car's file; raises ParameterError with every defect, its line and the allowed range."""
     content, text, file = read_named(car, FOLDER, "car")
     messages = wrong_tables(content, text, TABLES)
-    messages += unknown_keys(content, text, {"": {*KEYS}, **{name: set(TABLE) for name in AXLES}})
-    axles = {name: read_axle(content.get(name), name, text, messages) for name in AXLES}
+    messages += unknown_keys(content, text, {"": {*KEYS}, **{name: set(metas) for name, metas in METAS.items()}})
+    axles = {name: read_table(content.get(name), name, text, messages) for name in AXLES}
+    some = any(name in content for name in WHOLE)
+    whole = {name: read_table(content.get(name), name, text, messages) for name in WHOLE} if some else {}
     band = read_band(as_table(content.get("band", {})), text, messages)
     name, title = (read_text(content, key, text, messages) for key in ("name", "title"))
     sources, assumed = (read_texts(content, key, text, messages) for key in ("sources", "assumed"))
     refuse(file, messages)
-    return CarSet(name or Path(file).stem, title or Path(file).stem, axles, band, sources, assumed)
+    return CarSet(name or Path(file).stem, title or Path(file).stem, axles, whole, band, sources, assumed)
 
 
 def read_value(value: Any, name: str, group: str, text: str, messages: list[str]) -> float:
     """One value [SI]; defects are added to `messages`."""
-    meta = TABLE[name]
+    meta = METAS.get(group, TABLE)[name]
     try:
         number = quantity(value, meta["unit"])
     except ValueError as error:
@@ -75,14 +96,15 @@ def read_value(value: Any, name: str, group: str, text: str, messages: list[str]
     return number
 
 
-def read_axle(table: Any, name: str, text: str, messages: list[str]) -> dict[str, float]:
-    """The values of an axle's corner."""
+def read_table(table: Any, name: str, text: str, messages: list[str]) -> dict[str, float]:
+    """The values of a table of METAS."""
+    metas = METAS[name]
     if table is None:
         messages.append(f"the table {name} is missing")
     if not isinstance(table, dict):
         return {}
-    messages += [f"{name}.{key} is missing" for key in TABLE if key not in table]
-    return {key: read_value(value, key, name, text, messages) for key, value in table.items() if key in TABLE}
+    messages += [f"{name}.{key} is missing" for key in metas if key not in table]
+    return {key: read_value(value, key, name, text, messages) for key, value in table.items() if key in metas}
 
 
 def read_band(table: dict[str, Any], text: str, messages: list[str]) -> dict[str, tuple[float, float]]:

@@ -1,0 +1,87 @@
+"""The command about the whole car."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from twintube import dampers
+from twintube.cli.base import app
+from twintube.files import write_bytes, write_text
+
+
+@app.command(epilog="Example: twintube car --maneuver braking --speed 80 --worn all --oil-level 0.5 --output car")
+def car(
+    maneuver: Annotated[list[str] | None, typer.Option(help="ride, braking or cornering; repeat for several.")] = None,
+    front: Annotated[str, typer.Option(help="Damper of the front axle: a name or a parameter file.")] = "SA7",
+    rear: Annotated[str, typer.Option(help="Damper of the rear axle.")] = "SA8",
+    worn: Annotated[str, typer.Option(help="Worn dampers: all, front, rear, or a wheel such as rear_left.")] = "all",
+    oil_level: Annotated[list[float] | None, typer.Option(help="Oil of the worn dampers; repeat for several.")] = None,
+    speed: Annotated[list[float] | None, typer.Option(help="Speed [km/h]; repeat for several.")] = None,
+    road_class: Annotated[list[str] | None, typer.Option(help="smooth, or a class of ISO 8608; repeat for several.")] = None,
+    seeds: Annotated[int, typer.Option(help="Roads of each class.", min=1, max=1000)] = 5,
+    car_file: Annotated[str, typer.Option("--car", help="A named car or a car's file.")] = "passat_b8",
+    inspection: Annotated[
+        Path | None, typer.Option(help="A file of `twintube inspect --json`: what it sees stands beside on the page.")
+    ] = None,
+    json_file: Annotated[Path | None, typer.Option("--json", help="Write all figures to this file.")] = None,
+    output: Annotated[Path | None, typer.Option(help="Write a page and pictures to this folder.")] = None,
+) -> None:
+    """Drive the whole car with worn dampers and compare it with the intact car, and with a scalar factor in their place."""
+    from twintube.report.car import page, picture
+    from twintube.report.conclusion import read_inspection
+    from twintube.vehicle.cars import load_car
+    from twintube.vehicle.full.maneuvers import CLASSES, checked_speed
+    from twintube.vehicle.full.study import HEADLINES, cases, compared, dampers_of, drive_all
+
+    seen = read_inspection(inspection) if inspection is not None else None
+    loaded = load_car(car_file)
+    both = dampers.load(front), dampers.load(rear)
+    names, levels = maneuver or list(HEADLINES), oil_level or [0.7, 0.5, 0.3]
+    roads, speeds = road_class or ["smooth", "C", "D"], speed or [50.0, 80.0]
+    for name in names:
+        known("maneuver", name, HEADLINES)
+    for road in roads:
+        known("road class", road, CLASSES)
+    for value in speeds:
+        checked_speed(value)
+    wanted = cases(names, speeds, roads, levels, seeds)
+    for case in wanted[:2]:
+        dampers_of(*both, worn, case)
+    entries = drive_all(loaded, *both, worn, wanted)
+    rows = compared(entries)
+    conditions = {
+        "car": loaded.name, "front": both[0].name, "rear": both[1].name, "worn": worn, "seeds": seeds,
+        "gas_preload": "lost in the worn dampers",
+    }  # fmt: skip
+    if json_file is not None:
+        write_text(json_file, json.dumps({**conditions, "compared": rows, "drives": entries}, indent=1) + "\n")
+    if output is not None:
+        output.mkdir(exist_ok=True)
+        write_text(output / "car.html", page(loaded, conditions, rows, seen))
+        write_bytes(output / "car.png", picture(rows))
+        typer.echo(f"{output / 'car.html'}")
+    for row in rows:
+        if row["change"] is None:
+            typer.echo(
+                f"{row['maneuver']:10}{row['road']:7}{row['speed_kmh']:4.0f} km/h {row['oil_level']:5.0%} oil: not driven"
+            )
+            continue
+        low, high = row["change_band"]
+        typer.echo(
+            f"{row['maneuver']:10}{row['road']:7}{row['speed_kmh']:4.0f} km/h {row['oil_level']:5.0%} oil, {row['model']:14}"
+            f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g} {row['unit']} ({row['change']:+.0%}, "
+            f"{low:+.0%} to {high:+.0%} over {row['seeds']} seeds)"
+        )
+
+
+def known(what: str, value: str, allowed: object) -> None:
+    """Raise InputError for a value that is not among the allowed ones."""
+    from collections.abc import Iterable
+
+    from twintube.engine.simulate import InputError
+
+    assert isinstance(allowed, Iterable)
+    if value not in allowed:
+        raise InputError(f"{what} {value}: must be one of {', '.join(allowed)}")

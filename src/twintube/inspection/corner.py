@@ -1,0 +1,123 @@
+"""One corner of a car inspected over oil levels, with a scalar factor in place of the model beside it."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from twintube.dampers import Damper
+from twintube.dampers.closures import DEFAULT, closed
+from twintube.dampers.variants import scalar_factor
+from twintube.inspection.benches import DT, ON_PLATE, Setting, on_plate, plate_motion, read
+from twintube.inspection.figures import WINDOWS, measured_cycles, phase_shift
+from twintube.inspection.methods import METHODS, eusama_class
+from twintube.vehicle.cars import CarSet
+from twintube.vehicle.quarter_car import Car
+
+LEVELS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
+LEAST_FACTOR = 0.2  # smallest scalar factor that the valves' wear admits
+
+
+@dataclass(frozen=True)
+class Condition:
+    """State of a damper; `scalar` puts the oil level as a factor on the fluid force of the full damper (variant 1)."""
+
+    oil_level: float
+    gas_preload: int
+    scalar: bool = False
+
+    def applied(self, damper: Damper, closure: str = DEFAULT) -> Damper:
+        """The damper in this state; raises ParameterError."""
+        if self.scalar:
+            return damper.with_(gas_preload=self.gas_preload, **scalar_factor(self.oil_level))
+        return closed(damper.with_(oil_level=self.oil_level, gas_preload=self.gas_preload), closure)
+
+
+INTACT = Condition(1.0, 1)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A figure and its verdict."""
+
+    damper: str
+    condition: Condition
+    method: str
+    figure: float  # in the method's unit
+    scalar_figure: float | None = None  # with the oil level as factor; None below LEAST_FACTOR
+    windows: Mapping[str, float] = field(default_factory=dict)  # [deg] the phase shift in other windows
+
+    @property
+    def passed(self) -> bool:
+        """Whether the damper passes."""
+        return METHODS[self.method].passed(self.figure)
+
+    @property
+    def as_json(self) -> dict[str, Any]:
+        """The entry for JSON."""
+        how, scalar = METHODS[self.method], self.scalar_figure
+        entry: dict[str, Any] = {
+            "damper": self.damper,
+            "oil_level": self.condition.oil_level,
+            "gas_preload": self.condition.gas_preload,
+            "method": self.method,
+            "figure": self.figure,
+            "unit": how.unit,
+            "limit": how.limit,
+            "passed": self.passed,
+            "scalar_factor": None
+            if scalar is None
+            else {"factor": self.condition.oil_level, "figure": scalar, "passed": how.passed(scalar)},
+        }
+        if self.method == "eusama":
+            entry["class"] = eusama_class(self.figure)
+        if self.windows:
+            entry["windows"] = dict(self.windows)
+        return entry
+
+
+def conditions(levels: Iterable[float], gas_preload: int | None) -> list[Condition]:
+    """One state per oil level; with `gas_preload` None it is lost below 100 %, as in the paper's measurements."""
+    return [Condition(level, int(level >= 1.0) if gas_preload is None else gas_preload) for level in levels]
+
+
+def inspected(
+    damper: Damper,
+    vehicle: CarSet,
+    states: Iterable[Condition],
+    methods: tuple[str, ...] = tuple(METHODS),
+    *,
+    closure: str = DEFAULT,
+    setting: Setting | None = None,
+    dt: float = DT,
+) -> list[Entry]:
+    """The figures of all states and methods on ideal benches; raises InputError if the piston would leave the tube."""
+    bench, corner = setting or Setting(), vehicle.corner(damper)
+
+    def figures(state: Condition) -> dict[str, float]:
+        return read(state.applied(damper, closure), corner, methods, bench, dt=dt)
+
+    reference = figures(INTACT)
+    entries = []
+    for state in states:
+        model = relative(figures(state), reference)
+        scalar = Condition(state.oil_level, state.gas_preload, scalar=True)
+        factor = relative(figures(scalar), reference) if state.oil_level >= LEAST_FACTOR else {}
+        for name in methods:
+            windows = in_windows(state.applied(damper, closure), corner, bench, dt) if name == "phase_shift" else {}
+            entries.append(Entry(damper.name, state, name, model[name], factor.get(name), windows))
+    return entries
+
+
+def relative(figures: Mapping[str, float], reference: Mapping[str, float]) -> dict[str, float]:
+    """The figures with that of the bump over the reference's."""
+    return {name: value / reference[name] if name not in COMPLETE else value for name, value in figures.items()}
+
+
+COMPLETE = (*ON_PLATE, "push_down")  # methods that need no intact damper
+
+
+def in_windows(damper: Damper, car: Car, setting: Setting, dt: float = DT) -> dict[str, float]:
+    """The phase shift [deg] in every window of WINDOWS."""
+    run = plate_motion(setting.plate, dt)
+    found = measured_cycles(run, on_plate(damper, car, run).wheel_load)
+    return {name: phase_shift(found, name) for name in WINDOWS}

@@ -1,0 +1,235 @@
+"""The page of `twintube inspect`: figures and verdicts over the oil level, and what is detected over the scatter."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from twintube.dampers import Damper
+from twintube.files import write_bytes, write_text
+from twintube.inspection import METHODS, RANGES, Detection, Entry, Method, Setting, first_seen
+from twintube.inspection.detection import CONFIDENCE, FALSE_ALARMS, SEEN
+from twintube.inspection.figures import READING, WINDOWS
+from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, method_rows, range_rows
+from twintube.report import style
+from twintube.report.inspection_pictures import figures_over_oil, roc_curves, shares, sweep
+from twintube.report.page import Headline, Picture, Section, Table, html
+from twintube.vehicle.cars import CarSet, axle
+
+MODEL, FACTOR = "model", "scalar factor"
+ONE_CORNER = (
+    "One corner, a quarter car: no left against right, no pitch of the body, no play or worn bushings. Cars, obstacle and "
+    "tester are assumed."
+)
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """All that `twintube inspect` found; without scatter there are no detections."""
+
+    dampers: Sequence[Damper]
+    vehicle: CarSet
+    entries: Sequence[Entry]
+    detections: Sequence[Detection]
+    closure: str
+    seed: int
+
+    @property
+    def methods(self) -> list[Method]:
+        """The methods of the entries, in the order of METHODS."""
+        used = {entry.method for entry in self.entries}
+        return [method for name, method in METHODS.items() if name in used]
+
+    @property
+    def samples(self) -> int:
+        """Cars and testers that were drawn."""
+        return len(self.detections[0].figures) if self.detections else 0
+
+    def of(self, damper: Damper, method: Method) -> list[Entry]:
+        """The entries of a damper and a method, highest oil level first."""
+        return [entry for entry in self.entries if (entry.damper, entry.method) == (damper.name, method.name)]
+
+
+def digits(value: float | None, method: Method) -> str:
+    """A figure with the digits that its unit asks for."""
+    return "" if value is None else f"{value:.0f}" if method.unit else f"{value:.2f}"
+
+
+def summary(result: Inspection) -> dict[str, Any]:
+    """All figures for JSON."""
+    plate = Setting().plate
+    return {
+        "car": result.vehicle.name,
+        "closure": result.closure,
+        "plate": {"amplitude_m": plate.amplitude, "top_Hz": plate.top, "coast_s": plate.coast},
+        "methods": {
+            m.name: {"figure": m.figure, "unit": m.unit, "limit": m.limit, "rule": m.rule, "source": m.source,
+                     "how_sure": m.certainty}
+            for m in result.methods
+        },
+        "entries": [entry.as_json for entry in result.entries],
+        "scatter": {
+            "samples": result.samples,
+            "seed": result.seed,
+            "ranges": {r.name: {"low": r.low, "high": r.high, "unit": r.unit, "basis": r.basis} for r in RANGES},
+        },
+        "detection": [item.as_json for item in result.detections],
+        "first_seen": [
+            {"damper": damper.name, "method": m.name, "oil_level": first_seen(result.detections, damper.name, m.name),
+             "scalar_factor": first_seen(result.detections, damper.name, m.name, scalar=True)}
+            for damper in result.dampers
+            for m in result.methods
+            if result.detections
+        ],
+    }  # fmt: skip
+
+
+def seen_in_words(result: Inspection, damper: Damper, method: Method, *, scalar: bool = False) -> str:
+    """From which oil level on a method sees the loss."""
+    level = first_seen(result.detections, damper.name, method.name, scalar=scalar)
+    return "not seen" if level is None else f"{level:.0%}"
+
+
+def sentence(result: Inspection, damper: Damper) -> str:
+    """Down to which oil level the damper passes every method."""
+    passed = None
+    for state in sorted({e.condition for e in result.entries}, key=lambda state: -state.oil_level):
+        if not all(e.passed for e in result.entries if (e.damper, e.condition) == (damper.name, state)):
+            break
+        passed = state
+    names = "every method" if len(result.methods) > 1 else result.methods[0].title
+    if passed is None:
+        return f"{damper.name} does not pass {names} at the highest of these oil levels."
+    return f"{damper.name} passes {names} down to {passed.oil_level:.0%} oil."
+
+
+def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
+    """One row per oil level: the figure of each method, marked where it fails, and that of the scalar factor."""
+    rows = []
+    for entries in zip(*(result.of(damper, m) for m in result.methods), strict=True):
+        state = entries[0].condition
+        row = [f"{state.oil_level:.0%}", "yes" if state.gas_preload else "no"]
+        for entry, m in zip(entries, result.methods, strict=True):
+            row.append(
+                f"{digits(entry.figure, m)}{'' if entry.passed else ' fails'} ({digits(entry.scalar_figure, m) or 'none'})"
+            )
+        rows.append(row)
+    return rows
+
+
+def terminal(result: Inspection) -> str:
+    """The figures and, where there is scatter, the detection as text."""
+    lines = []
+    for damper in result.dampers:
+        lines.append(
+            f"{damper.name}, {axle(damper)} corner of {result.vehicle.name}; in brackets the oil level as a scalar factor"
+        )
+        head = ["oil", "preload", *(m.name for m in result.methods)]
+        rows = [head, *figure_rows(result, damper)]
+        widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
+        lines += ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+        lines.append(sentence(result, damper))
+        if result.detections:
+            lines += [
+                f"{m.name}: {SEEN:.0%} detected at {FALSE_ALARMS:.0%} false alarms from oil level "
+                f"{seen_in_words(result, damper, m)} (scalar factor: {seen_in_words(result, damper, m, scalar=True)})"
+                for m in result.methods
+            ]
+    return "\n".join(lines)
+
+
+def seen_table(result: Inspection) -> Table:
+    """Where each method first sees the loss."""
+    rows = [
+        [damper.name, m.title, seen_in_words(result, damper, m), seen_in_words(result, damper, m, scalar=True)]
+        for damper in result.dampers
+        for m in result.methods
+    ]
+    return Table(
+        ["damper", "method", MODEL, FACTOR], rows,
+        f"Highest of the oil levels from which on down {SEEN:.0%} are detected at {FALSE_ALARMS:.0%} false alarms",
+    )  # fmt: skip
+
+
+def detection_tables(result: Inspection, damper: Damper) -> list[Table]:
+    """Share detected and share that fails at the method's limit, a column per oil level."""
+    here = [d for d in result.detections if d.damper == damper.name]
+    levels = sorted({d.condition.oil_level for d in here}, reverse=True)
+    found = {(d.method.name, d.condition.scalar, d.condition.oil_level): d for d in here}
+
+    def rows(text: Callable[[Detection], str]) -> list[list[str]]:
+        return [
+            [m.title, FACTOR if scalar else MODEL]
+            + [text(found[m.name, scalar, level]) if (m.name, scalar, level) in found else "" for level in levels]
+            for m in result.methods
+            for scalar in (False, True)
+        ]
+
+    head = ["method", "damper", *(f"{level:.0%} oil" for level in levels)]
+    detected = rows(lambda d: f"{d.share:.0%} ({d.band[0]:.0%} to {d.band[1]:.0%})")
+    return [
+        Table(head, detected, f"{damper.name}: detected at {FALSE_ALARMS:.0%} false alarms, {CONFIDENCE:.0%} bands"),
+        Table(head, rows(lambda d: f"{d.failed_share:.0%}"), f"{damper.name}: fails at the method's own limit"),
+    ]
+
+
+def windows_table(result: Inspection) -> Table:
+    """The phase shift in every window."""
+    rows = [
+        [entry.damper, f"{entry.condition.oil_level:.0%}", *(f"{entry.windows[name]:.0f}" for name in WINDOWS)]
+        for entry in result.entries if entry.windows
+    ]  # fmt: skip
+    limit = METHODS["phase_shift"].limit
+    caption = f"Smallest phase [deg] per window; `{READING}` is the reading used, and below {limit:g} fails"
+    return Table(["damper", "oil", *WINDOWS], rows, caption, numeric=range(2, 2 + len(WINDOWS)))
+
+
+def damper_section(result: Inspection, damper: Damper, png: bytes) -> Section:
+    """Figures of one damper."""
+    text = "Lines: the model, open squares: the oil level as a scalar factor on the fluid force. Red: the side that fails."
+    head = ["oil", "preload", *(f"{m.title}{f' [{m.unit}]' if m.unit else ''}" for m in result.methods)]
+    table = Table(head, figure_rows(result, damper), "Figure and verdict; in brackets the scalar factor's figure")
+    return Section(
+        damper.name, f"{damper.name}, {damper.title}", text=[text], pictures=[Picture(png, damper.name)], tables=[table]
+    )
+
+
+def write_report(result: Inspection, folder: Path) -> list[Path]:
+    """Write report.html and its pictures; returns the files."""
+    pictures = {damper.name: style.png(figures_over_oil(result.of, damper, result.methods)) for damper in result.dampers}
+    sections = [damper_section(result, damper, pictures[damper.name]) for damper in result.dampers]
+    first = result.dampers[0]
+    states = [entry.condition for entry in result.of(first, result.methods[0])]
+    pictures["plate"] = style.png(sweep(first, result.vehicle, states, result.closure))
+    caption = (
+        "Force per height of the plate over tyre stiffness, and the angle by which the force leads, one value per cycle."
+    )
+    tables = [windows_table(result)] if any(entry.windows for entry in result.entries) else []
+    sections.append(Section(
+        "plate", f"The plate run of {first.name}", text=[caption], pictures=[Picture(pictures["plate"], caption)],
+        tables=tables,
+    ))  # fmt: skip
+    summaries = []
+    if result.detections:
+        summaries.append(seen_table(result))
+        for damper in result.dampers:
+            here = [d for d in result.detections if d.damper == damper.name]
+            pictures[f"{damper.name}_detected"] = style.png(shares(here, result.methods))
+            pictures[f"{damper.name}_roc"] = style.png(roc_curves(here, result.methods))
+            sections.append(Section(
+                f"detection-{damper.name}", f"Detection of {damper.name}",
+                text=[f"{result.samples} draws from the ranges below; the same cars and testers for all states. "
+                      f"Bands: binomial, {CONFIDENCE:.0%}, for the drawn limit."],
+                pictures=[Picture(pictures[f"{damper.name}_{name}"], name) for name in ("detected", "roc")],
+                tables=detection_tables(result, damper),
+            ))  # fmt: skip
+    sections.append(Section("methods", "Methods", tables=[Table(METHOD_HEAD, method_rows())]))
+    sections.append(Section("scatter", "Ranges of the scatter", tables=[Table(RANGE_HEAD, range_rows())]))
+    lead = [ONE_CORNER, f"Car: {result.vehicle.title}. Closure: {result.closure}."]
+    headline = Headline(" ".join(sentence(result, damper) for damper in result.dampers))
+    text = html("Inspection of degraded dampers", lead, sections, summaries, headline=headline)
+    files = [folder / f"{name}.png" for name in pictures]
+    for file, png in zip(files, pictures.values(), strict=True):
+        write_bytes(file, png)
+    write_text(folder / "report.html", text)
+    return [*files, folder / "report.html"]

@@ -1,0 +1,1 @@
+"""The whole car: body, four wheels with tyres, four dampers, brakes."""

@@ -1,0 +1,155 @@
+"""The whole car driven: from a car's file, four dampers, two road tracks and what the driver does."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from twintube.arrays import Array, freeze_arrays
+from twintube.core.frame import stroke_limit
+from twintube.core.variables import blank
+from twintube.dampers import Damper, ParameterError
+from twintube.engine import compiled
+from twintube.engine.simulate import InputError, at_rest
+from twintube.vehicle.cars import CarSet
+from twintube.vehicle.drive import CONDITIONING_STEP, conditioning
+from twintube.vehicle.full.brakes import Brakes
+from twintube.vehicle.full.car import WHEELS, Body, BodyMotion, Wheel, WheelMotion
+from twintube.vehicle.full.loop import BODY_COLUMNS, WHEEL_COLUMNS
+from twintube.vehicle.quarter_car import GRAVITY
+
+DT = 1e-3  # [s]
+
+
+@dataclass(frozen=True)
+class FullCar:
+    """A car with four dampers in the order of WHEELS."""
+
+    name: str
+    body: Body
+    wheels: tuple[Wheel, ...]
+    brakes: Brakes
+    dampers: tuple[Damper, ...]
+
+    @property
+    def mass(self) -> float:
+        """Mass of body and wheels [kg]."""
+        return self.body.mass + sum(wheel.m_wheel for wheel in self.wheels)
+
+
+@dataclass(frozen=True)
+class CarRun:
+    """A drive of the whole car: arrays (n,) of the body, (n, 4) of the wheels in the order of WHEELS; SI units."""
+
+    time: Array
+    x: Array
+    y: Array
+    yaw: Array
+    z: Array
+    pitch: Array  # nose down
+    roll: Array  # left side up
+    v_x: Array
+    v_y: Array
+    yaw_rate: Array
+    a_x: Array
+    a_y: Array
+    a_z: Array  # of the body's centre of gravity
+    roll_acceleration: Array
+    pitch_acceleration: Array
+    work: Array  # [J] of road, drive, brakes, damping and friction on the car since the start
+    stroke: Array  # of the dampers
+    velocity: Array
+    force: Array
+    load: Array
+    F_x: Array
+    F_y: Array
+    slip_x: Array
+    slip_y: Array
+    spin: Array
+    pressure: Array
+    damper_work: Array  # [J] dissipated by each damper since the start
+    a_wheel: Array  # vertical
+
+    def __post_init__(self) -> None:
+        """Shared by all who read it."""
+        freeze_arrays(self)
+
+
+def full_car(car: CarSet, dampers: Sequence[Damper]) -> FullCar:
+    """The car with four dampers in the order of WHEELS; raises ParameterError where its file has no tables for it."""
+    if not car.whole:
+        raise ParameterError(f"car {car.name}: the tables of the whole car (body, front_axle, …) are missing")
+    if len(dampers) != len(WHEELS):
+        raise ParameterError(f"{len(dampers)} dampers: must be {len(WHEELS)}, for {', '.join(WHEELS)}")
+    table = car.whole
+    front, rear = (2.0 * car.axles[name]["m_body"] for name in ("front", "rear"))
+    base, mass = table["body"]["wheelbase"], front + rear
+    body = Body(**table["body"], mass=mass, x_front=base * rear / mass, x_rear=base * front / mass)
+    wheels = []
+    for i, damper in enumerate(dampers):
+        axle = "front" if i < 2 else "rear"
+        corner = car.corner_of(axle, damper)
+        values = {item.name: getattr(corner, item.name) for item in fields(corner)}
+        suspension = table[f"{axle}_axle"]
+        wheels.append(
+            Wheel(
+                **values, **suspension, **table[f"{axle}_tyre"],
+                x=body.x_front if axle == "front" else -body.x_rear,
+                y=suspension["track"] / 2 * (1 - 2 * (i % 2)),
+                weight=(corner.m_body + corner.m_wheel) * GRAVITY,
+            )
+        )  # fmt: skip
+    return FullCar(car.name, body, tuple(wheels), Brakes(**table["brakes"]), tuple(dampers))
+
+
+def together(records: Sequence[Any]) -> np.ndarray[Any, Any]:
+    """Records of one type as a structured array (r,)."""
+    return np.concatenate([compiled.as_row(record) for record in records])
+
+
+def started(car: FullCar, speed: float) -> tuple[BodyMotion, list[WheelMotion]]:
+    """The car rolling straight ahead at a `speed` [m/s] on a flat road."""
+    body = blank(BodyMotion)
+    body.v_x = speed
+    wheels = [blank(WheelMotion) for _ in WHEELS]
+    for motion, wheel in zip(wheels, car.wheels, strict=True):
+        motion.spin = speed / wheel.radius
+    return body, wheels
+
+
+def drive_car(
+    car: FullCar, road: Array, spacing: float, inputs: Array, speed: float, *, grip: float = 1.0, dt: float = DT,
+    preconditioned: bool = True,
+) -> CarRun:  # fmt: skip
+    """Drive over `road` (2, m) [m], heights of left and right track every `spacing` [m], from `speed` [m/s] on.
+
+    `inputs` (n, 3): steer angle [rad], brake pressure that the driver wants [Pa], speed [m/s] that he holds (0: none).
+    Raises InputError where a piston would leave its tube, and at the end of the road.
+    """
+    module = compiled.module()
+    each = [at_rest(damper, 0.0) for damper in car.dampers]
+    p, d, s, f = (together(list(records)) for records in zip(*each, strict=True))
+    if preconditioned:
+        for i in range(len(WHEELS)):
+            module.run_held(p[i], d[i], s[i], f[i], np.zeros(2), 0.0)
+            module.run_held(p[i], d[i], s[i], f[i], conditioning(), CONDITIONING_STEP)
+    before = s["work"].copy()
+    body, wheels = started(car, speed)
+    out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
+    done = module.run_car(
+        p, d, s, f, compiled.as_row(car.body)[0], compiled.as_row(body)[0], together(car.wheels), together(wheels),
+        compiled.as_row(car.brakes)[0], np.array(road, dtype=float), spacing, np.array(inputs, dtype=float), grip, dt, out,
+        np.zeros(4), np.zeros(4),
+    )  # fmt: skip
+    if done < len(inputs):
+        limits = ", ".join(f"{stroke_limit(row[1]):.3g}" for row in each)
+        raise InputError(
+            f"time {done * dt:g} s: a damper's stroke must stay within {limits} m ({', '.join(WHEELS)}) and the car on the "
+            f"{(road.shape[1] - 1) * spacing:g} m of road"
+        )
+    columns = [out[:, i] for i in range(BODY_COLUMNS)]
+    table = out[:, BODY_COLUMNS:].reshape(len(out), len(WHEELS), WHEEL_COLUMNS)
+    each_wheel = [np.ascontiguousarray(table[:, :, i]) for i in range(WHEEL_COLUMNS)]
+    each_wheel[10] = each_wheel[10] - before
+    return CarRun(np.arange(len(out)) * dt, *columns, *each_wheel)

@@ -1,0 +1,107 @@
+"""`twintube inspect`: its figures as JSON, its page, its answers to bad input, and its documentation."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from twintube.cli import app
+from twintube.inspection import METHODS
+from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, markdown, method_rows, range_rows
+
+RUNNER = CliRunner()
+ROOT = Path(__file__).parents[2]
+
+
+def test_entries_and_detection_as_json(tmp_path: Path) -> None:
+    file = tmp_path / "inspect.json"
+    levels = ["--oil-level", "1", "--oil-level", "0.4"]
+    run = RUNNER.invoke(
+        app,
+        ["inspect", "SA8", "SA1", "--method", "eusama", *levels, "--scatter", "20", "--processes", "1", "--json", str(file)],
+    )
+    assert run.exit_code == 0, run.output
+    found = json.loads(file.read_text())
+    assert [(e["damper"], e["oil_level"], e["gas_preload"], e["passed"]) for e in found["entries"]] == [
+        ("SA8", 1.0, 1, True), ("SA8", 0.4, 0, False), ("SA1", 1.0, 1, True), ("SA1", 0.4, 0, False),
+    ]  # fmt: skip
+    for entry in found["entries"]:
+        assert {"method", "figure", "limit", "scalar_factor"} <= set(entry)
+        assert entry["scalar_factor"]["factor"] == entry["oil_level"]
+    assert {item["false_alarm_rate"] for item in found["detection"]} == {0.05}
+    assert all(0 <= d["detected_band"][0] <= d["detected_share"] <= d["detected_band"][1] <= 1 for d in found["detection"])
+    assert [item["oil_level"] for item in found["first_seen"]] == [0.4, 0.4]
+    assert "eusama: 90% detected at 5% false alarms from oil level 40%" in run.output
+
+
+def test_the_page_has_all_methods_and_pictures(tmp_path: Path) -> None:
+    run = RUNNER.invoke(
+        app,
+        [
+            "inspect",
+            "--oil-level",
+            "1",
+            "--oil-level",
+            "0.5",
+            "--scatter",
+            "20",
+            "--processes",
+            "1",
+            "--output",
+            str(tmp_path),
+        ],
+    )
+    assert run.exit_code == 0, run.output
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    for method in METHODS.values():
+        assert method.title in page
+    names = {"SA8.png", "plate.png", "SA8_detected.png", "SA8_roc.png"}
+    assert {path.name for path in tmp_path.iterdir()} == names | {"report.html"}
+    assert page.count("data:image/png") == len(names)
+
+
+def test_without_scatter_there_are_only_figures(tmp_path: Path) -> None:
+    file = tmp_path / "inspect.json"
+    arguments = [
+        "inspect",
+        "--with-preload",
+        "--oil-level",
+        "0.9",
+        "--method",
+        "bump",
+        "--scatter",
+        "0",
+        "--json",
+        str(file),
+    ]
+    run = RUNNER.invoke(app, [*arguments, "--output", str(tmp_path / "page")])
+    assert run.exit_code == 0, run.output
+    found = json.loads(file.read_text())
+    assert found["detection"] == found["first_seen"] == []
+    assert [entry["gas_preload"] for entry in found["entries"]] == [1]
+    assert (tmp_path / "page" / "report.html").is_file()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--method", "shaking"], "error: method shaking: must be one of eusama, phase_shift"),
+        (["--oil-level", "1.7", "--scatter", "0"], "error: SA8: oil_level = 1.7: must be a number from 0 to 1"),
+        (["--scatter", "7"], "error: samples = 7: must be from 20 to 10000"),
+        (["--closure", "x"], "error: --closure x: must be one of letter, return"),
+        (["--car", "x"], "error: unknown car x: neither a file nor one of "),
+        (["SA9"], "error: unknown damper SA9"),
+    ],
+)
+def test_bad_input_ends_with_one_line(arguments: list[str], message: str) -> None:
+    run = RUNNER.invoke(app, ["inspect", *arguments])
+    assert run.exit_code == 2
+    assert run.stderr.startswith(message)
+    assert run.stderr.count("\n") == 1
+
+
+def test_the_documentation_has_the_tables_of_methods_and_ranges() -> None:
+    page = (ROOT / "docs" / "inspection.md").read_text(encoding="utf-8")
+    assert markdown(METHOD_HEAD, method_rows()) in page
+    assert markdown(RANGE_HEAD, range_rows()) in page
