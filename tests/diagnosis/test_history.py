@@ -7,7 +7,7 @@ from tests.diagnosis import small
 from twintube.data import Record
 from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.history import settled, unprepared, with_history
+from twintube.diagnosis.history import settled, bare_of_strokes, with_history
 
 SPEEDS, STROKES = (0.3, 1.0), 6
 
@@ -42,5 +42,5 @@ def test_a_damper_that_rested_before_and_a_file_with_slow_strokes_are_left_as_th
     assert names == []
     assert [len(r.time) for r in after.records] == [len(r.time) for r in problem.records]
     whole = ready([small.record(small.run(v, small.DEGRADED, slow=3), seed=i) for i, v in enumerate(SPEEDS)])
-    assert not any(unprepared(record) for record in whole.records)
+    assert not any(bare_of_strokes(record) for record in whole.records)
     assert with_history(whole) == (whole, [])

@@ -119,19 +119,29 @@ def excluded_gain(recorded: Problem, problem: Problem) -> Gain:
 def put_right(faults: Sequence[Fault | None], recorded: Problem, problem: Problem) -> dict[Fault, Gain]:
     """The faults that were put right, with the gain of all of them for the base model.
 
-    Errors are relative to the force, as units and signs differ. Nothing is fitted, so that every record counts as held out.
+    Errors are relative to the force, as units and signs differ; an interval counts by its uncertainty. Nothing is fitted, so
+    that every record counts as held out.
     """
     present = [fault for fault in faults if fault is not None]
     if not present:
         return {}
 
+    weights = {
+        record.name: problem.weight[a:b]
+        for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True)
+    }
+
     def shares(p: Problem) -> Array:
         forces = p.forces({})
         rows = []
-        for record, a, b in zip(p.records, p.starts[:-1] + 1, p.starts[1:], strict=True):
-            size = float(np.sum(p.measured[a:b] ** 2))
-            error = float(np.sum((forces[a:b] - p.measured[a:b]) ** 2))
-            rows.append((error / size, float(np.sum(record.noise[1:] ** 2)) / size))
+        for record, a, b in zip(p.records, p.starts[:-1], p.starts[1:], strict=True):
+            # Slow strokes that were not recorded stand before the record in one of the two problems.
+            weight = weights[record.name]
+            recorded = slice(max(a, b - len(weight)), b)
+            weight = weight[-(recorded.stop - recorded.start) :]
+            size = float(np.sum((weight * p.measured[recorded]) ** 2))
+            error = float(np.sum((weight * (forces - p.measured)[recorded]) ** 2))
+            rows.append((error / size, float(np.sum(weight > 0)) / size))
         return np.array(rows)
 
     kept = {record.name for record in problem.records}

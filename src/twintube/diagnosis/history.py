@@ -18,7 +18,7 @@ def with_history(problem: Problem) -> tuple[Problem, list[str]]:
 
     What another history would change is open in either case. Beyond that the names of the records that got strokes.
     """
-    bare = [record.name for record in problem.records if unprepared(record)]
+    bare = [record.name for record in problem.records if bare_of_strokes(record)]
     if not bare:
         return problem, []
     widest = max((record for record in problem.records), key=lambda record: float(np.ptp(record.stroke)))
@@ -77,7 +77,7 @@ def begun(record: PreparedRecord) -> PreparedRecord:
     return replace(record, judged=record.judged & after)
 
 
-def unprepared(record: PreparedRecord) -> bool:
+def bare_of_strokes(record: PreparedRecord) -> bool:
     """Whether a record of the degraded damper comes to a fast motion without slow strokes over its range before it."""
     return not record.intact and sudden(record) and not slow(record).all()
 

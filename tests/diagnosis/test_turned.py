@@ -1,0 +1,38 @@
+"""A sign is turned only where the model, too, explains the record then; records in another unit are named among others."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.diagnosis import small
+from twintube.diagnosis.faults import Fault, really_turned, scaled
+from twintube.diagnosis.odd import odd_records
+
+
+@pytest.fixture(scope="module")
+def runs() -> list[small.Run]:
+    return [small.run(speed, turns=8) for speed in (0.2, 0.3, 0.5, 0.7, 1.0)]
+
+
+def test_a_sign_that_does_not_help_the_model_is_turned_back(runs: list[small.Run]) -> None:
+    records = [small.record(r, seed=i) for i, r in enumerate(runs)]
+    problem = small.problem(records)
+    fault = Fault("sign_flip", "", "", -1.0, records=(records[0].name,))
+    kept, same = really_turned(fault, problem)
+    assert kept is fault and same is problem
+    wrong = problem.with_records([scaled(problem.records[0], -1.0, 1.0), *problem.records[1:]])
+    dropped, back = really_turned(fault, wrong)
+    assert dropped is None
+    assert np.array_equal(back.records[0].force, problem.records[0].force)
+    assert np.all(back.records[0].noise >= 0.0) and back.records[0].peak > 0.0
+
+
+def test_a_record_in_another_unit_is_named_beside_others_that_are_not_quite_right(runs: list[small.Run]) -> None:
+    records = [small.record(r, seed=i) for i, r in enumerate(runs)]
+    records = [replace(r, force=r.force * (1.0 + 0.02 * i)) for i, r in enumerate(records)]  # no model is right within noise
+    records[2] = replace(records[2], force=records[2].force / 9.80665)
+    problem = small.problem(records)
+    fault, others = odd_records(problem)
+    assert fault is not None and len(others.records) == 4
+    assert fault.records == (problem.records[2].name,)
