@@ -7,7 +7,7 @@ from tests.diagnosis import small
 from twintube.data import Record
 from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.history import settled, bare_of_strokes, with_history
+from twintube.diagnosis.history import bare_of_strokes, settled, with_history
 
 SPEEDS, STROKES = (0.3, 1.0), 6
 

@@ -195,7 +195,7 @@ def test_every_defect_of_a_car_is_named_with_its_line(tmp_path: Path) -> None:
     assert "line 6: front.m_body" in message
     assert "rear.ratio = 9: must be a number from 0.2 to 1.5" in message
     assert "unknown rear.roof" in message
-    with pytest.raises(ParameterError, match="unknown car saab: neither a file nor one of passat_b8"):
+    with pytest.raises(ParameterError, match="unknown car saab: neither a file nor one of escort, passat_b8"):
         load_car("saab")
 
 

@@ -15,7 +15,7 @@ from twintube.inspection.plate import Plate
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.quarter_car import Car
 
-FADE: Final = 0.003  # [1/K] of the fluid force, by the equation of the effect oil_temperature (assumed)
+FADE: Final = 0.003  # [1/K] of the fluid force, which falls as that of warm oil does (assumed)
 
 
 @dataclass(frozen=True)
