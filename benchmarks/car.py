@@ -1,14 +1,22 @@
-"""Speed of the whole car with four dampers in process."""
+"""Speed of the whole car with four dampers, in process and as FMUs."""
 
+import tempfile
 import time
+from contextlib import ExitStack
+from pathlib import Path
 
+import fmpy
 import numpy as np
 
+from twintube.arrays import Array
 from twintube.dampers import load
 from twintube.dampers.closures import closed
+from twintube.demo.car_ride import drive_car_with_fmus
+from twintube.demo.damper_fmu import DamperFmu
+from twintube.fmu import build_fmu
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.full.maneuvers import Road
-from twintube.vehicle.full.run import DT, drive_car, full_car
+from twintube.vehicle.full.run import DT, FullCar, drive_car, full_car
 from twintube.vehicle.road import SPACING
 
 SECONDS, SPEED, RUNS = 60.0, 50 / 3.6, 5
@@ -27,4 +35,16 @@ def bench_car() -> dict[str, float]:
         began = time.perf_counter()
         drive_car(car, road, SPACING, inputs, SPEED, preconditioned=False)
         best = min(best, time.perf_counter() - began)
-    return {"times_real_time": SECONDS / best, "us_per_step": 1e6 * best * DT / SECONDS}
+    return {"times_real_time": SECONDS / best, "us_per_step": 1e6 * best * DT / SECONDS, **with_fmus(car, road, inputs)}
+
+
+def with_fmus(car: FullCar, road: Array, inputs: Array) -> dict[str, float]:
+    """The same with four native FMUs through fmpy."""
+    with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:
+        files = [build_fmu(d, Path(folder) / f"{d.name}.fmu", platforms=(fmpy.platform,)) for d in car.dampers[1:3]]
+        fmus = [stack.enter_context(DamperFmu(files[i // 2])) for i in range(len(car.dampers))]
+        drive_car_with_fmus(car, fmus, road, SPACING, inputs[:2000], SPEED)
+        some = inputs[: len(inputs) // 6]
+        began = time.perf_counter()
+        drive_car_with_fmus(car, fmus, road, SPACING, some, SPEED, preconditioned=False)
+        return {"times_real_time_with_fmus": len(some) * DT / (time.perf_counter() - began)}

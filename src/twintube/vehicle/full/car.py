@@ -118,6 +118,8 @@ class BodyMotion:
     dw_roll: float = var("motion", "", "rad/s", "last change of w_roll", default=0.0)
     a_x: float = var("motion", "a_x", "m/s2", "acceleration forward of the centre of gravity", default=0.0)
     a_y: float = var("motion", "a_y", "m/s2", "acceleration to the left", default=0.0)
+    way: float = var("motion", "", "m", "way along the road since the start", default=0.0)
+    behind: float = var("motion", "", "m", "way by which the held speed was missed", default=0.0)
     work: float = var("motion", "", "J", "work of road, drive, brakes, damping and friction on the car", default=0.0)
 
 
@@ -141,6 +143,8 @@ class WheelMotion:
     aside: float = var("wheel", "", "N", "what its lateral force does to it through the roll centre", default=0.0)
     slip_x: float = var("wheel", "s_x", "1", "slip along, negative in braking", default=0.0)
     slip_y: float = var("wheel", "s_y", "1", "slip aside", default=0.0)
+    stroke: float = var("wheel", "", "m", "stroke of the damper at the start of the step", default=0.0)
+    velocity: float = var("wheel", "", "m/s", "its mean velocity over the step", default=0.0)
     damper: float = var("wheel", "F", "N", "damper force", default=0.0)
     before: float = var("wheel", "", "N", "damper force a step earlier", default=0.0)
     pressure: float = var("wheel", "p", "Pa", "brake pressure", default=0.0)

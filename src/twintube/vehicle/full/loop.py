@@ -15,66 +15,85 @@ WHEEL_COLUMNS = 12
 GAIN, RESET = 6000.0, 2000.0  # [N.s/m], [N/m] of the driver who holds a speed: assumed
 
 
+def drive_step(
+    c: Any, b: Any, ks: Any, ws: Any, h: Any, road: Any, spacing: float, steer: float, wanted: float, held: float, grip: float,
+    dt: float, heights: Any, rates: Any,
+) -> bool:  # fmt: skip
+    """One step of `dt` [s] of road, driver and car; false where the road ends.
+
+    The dampers' forces stand in `ws`, which receives the strokes and velocities under which they do their step. `road` (2, m)
+    [m] are the heights under left and right wheels every `spacing` [m], position 0 is at the rear axle at the start. `steer`
+    [rad], brake pressure `wanted` [Pa] and `held` speed [m/s], 0 where he coasts, are the driver's; `heights`, `rates` (4,)
+    are room to work in.
+    """
+    speed = b.v_x + 0.5 * b.dv_x
+    for i in range(4):
+        at = (b.way + ks[i].x + c.x_rear) / spacing
+        j = int(at)
+        if at < 0.0 or j + 2 > road.shape[1]:
+            return False
+        side = i % 2
+        heights[i] = road[side, j] + (at - j) * (road[side, j + 1] - road[side, j])
+        rates[i] = speed * (road[side, j + 1] - road[side, j]) / spacing
+        control_brake(h, ks[i], ws[i], speed, wanted, dt)
+        ws[i].stroke = ks[i].ratio * corner_stroke(b, ks[i], ws[i])
+    torque = 0.0
+    if held > 0.0:
+        b.behind += dt * (held - speed)
+        torque = ks[0].radius * (GAIN * (held - speed) + RESET * b.behind)
+    car_step(c, b, ks, ws, heights, rates, steer, torque, grip, dt)
+    b.way += dt * math.sqrt(b.v_x * b.v_x + b.v_y * b.v_y)
+    for i in range(4):
+        ws[i].velocity = ks[i].ratio * corner_velocity(b, ks[i], ws[i])
+    return True
+
+
+def write_body(b: Any, row: Any) -> None:
+    """The body's columns at the start of a step."""
+    row[0], row[1], row[2], row[3], row[4], row[5] = b.x, b.y, b.yaw, b.z, b.pitch, b.roll
+    row[6], row[7], row[8] = b.v_x + 0.5 * b.dv_x, b.v_y + 0.5 * b.dv_y, b.w_yaw + 0.5 * b.dw_yaw
+    row[14] = b.work
+
+
+def write_step(b: Any, ws: Any, row: Any, dt: float) -> None:
+    """The accelerations of a step of `dt` [s] and the wheels' columns, but for the dampers' work."""
+    row[9], row[10], row[11] = b.a_x, b.a_y, b.dv_z / dt
+    row[12], row[13] = b.dw_roll / dt, b.dw_pitch / dt
+    for i in range(4):
+        w = ws[i]
+        at = BODY_COLUMNS + WHEEL_COLUMNS * i
+        row[at], row[at + 1], row[at + 2], row[at + 3] = w.stroke, w.velocity, w.damper, w.load
+        row[at + 4], row[at + 5], row[at + 6], row[at + 7] = w.F_x, w.F_y, w.slip_x, w.slip_y
+        row[at + 8], row[at + 9], row[at + 11] = w.spin, w.pressure, w.dv / dt
+
+
 def run_car(
     p: Any, d: Any, s: Any, f: Any, c: Any, b: Any, ks: Any, ws: Any, h: Any,
     road: Any, spacing: float, inputs: Any, grip: float, dt: float, out: Any, heights: Any, rates: Any,
 ) -> int:  # fmt: skip
-    """Drive the car over `road` (2, m) [m], the heights under left and right wheels every `spacing` [m].
+    """Drive the car with its dampers, whose records `p`, `d`, `s`, `f` (4,) are; the others as `drive_step`.
 
-    Position 0 of the road is at the rear axle at the start. `inputs` (n, 3) are, step by step, the steer angle [rad], the
-    brake pressure the driver wants [Pa] and the speed he holds [m/s], 0 where he coasts. `p`, `d`, `s`, `f` (4,) are the
-    dampers' records. `out` (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) is written; `heights`, `rates` (4,) are room to work in.
+    `inputs` (n, 3) are `steer`, `wanted` and `held`, step by step. `out` (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) is written.
 
     Returns the number of finished steps: less than n where a piston would leave its tube, a step failed, or the road ends.
     """
-    way = 0.0
-    error = 0.0
     for i in range(4):
         ws[i].damper = total_force(s[i])
         ws[i].before = ws[i].damper
     for n in range(len(inputs)):
-        speed = b.v_x + 0.5 * b.dv_x
-        for i in range(4):
-            at = (way + ks[i].x + c.x_rear) / spacing
-            j = int(at)
-            if at < 0.0 or j + 2 > road.shape[1]:
-                return n
-            side = i % 2
-            heights[i] = road[side, j] + (at - j) * (road[side, j + 1] - road[side, j])
-            rates[i] = speed * (road[side, j + 1] - road[side, j]) / spacing
-            control_brake(h, ks[i], ws[i], speed, inputs[n, 1], dt)
-        torque = 0.0
-        if inputs[n, 2] > 0.0:
-            error += dt * (inputs[n, 2] - speed)
-            torque = ks[0].radius * (GAIN * (inputs[n, 2] - speed) + RESET * error)
         row = out[n]
-        row[0], row[1], row[2], row[3], row[4], row[5] = b.x, b.y, b.yaw, b.z, b.pitch, b.roll
-        row[6], row[7], row[8] = speed, b.v_y + 0.5 * b.dv_y, b.w_yaw + 0.5 * b.dw_yaw
-        row[14] = b.work
+        write_body(b, row)
+        if not drive_step(
+            c, b, ks, ws, h, road, spacing, inputs[n, 0], inputs[n, 1], inputs[n, 2], grip, dt, heights, rates
+        ):
+            return n
+        write_step(b, ws, row, dt)
         for i in range(4):
-            row[BODY_COLUMNS + WHEEL_COLUMNS * i] = ks[i].ratio * corner_stroke(b, ks[i], ws[i])
-        car_step(c, b, ks, ws, heights, rates, inputs[n, 0], torque, grip, dt)
-        row[9], row[10], row[11] = b.a_x, b.a_y, b.dv_z / dt
-        row[12], row[13] = b.dw_roll / dt, b.dw_pitch / dt
-        way += dt * math.sqrt(b.v_x * b.v_x + b.v_y * b.v_y)
-        for i in range(4):
-            w, k = ws[i], ks[i]
-            at = BODY_COLUMNS + WHEEL_COLUMNS * i
-            stroke, velocity = row[at], k.ratio * corner_velocity(b, k, w)
-            row[at + 1] = velocity
-            row[at + 2] = w.damper
-            row[at + 3] = w.load
-            row[at + 4] = w.F_x
-            row[at + 5] = w.F_y
-            row[at + 6] = w.slip_x
-            row[at + 7] = w.slip_y
-            row[at + 8] = w.spin
-            row[at + 9] = w.pressure
-            row[at + 10] = s[i].work
-            row[at + 11] = w.dv / dt
-            end = stroke + velocity * dt
+            w = ws[i]
+            row[BODY_COLUMNS + WHEEL_COLUMNS * i + 10] = s[i].work
+            end = w.stroke + w.velocity * dt
             limit = stroke_limit(d[i])
-            if not (-limit <= end <= limit) or not advance(p[i], d[i], s[i], f[i], end, velocity, velocity, dt):
+            if not (-limit <= end <= limit) or not advance(p[i], d[i], s[i], f[i], end, w.velocity, w.velocity, dt):
                 return n
             w.before = w.damper
             w.damper = total_force(s[i])

@@ -148,6 +148,11 @@ def drive_car(
             f"time {done * dt:g} s: a damper's stroke must stay within {limits} m ({', '.join(WHEELS)}) and the car on the "
             f"{(road.shape[1] - 1) * spacing:g} m of road"
         )
+    return as_run(out, dt, before)
+
+
+def as_run(out: Array, dt: float, before: Array) -> CarRun:
+    """The columns of the loop (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) by name; `before` (4,) [J] is the dampers' earlier work."""
     columns = [out[:, i] for i in range(BODY_COLUMNS)]
     table = out[:, BODY_COLUMNS:].reshape(len(out), len(WHEELS), WHEEL_COLUMNS)
     each_wheel = [np.ascontiguousarray(table[:, :, i]) for i in range(WHEEL_COLUMNS)]
