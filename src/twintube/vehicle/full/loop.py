@@ -16,15 +16,15 @@ GAIN, RESET = 6000.0, 2000.0  # [N.s/m], [N/m] of the driver who holds a speed: 
 
 
 def drive_step(
-    c: Any, b: Any, ks: Any, ws: Any, h: Any, road: Any, spacing: float, steer: float, wanted: float, held: float, grip: float,
-    dt: float, heights: Any, rates: Any,
+    c: Any, b: Any, ks: Any, ws: Any, h: Any, road: Any, spacing: float,
+    steer: float, wanted: float, held: float, grip: float, dt: float, heights: Any, rates: Any,
 ) -> bool:  # fmt: skip
     """One step of `dt` [s] of road, driver and car; false where the road ends.
 
-    The dampers' forces stand in `ws`, which receives the strokes and velocities under which they do their step. `road` (2, m)
-    [m] are the heights under left and right wheels every `spacing` [m], position 0 is at the rear axle at the start. `steer`
-    [rad], brake pressure `wanted` [Pa] and `held` speed [m/s], 0 where he coasts, are the driver's; `heights`, `rates` (4,)
-    are room to work in.
+    The dampers' forces stand in `ws`, which receives the strokes and velocities under which they do their step. `road`
+    (2, m) [m] are the heights under left and right wheels every `spacing` [m], position 0 is at the rear axle at the start.
+    `steer` [rad], brake pressure `wanted` [Pa] and `held` speed [m/s], 0 where he coasts, are the driver's; `heights`,
+    `rates` (4,) are room to work in.
     """
     speed = b.v_x + 0.5 * b.dv_x
     for i in range(4):

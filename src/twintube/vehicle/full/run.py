@@ -152,7 +152,7 @@ def drive_car(
 
 
 def as_run(out: Array, dt: float, before: Array) -> CarRun:
-    """The columns of the loop (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) by name; `before` (4,) [J] is the dampers' earlier work."""
+    """The columns of the loop (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) by name; `before` (4,) [J]: the dampers' earlier work."""
     columns = [out[:, i] for i in range(BODY_COLUMNS)]
     table = out[:, BODY_COLUMNS:].reshape(len(out), len(WHEELS), WHEEL_COLUMNS)
     each_wheel = [np.ascontiguousarray(table[:, :, i]) for i in range(WHEEL_COLUMNS)]
