@@ -132,6 +132,18 @@ def test_a_worn_damper_shows_at_its_corner() -> None:
     assert all(rise[name] < 1.0 + (rise["rear_left"] - 1.0) / 3 for name in WHEELS if name != "rear_left")
 
 
+def test_a_leak_while_driving_lets_a_corner_go() -> None:
+    front, rear = closed(load("SA7")), closed(load("SA8"))
+    leaking = rear.with_(leak_film=1e-5)  # as thick a film as there is: most of the oil within a minute
+    car = full_car(load_car(), [front, front, leaking, rear])
+    run = ride(car, 50.0, 60.0, Road("D", equal=True))
+    early, late = (run.time > 1.0) & (run.time < 4.0), run.time > 50.0
+    work = [run.damper_work[on][-1] - run.damper_work[on][0] for on in (early, late)]
+    assert work[0][2] == pytest.approx(work[0][3], rel=0.05)
+    assert work[1][2] < 0.8 * work[1][3]
+    assert run.load[late, 2].std() > 1.2 * run.load[late, 3].std()
+
+
 def test_steady_braking_and_cornering_move_the_load_by_the_height_of_the_centre_of_gravity() -> None:
     car = linear_car()
     car = replace(car, body=replace(car.body, drag=0.0))

@@ -93,7 +93,8 @@ def confidence(d: Diagnosis) -> str:
     others = [(name, x) for name, x in d.probabilities.items() if name not in names and x >= LEAST][:OTHERS]
     listed = ", ".join(f"{ANSWERS.get(name, lower(title_of(name)))} ({chance(x)})" for name, x in others)
     first = f"{title_of(names[0])}: {word}" if d.verdict == "ambiguous" else f"{word[0].upper()}{word[1:]}"
-    return f"{first} ({chance(p)}); " + (f"next: {listed}" if listed else "no other answer above 1 %")
+    where = ", among datasets of which three in four hide something" if d.verdict == "none" else ""
+    return f"{first} ({chance(p)}{where}); " + (f"next: {listed}" if listed else "no other answer above 1 %")
 
 
 def chance(p: float) -> str:
