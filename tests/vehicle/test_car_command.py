@@ -23,8 +23,8 @@ def test_figures_page_and_table_of_an_inspection(tmp_path: Path) -> None:
     result = CliRunner().invoke(app, [*QUICK, "--inspection", str(inspection), "--json", str(figures), "--output", str(out)])
     assert result.exit_code == 0, result.output
     content = json.loads(figures.read_text())
-    assert {row["model"] for row in content["compared"]} == {"return", "scalar factor"}
-    assert len(content["drives"]) == 6  # two seeds: intact, worn, scalar factor
+    assert {row["model"] for row in content["compared"]} == {"full model", "scalar factor"}
+    assert len(content["drives"]) == 12  # two seeds: intact, four closures, scalar factor
     row = content["compared"][0]
     assert row["change_band"][0] <= row["change"] <= row["change_band"][1]
     page = (out / "car.html").read_text()

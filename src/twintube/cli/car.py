@@ -33,7 +33,7 @@ def car(
     from twintube.report.conclusion import read_inspection
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.maneuvers import CLASSES, checked_speed
-    from twintube.vehicle.full.study import HEADLINES, cases, compared, dampers_of, drive_all
+    from twintube.vehicle.full.study import FULL, HEADLINES, cases, compared, dampers_of, drive_all
 
     seen = read_inspection(inspection) if inspection is not None else None
     loaded = load_car(car_file)
@@ -69,10 +69,11 @@ def car(
             )
             continue
         low, high = row["change_band"]
+        others = " and all closures" if row["model"] == FULL else ""
         typer.echo(
             f"{row['maneuver']:10}{row['road']:7}{row['speed_kmh']:4.0f} km/h {row['oil_level']:5.0%} oil, {row['model']:14}"
             f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g} {row['unit']} ({row['change']:+.0%}, "
-            f"{low:+.0%} to {high:+.0%} over {row['seeds']} seeds)"
+            f"{low:+.0%} to {high:+.0%} over {row['seeds']} seeds{others})"
         )
 
 

@@ -53,6 +53,7 @@ def page(
         for name in TITLES
         if any(row["maneuver"] == name for row in rows)
     ]
+    said = [conclusion.seen_first(seen)] if seen is not None else []
     assumed = [(name, text) for name, text in car.assumed.items()]
     sections.append(Section("assumed", "Assumed values of the car", text=["No source gives these:"], notes=assumed))
     sections.append(Section("sources", "Sources", notes=list(car.sources.items())))
@@ -62,10 +63,11 @@ def page(
             f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
             "without gas preload. Each figure is that of the worn car over that of the intact car on the same road; the "
             f"band is that of {conditions['seeds']} seeds: other roads of the class, and a slip control whose thresholds "
-            "and rates scatter by a quarter. F-v curves are stand-ins (assumed)."
+            "and rates scatter by a quarter; of the full model also that of four closures for the gas that cavitation "
+            "frees. F-v curves are stand-ins (assumed)."
         ],
         sections,
-        headline=Headline(statement(rows), picture=Picture(picture(rows), "changes over the oil level")),
+        headline=Headline(" ".join([statement(rows), *said]), picture=Picture(picture(rows), "changes over the oil level")),
     )  # fmt: skip
 
 
@@ -78,7 +80,7 @@ def statement(rows: Sequence[Mapping[str, Any]]) -> str:
         if not own:
             continue
         if not clear:
-            parts.append(f"{words.lower()}: no change that all seeds share")
+            parts.append(f"{words.lower()}: no change that all seeds and closures share")
             continue
         level = max(r["oil_level"] for r in clear)
         first = max((r for r in clear if r["oil_level"] == level), key=lambda r: abs(r["change"]))
@@ -86,9 +88,10 @@ def statement(rows: Sequence[Mapping[str, Any]]) -> str:
         road = "a smooth road" if first["road"] == "smooth" else f"class {first['road']}"
         parts.append(
             f"{words.lower()} from {level:.0%} oil ({first['figure']} {first['change']:+.0%} at "
-            f"{first['speed_kmh']:.0f} km/h on {road}, {low:+.0%} to {high:+.0%} over {first['seeds']} seeds)"
+            f"{first['speed_kmh']:.0f} km/h on {road}, {low:+.0%} to {high:+.0%} over "
+            f"{first['seeds']} seeds and all closures)"
         )
-    return "First seen among the levels tried: " + "; ".join(parts) + "."
+    return "Felt first, of the levels tried: " + "; ".join(parts) + "."
 
 
 def table(rows: Sequence[Mapping[str, Any]]) -> Table:

@@ -57,6 +57,16 @@ def section(inspection: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) ->
     )  # fmt: skip
 
 
+def seen_first(inspection: Mapping[str, Any]) -> str:
+    """The highest oil level that any inspection sees, damper by damper, in a sentence."""
+    levels: dict[str, float] = {}
+    for row in inspection.get("first_seen", []):
+        if row["oil_level"] is not None:
+            levels[row["damper"]] = max(row["oil_level"], levels.get(row["damper"], 0.0))
+    texts = [f"{damper} from {level:.0%}" for damper, level in levels.items()]
+    return "Seen by an inspection: " + (", ".join(texts) + " oil." if texts else "none of these levels.")
+
+
 def share(found: Sequence[Mapping[str, Any]], method: str, level: float, scalar: bool) -> str:
     """Least and most detected share of the dampers."""
     some = [

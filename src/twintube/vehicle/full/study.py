@@ -21,6 +21,9 @@ from twintube.vehicle.full.run import FullCar, full_car
 
 WORN = {"all": (0, 1, 2, 3), "front": (0, 1), "rear": (2, 3)} | {name: (i,) for i, name in enumerate(WHEELS)}
 RIDE_SECONDS = 30.0
+# Of the closures for freed gas the default and the furthest to either side: the band of the full model spans them.
+READINGS = (DEFAULT, "letter", "exhausted", "displaced")
+FULL = "full model"
 SCATTER = 0.25  # of thresholds and rates of the slip control, from seed to seed: assumed
 # The figure of each manoeuvre that is compared, its name and unit.
 HEADLINES = {
@@ -104,7 +107,7 @@ def cases(
         if not (maneuver == "ride" and road == driven.SMOOTH)
         for seed in range(1, (1 if road == driven.SMOOTH and maneuver != "braking" else seeds) + 1)
         for level in (1.0, *(x for x in levels if x != 1.0))
-        for model in ((DEFAULT,) if level == 1.0 else (DEFAULT, SCALAR))
+        for model in ((DEFAULT,) if level == 1.0 else (*READINGS, SCALAR))
     ]
 
 
@@ -128,23 +131,32 @@ def drive_all(
 
 
 def compared(entries: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of headline figures, worn over intact on the same road: mean, least and most over the seeds."""
+    """Rows of headline figures, worn over intact on the same road, of the full model and of the scalar factor.
+
+    The change is the mean over seeds with the default closure, its band that over all seeds and READINGS.
+    """
     intact = {key(row): row for row in entries if row["oil_level"] == 1.0}
     groups: dict[tuple[Any, ...], list[dict[str, Any]]] = {}
     for row in entries:
         if row["oil_level"] != 1.0:
-            groups.setdefault((*key(row)[:3], row["oil_level"], row["model"]), []).append(row)
+            model = SCALAR if row["model"] == SCALAR else FULL
+            groups.setdefault((*key(row)[:3], row["oil_level"], model), []).append(row)
     rows = []
     for (maneuver, speed, road, level, model), some in groups.items():
         name, title, unit = HEADLINES[maneuver]
         pairs = [(row.get(name), intact[key(row)].get(name)) for row in some]
-        ratios = np.array([a / b for a, b in pairs if a is not None and b])
+        ratios = [a / b for a, b in pairs if a is not None and b]
+        usual = [row for row in some if row["model"] in (DEFAULT, SCALAR)]
+        means = [row.get(name) for row in usual]
+        shares = [
+            a / intact[key(row)][name] for a, row in zip(means, usual, strict=True) if a and intact[key(row)].get(name)
+        ]
         rows.append({
             "maneuver": maneuver, "speed_kmh": speed, "road": road, "oil_level": level, "model": model,
-            "figure": title, "unit": unit, "seeds": len(some), "failed": len(some) - len(ratios),
-            "intact": mean_of([b for _, b in pairs]), "worn": mean_of([a for a, _ in pairs]),
-            "change": float(ratios.mean() - 1) if len(ratios) else None,
-            "change_band": [float(ratios.min() - 1), float(ratios.max() - 1)] if len(ratios) else None,
+            "figure": title, "unit": unit, "seeds": len(usual), "failed": len(some) - len(ratios),
+            "intact": mean_of([b for _, b in pairs]), "worn": mean_of(means),
+            "change": float(np.mean(shares) - 1) if shares else None,
+            "change_band": [min(ratios) - 1, max(ratios) - 1] if shares else None,
         })  # fmt: skip
     return rows
 
