@@ -149,9 +149,8 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
             return fmi2Error;
     }
     for (size_t i = 0; i < n; i++) {
-        /* The derivative of the stroke is the velocity, which is an input itself. */
-        if (VARIABLE[vr[i]].offset == offsetof(struct memory, velocity))
-            u->m.velocity_rate = value[i];
+        if (VARIABLE[vr[i]].offset == DERIVED_INPUT)
+            u->m.rate = value[i];
     }
     return fmi2OK;
 }

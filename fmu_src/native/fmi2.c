@@ -1,6 +1,6 @@
 /* FMI 2.0 for co-simulation; the only file to compile. The equations are in kernel.h, the table of variables with the start
    values in variables.h. */
-#include "damper.h"
+#include "step.h"
 
 #define EVERYWHERE (1 << INSTANTIATED | 1 << INITIALIZING | 1 << STEPPING | 1 << TERMINATED)
 
@@ -168,8 +168,8 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real h, fmi2Boolean no
         return fmi2Error;
     /* Inputs and their derivatives belong to the beginning of a communication step (FMI 2.0, 4.2.1). The attempt uses the
        derivative up: after a refused step importers set inputs anew, and what was meant for others must not act on these. */
-    rate = u->m.velocity_rate;
-    u->m.velocity_rate = 0.0;
+    rate = u->m.rate;
+    u->m.rate = 0.0;
     if (!inside(u, "communication point", time, -LONGEST, LONGEST, " s")
         || !inside(u, "communication step", h, 0.0, LONGEST, " s"))
         return fmi2Error;

@@ -32,7 +32,7 @@ static int is_flag(int32_t value)
 /* Whether inputs and parameters are within their bounds, those in force and those that wait. */
 static int bounded(struct memory *m)
 {
-    const size_t waits = offsetof(struct memory, wanted), damper = sizeof(struct damper);
+    const size_t waits = offsetof(struct memory, wanted), size = sizeof(struct parameters);
     for (fmi2ValueReference i = 0; i < VARIABLES; i++) {
         struct variable v = VARIABLE[i];
         if (v.causality == OUTPUT)
@@ -41,8 +41,8 @@ static int bounded(struct memory *m)
             const double value = v.kind == INTEGER ? (double)*integer_of(m, &v) : *real_of(m, &v);
             if (!within(value, v.min, v.max))
                 return 0;
-            if (v.offset >= waits && v.offset < waits + damper)
-                v.offset += offsetof(struct memory, damper) - waits;
+            if (v.offset >= waits && v.offset < waits + size)
+                v.offset += offsetof(struct memory, in_force) - waits;
         }
     }
     return 1;
@@ -52,29 +52,29 @@ static int bounded(struct memory *m)
    computed anew. `quiet` is an instance that says nothing. */
 static int credible(struct unit *quiet, struct memory *m)
 {
-    bind(&m->damper);
+    bind(&m->in_force);
     bind(&m->wanted);
     if (m->mode < INSTANTIATED || m->mode > TERMINATED || !is_flag(m->timed) || !is_flag(m->changed) || !is_flag(m->stale)
         || !is_flag(m->warned) || m->unused != 0 || (m->stale && m->mode >= STEPPING))
         return 0;
-    if (!within(m->velocity_rate, -STEEPEST, STEEPEST) || !within(m->time, -2.0 * LONGEST, 2.0 * LONGEST)
+    if (!within(m->rate, -STEEPEST, STEEPEST) || !within(m->time, -2.0 * LONGEST, 2.0 * LONGEST)
         || !(m->stop == INFINITY || within(m->stop, -LONGEST, LONGEST)))
         return 0;
-    if (!bounded(m) || !numbers(&m->s, sizeof m->s) || !numbers(&m->f, sizeof m->f) || !numbers(&m->out, sizeof m->out))
+    if (!bounded(m) || !all_numbers(m))
         return 0;
     if (m->stale) /* the start is computed before anything is asked for */
         return 1;
-    if (!admissible(quiet, &m->damper))
+    if (!admissible(quiet, &m->in_force))
         return 0;
     derive(m);
-    kernel_publish(&m->d, &m->s, &m->out);
-    return kernel_possible(&m->d, &m->s) == 1;
+    publish(m);
+    return possible(m);
 }
 
 static void restore(struct unit *u, const struct memory *from)
 {
     u->m = *from;
-    bind(&u->m.damper);
+    bind(&u->m.in_force);
     bind(&u->m.wanted);
 }
 
@@ -121,22 +121,16 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_
     return fmi2OK;
 }
 
-/* Addresses mean nothing elsewhere. */
-static void unbind(struct damper *damper)
-{
-    damper->p.v_re.data = damper->p.F_re.data = damper->p.v_co.data = damper->p.F_co.data = NULL;
-}
-
 /* Equal states have equal bytes: without addresses, and without what an effect changes in `d` for the length of a step. */
 static struct memory portable(const void *state)
 {
     struct memory m;
     memcpy(&m, state, sizeof m);
     if (!m.stale) {
-        bind(&m.damper);
+        bind(&m.in_force);
         derive(&m);
     }
-    unbind(&m.damper);
+    unbind(&m.in_force);
     unbind(&m.wanted);
     return m;
 }

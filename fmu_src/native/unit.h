@@ -1,4 +1,4 @@
-/* One instance of the damper: what it remembers, how it is described, how it speaks. No global state. */
+/* One instance of a model: what it remembers, how it is described, how it speaks. No global state. */
 #ifndef UNIT_H
 #define UNIT_H
 
@@ -14,6 +14,7 @@
 #include "fmi2Functions.h"
 #include "kernel.h"
 #include "messages.h"
+#include "memory.h"
 
 #define STEEPEST 1e6 /* derivatives of inputs, per second */
 
@@ -21,27 +22,16 @@ enum kind { REAL, INTEGER };
 enum causality { INPUT, OUTPUT, FIXED, TUNABLE };
 enum mode { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED };
 
-/* The parameters with the memory of their F-v curve: velocities and forces of rebound, of compression. */
-struct damper {
-    struct kernel_Parameters p;
-    double fv[4][FV_POINTS];
-};
-
 /* Everything that changes: an FMU state is a copy of it. */
 struct memory {
-    struct damper damper;  /* in force */
-    struct damper wanted;  /* with the parameters set since the last step */
-    struct kernel_Derived d;
-    struct kernel_State s;
-    struct kernel_Flow f;
-    struct kernel_Outputs out;
-    double stroke, velocity;
-    double velocity_rate; /* [m/s2] input derivative, for the coming attempt at a step */
-    double limit;         /* [m] largest stroke to each side */
-    double time, stop;    /* [s] */
+    struct parameters in_force;
+    struct parameters wanted; /* with the parameters set since the last step */
+    struct model now;
+    double rate;       /* [1/s] input derivative, for the coming attempt at a step */
+    double time, stop; /* [s] */
     int32_t mode;
     int32_t timed;   /* whether `time` is known */
-    int32_t changed; /* whether `wanted` differs from `damper` */
+    int32_t changed; /* whether `wanted` differs from `in_force` */
     int32_t stale;   /* whether the start has to be computed again */
     int32_t warned;
     int32_t unused;
@@ -94,16 +84,7 @@ static fmi2Status say(struct unit *u, fmi2Status status, const char *format, ...
 #define discard(u, ...) say(u, fmi2Discard, __VA_ARGS__)
 #define warn(u, ...) say(u, fmi2Warning, __VA_ARGS__)
 
-/* Point the parameters to the memory of their own curve, as is needed after a copy. */
-static void bind(struct damper *damper)
-{
-    damper->p.v_re.data = damper->fv[0];
-    damper->p.F_re.data = damper->fv[1];
-    damper->p.v_co.data = damper->fv[2];
-    damper->p.F_co.data = damper->fv[3];
-}
-
-static void copy_damper(struct damper *to, const struct damper *from)
+static void copy_parameters(struct parameters *to, const struct parameters *from)
 {
     *to = *from;
     bind(to);
@@ -130,7 +111,7 @@ static void restart(struct memory *m)
         else
             *real_of(m, &VARIABLE[i]) = START[i];
     }
-    copy_damper(&m->damper, &m->wanted);
+    copy_parameters(&m->in_force, &m->wanted);
     m->stop = INFINITY;
     m->mode = INSTANTIATED;
     m->stale = 1;

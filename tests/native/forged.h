@@ -59,7 +59,7 @@ static void with_number(struct instance *i, const char *what, size_t at, double 
 static void fields_of(enum set which, int mode)
 {
     const double odd[] = {NAN, INFINITY, -INFINITY};
-    const size_t outwards = offsetof(struct memory, wanted) - offsetof(struct memory, damper);
+    const size_t outwards = offsetof(struct memory, wanted) - offsetof(struct memory, in_force);
     struct instance i;
     serialized_in(&i, which, mode);
     for (int k = 0; k < 4; k++) {
@@ -72,15 +72,15 @@ static void fields_of(enum set which, int mode)
     }
     for (int k = 0; k < 3; k++) {
         with_number(&i, "time", FIELD(time), odd[k]);
-        with_number(&i, "velocity_rate", FIELD(velocity_rate), odd[k]);
-        with_number(&i, "stroke", FIELD(stroke), odd[k]);
-        with_number(&i, "velocity", FIELD(velocity), odd[k]);
+        with_number(&i, "rate", FIELD(rate), odd[k]);
+        with_number(&i, "stroke", FIELD(now.stroke), odd[k]);
+        with_number(&i, "velocity", FIELD(now.velocity), odd[k]);
         if (k != 1) /* without a stop time it is infinite */
             with_number(&i, "stop", FIELD(stop), odd[k]);
         for (size_t n = 0; n < sizeof(struct kernel_State) / sizeof(double); n++)
-            with_number(&i, "state", FIELD(s) + n * sizeof(double), odd[k]);
+            with_number(&i, "state", FIELD(now.s) + n * sizeof(double), odd[k]);
         for (size_t n = 0; n < sizeof(struct kernel_Flow) / sizeof(double); n++)
-            with_number(&i, "flow", FIELD(f) + n * sizeof(double), odd[k]);
+            with_number(&i, "flow", FIELD(now.f) + n * sizeof(double), odd[k]);
     }
     for (fmi2ValueReference vr = 0; vr < VARIABLES; vr++) {
         const struct variable *v = &VARIABLE[vr];
@@ -100,9 +100,9 @@ static void fields_of(enum set which, int mode)
     }
     if (mode >= STEPPING) {
         with_whole(&i, "stale between steps", FIELD(stale), 1);
-        with_number(&i, "a phase below zero", FIELD(s.V1_oil), -1e-6);
-        with_number(&i, "a stroke beyond the tube", FIELD(s.z), 0.4);
-        with_number(&i, "oil that does not fit", FIELD(damper.p.V_oil), 4e-3);
+        with_number(&i, "a phase below zero", FIELD(now.s.V1_oil), -1e-6);
+        with_number(&i, "a stroke beyond the tube", FIELD(now.s.z), 0.4);
+        with_number(&i, "oil that does not fit", FIELD(in_force.p.V_oil), 4e-3);
     }
     fmu.FreeInstance(i.c);
 }
@@ -117,9 +117,9 @@ static void derived_anew(void)
     serialized_in(&i, DEGRADED, STEPPING);
     before = taken(&i);
     memcpy(wrong_bytes, original, state_size);
-    memcpy(wrong_bytes + FIELD(limit), &half, sizeof half);
-    memcpy(wrong_bytes + FIELD(d.half_length), &half, sizeof half);
-    memcpy(wrong_bytes + FIELD(out.force), &half, sizeof half);
+    memcpy(wrong_bytes + FIELD(now.limit), &half, sizeof half);
+    memcpy(wrong_bytes + FIELD(now.d.half_length), &half, sizeof half);
+    memcpy(wrong_bytes + FIELD(now.out.force), &half, sizeof half);
     sign(wrong_bytes, state_size);
     CHECK(fmu.DeSerializeFMUstate(i.c, wrong_bytes, state_size, &state) == fmi2OK, "%s", i.text);
     CHECK(fmu.SetFMUstate(i.c, state) == fmi2OK && fmu.FreeFMUstate(i.c, &state) == fmi2OK, "%s", i.text);

@@ -1,6 +1,6 @@
 """A damper that is stepped from outside: parameters that wait for the next step, start, steps, state.
 
-What `fmu_src/native/damper.h` is for the native FMU. Messages instead of exceptions: the FMU around it has to answer.
+What `fmu_src/native/step.h` is for the native FMU. Messages instead of exceptions: the FMU around it has to answer.
 """
 
 import math

@@ -31,13 +31,12 @@ def drive_car_with_fmus(
             precondition(fmu)
         w["damper"] = w["before"] = fmu.outputs()["force"]
     before = np.array([fmu.outputs()["work"] for fmu in fmus])
-    heights, rates = np.zeros(len(WHEELS)), np.zeros(len(WHEELS))
     out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
     work = BODY_COLUMNS + 10 + WHEEL_COLUMNS * np.arange(len(WHEELS))
     ground = np.array(road, dtype=float)
     for n, (steer, wanted, held) in enumerate(np.asarray(inputs, dtype=float).tolist()):
         module.write_body(b, out[n])
-        if not module.drive_step(c, b, ks, ws, h, ground, spacing, steer, wanted, held, grip, dt, heights, rates):
+        if not module.road_step(c, b, ks, ws, h, ground, spacing, steer, wanted, held, grip, dt):
             raise InputError(f"time {n * dt:g} s: the road of {(road.shape[1] - 1) * spacing:g} m ends")
         module.write_step(b, ws, out[n], dt)
         out[n, work] = [fmu.outputs()["work"] for fmu in fmus]

@@ -29,6 +29,7 @@ LOOPS = (
     "vehicle/full/tyre.py",
     "vehicle/full/brakes.py",
     "vehicle/full/body.py",
+    "vehicle/full/driver.py",
     "vehicle/full/loop.py",
 )
 LOADING = Lock()

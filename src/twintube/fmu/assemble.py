@@ -5,7 +5,7 @@ import json
 import shutil
 import tempfile
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from twintube.core.checks import problems
@@ -15,9 +15,11 @@ from twintube.files import replacing
 from twintube.fmu import archive, binaries, description, documentation, licences, python_kind, related, sources, terminals
 from twintube.fmu.description import model_name
 from twintube.fmu.equations import StaleTranslationError
+from twintube.fmu.model import Model
 from twintube.fmu.platforms import PLATFORMS, Kind, PlatformError, known
 
 Progress = Callable[[str], None]
+XML = "modelDescription.xml"
 REFUSALS = (binaries.CompilerError, StaleTranslationError, PlatformError, licences.LicenceError, archive.DateError)
 
 
@@ -31,25 +33,29 @@ def identity(content: dict[str, bytes]) -> str:
     return "{" + str(uuid.uuid5(uuid.NAMESPACE_URL, listed)) + "}"
 
 
-def native_content(damper: Damper, platforms: Sequence[str], progress: Progress) -> tuple[str, dict[str, bytes]]:
-    """GUID, and sources and libraries by their path inside the FMU."""
-    texts = sources.sources(damper, "")
+def native_content(model: Model, platforms: Sequence[str], date: str, progress: Progress) -> dict[str, bytes]:
+    """Model description, sources and libraries by their path inside the FMU."""
+    texts = sources.model_sources(model, "")
     guid = identity({name: text.encode() for name, text in texts.items()})
-    texts |= {"model.h": sources.identity(damper, guid)}
-    libraries = binaries.binaries(texts, model_name(damper), platforms, progress)
-    return guid, {f"sources/{name}": text.encode() for name, text in texts.items()} | libraries
+    texts |= {"model.h": sources.identity(model, guid)}
+    libraries = binaries.binaries(texts, model.name, platforms, progress)
+    xml = description.described_model(
+        model, guid, date, sources.capabilities(model), [sources.COMPILED], sources.LOG_CATEGORIES
+    )
+    return {XML: xml} | {f"sources/{name}": text.encode() for name, text in texts.items()} | libraries
 
 
 def contents(damper: Damper, kind: Kind, platforms: Sequence[str], date: str, progress: Progress) -> dict[str, bytes]:
     """All files of the FMU by their path, the model description first, the others by name."""
     if kind == "native":
-        guid, content = native_content(damper, platforms, progress)
-        xml = description.described(damper, guid, date, sources.CAPABILITIES, [sources.COMPILED], sources.LOG_CATEGORIES)
+        content = native_content(description.damper_model(damper), platforms, date, progress)
     else:
         progress("Python sources")
         content = python_kind.content(damper)
         content["documentation/externalDependencies.txt"] = documentation.NEEDS_PYTHON.encode()
-        xml = description.described(damper, identity(content), date, python_kind.CAPABILITIES, [], sources.LOG_CATEGORIES)
+        content[XML] = description.described(
+            damper, identity(content), date, python_kind.CAPABILITIES, [], sources.LOG_CATEGORIES
+        )
     progress("reference run, documentation, licences")
     icon = (sources.FOLDER / "model.png").read_bytes()
     content |= {
@@ -59,7 +65,12 @@ def contents(damper: Damper, kind: Kind, platforms: Sequence[str], date: str, pr
         "documentation/index.html": documentation.page(damper, kind).encode(),
     }
     content |= licences.files(kind, platforms) | related.files(damper)
-    return {"modelDescription.xml": xml, **dict(sorted(content.items()))}
+    return in_order(content)
+
+
+def in_order(content: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The files by name, the model description first."""
+    return {XML: content[XML], **dict(sorted(content.items()))}
 
 
 def validated(fmu: Path) -> None:
@@ -71,11 +82,11 @@ def validated(fmu: Path) -> None:
         raise BuildError("the FMU is not valid: " + "; ".join(remarks))
 
 
-def target_file(output: Path | str | None, damper: Damper) -> Path:
+def target_file(output: Path | str | None, name: str) -> Path:
     """The file to write: `output`, or a file in this folder; raises OSError where nothing can be written there."""
     target = Path(output) if output is not None else Path.cwd()
     if target.suffix.lower() != ".fmu":
-        target = target / f"{model_name(damper)}.fmu"
+        target = target / f"{name}.fmu"
     if target.is_dir():
         raise IsADirectoryError(f"{target}: is a folder, must be a file")
     parent = next(folder for folder in target.absolute().parents if folder.exists())
@@ -100,7 +111,7 @@ def build_fmu(
     environment variable SOURCE_DATE_EPOCH fixes the date; all other bytes follow from damper, kind and platforms. Nothing
     is left behind if it fails. Raises BuildError, and OSError where the output cannot be written.
     """
-    target = target_file(output, damper)
+    target = target_file(output, model_name(damper))
     inadmissible = problems(damper.parameters)
     if inadmissible:
         raise BuildError(f"{damper.name}: " + "; ".join(inadmissible))
@@ -108,6 +119,12 @@ def build_fmu(
         content = contents(damper, kind, known(platforms), archive.build_date(), progress)
     except REFUSALS as error:
         raise BuildError(str(error)) from error
+    written(target, content, progress)
+    return target
+
+
+def written(target: Path, content: Mapping[str, bytes], progress: Progress) -> None:
+    """Validate the FMU and write it; raises BuildError."""
     with tempfile.TemporaryDirectory() as folder:
         fresh = Path(folder) / target.name
         archive.write(fresh, content)
@@ -115,4 +132,3 @@ def build_fmu(
         validated(fresh)
         with replacing(target) as part:
             shutil.copyfile(fresh, part)
-    return target

@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 from xml.etree import ElementTree as ET
 
 from twintube import __version__
-from twintube.core.checks import tube_limit
 from twintube.core.units import DISPLAY, UNITS
 from twintube.dampers import Damper
+from twintube.fmu.equations import DAMPER
+from twintube.fmu.model import Model
 from twintube.fmu.table import Variable, variables
 
 TITLE = "Twin-tube shock absorber after oil and gas loss (Schramm, Zwosta, Prokop 2025): stroke and velocity in, force out"
@@ -27,28 +28,24 @@ LONGEST = 48  # characters of an identifier: Simulink's names end at 63
 
 
 def model_name(damper: Damper) -> str:
-    """The model's name and identifier: an identifier of the C language, ASCII; also a file name.
+    """The model's name and identifier; also a file name."""
+    return identifier(PREFIX, damper.name)
 
-    Accents are dropped. Where letters are lost, or the name is cut, a digest of the name tells two such dampers apart.
+
+def identifier(prefix: str, text: str) -> str:
+    """An identifier of the C language, ASCII, from a prefix and a name.
+
+    Accents are dropped. Where letters are lost, or the name is cut, a digest of the name tells two such names apart.
     """
-    plain = "".join(c for c in unicodedata.normalize("NFKD", damper.name) if not unicodedata.combining(c))
-    name = PREFIX + re.sub(r"[^A-Za-z0-9_]", "_", plain)
+    plain = "".join(c for c in unicodedata.normalize("NFKD", text) if not unicodedata.combining(c))
+    name = prefix + re.sub(r"[^A-Za-z0-9_]", "_", plain)
     if len(name) > LONGEST or any(c.isalnum() and not c.isascii() for c in plain):
-        digest = hashlib.sha256(damper.name.encode(errors="surrogatepass")).hexdigest()[:8]
+        digest = hashlib.sha256(text.encode(errors="surrogatepass")).hexdigest()[:8]
         return f"{name[: LONGEST - 9]}_{digest}"
     return name
 
 
-def limits(damper: Damper, variable: Variable) -> tuple[float | None, float | None]:
-    """The bounds of a variable; those of the stroke are where the piston reaches the ends of this damper's tube."""
-    if variable.name == "stroke":
-        stroke = tube_limit(damper.parameters)
-        return -stroke, stroke
-    meta = variable.item.metadata
-    return meta["lower"], meta["upper"]
-
-
-def scalar(parent: ET.Element, reference: int, variable: Variable, bounds: tuple[float | None, float | None]) -> str:
+def scalar(parent: ET.Element, reference: int, variable: Variable) -> str:
     """Add a variable; returns its unit."""
     meta = variable.item.metadata
     attributes = {
@@ -66,7 +63,7 @@ def scalar(parent: ET.Element, reference: int, variable: Variable, bounds: tuple
         kind.set("unit", unit)
         if unit in DISPLAY:
             kind.set("displayUnit", DISPLAY[unit][0])
-    numbers = zip(("min", "max", "nominal", "start"), (*bounds, meta["nominal"], variable.start), strict=True)
+    numbers = zip(("min", "max", "nominal", "start"), (*variable.bounds, meta["nominal"], variable.start), strict=True)
     for name, value in numbers:
         if value is not None and not (variable.integer and name == "nominal"):
             kind.set(name, str(int(value)) if variable.integer else repr(float(value)))
@@ -99,10 +96,22 @@ def serialized(root: ET.Element) -> bytes:
 def described(
     damper: Damper, guid: str, date: str, capabilities: Mapping[str, str], sources: Sequence[str], categories: Sequence[str]
 ) -> bytes:
+    """The model description of a damper, see `described_model`."""
+    return described_model(damper_model(damper), guid, date, capabilities, sources, categories)
+
+
+def damper_model(damper: Damper) -> Model:
+    """A damper as a model."""
+    return Model(model_name(damper), TITLE, tuple(variables(damper)), EXPERIMENT, DAMPER, "", True)
+
+
+def described_model(
+    model: Model, guid: str, date: str, capabilities: Mapping[str, str], sources: Sequence[str], categories: Sequence[str]
+) -> bytes:
     """The model description; `capabilities` of the kind are added to those of both, `sources` are what is to be compiled."""
-    name = model_name(damper)
+    name = model.name
     root = ET.Element(
-        "fmiModelDescription", fmiVersion="2.0", modelName=name, guid=guid, description=TITLE, author="twintube",
+        "fmiModelDescription", fmiVersion="2.0", modelName=name, guid=guid, description=model.title, author="twintube",
         version=__version__, license="MIT", generationTool=f"twintube {__version__}", generationDateAndTime=date,
         variableNamingConvention="structured",
     )  # fmt: skip
@@ -117,12 +126,12 @@ def described(
         logs = ET.SubElement(root, "LogCategories")
         for category in categories:
             ET.SubElement(logs, "Category", name=category)
-    ET.SubElement(root, "DefaultExperiment", EXPERIMENT)
+    ET.SubElement(root, "DefaultExperiment", dict(model.experiment))
     listed, structure = ET.SubElement(root, "ModelVariables"), ET.SubElement(root, "ModelStructure")
     outputs, initial = ET.SubElement(structure, "Outputs"), ET.SubElement(structure, "InitialUnknowns")
     used = set()
-    for i, variable in enumerate(variables(damper)):
-        used.add(scalar(listed, i, variable, limits(damper, variable)))
+    for i, variable in enumerate(model.variables):
+        used.add(scalar(listed, i, variable))
         if variable.causality == "output":
             # Outputs change in doStep only: no direct feedthrough, so that importers need not iterate.
             ET.SubElement(outputs, "Unknown", index=str(i + 1), dependencies="")

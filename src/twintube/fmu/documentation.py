@@ -11,7 +11,6 @@ from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
 from twintube.dampers.closures import OWN, acting
 from twintube.fmu import reference, related
-from twintube.fmu.description import limits
 from twintube.fmu.table import Variable, variables
 from twintube.words import printable
 
@@ -127,7 +126,7 @@ def row(damper: Damper, variable: Variable, size: int) -> str:
     name = fmi_name(variable.item)
     unit = "" if meta["unit"] == "1" else meta["unit"]
     value = f"{size} values" if size > 1 else "" if variable.start is None else f"{variable.start:g} {unit}"
-    bounds = interval(*limits(damper, variable))
+    bounds = interval(*variable.bounds)
     about = [meta["symbol"], variable.variability if variable.causality == "parameter" else ""]
     lines = [escape(meta["description"]), f"<small>{escape(meta['source'])}</small>" if meta["source"] else ""]
     lines += [origin(damper, name, meta["group"])] if variable.causality == "parameter" else []

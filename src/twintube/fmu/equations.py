@@ -3,27 +3,68 @@
 import ast
 import hashlib
 import re
-from collections.abc import Sequence
-from dataclasses import fields
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
 
 from twintube.core import effects, sources
 from twintube.core.consistency import Violation
 from twintube.core.variables import FV_POINTS, Derived, Flow, Outputs
+from twintube.vehicle.full import brakes, car, equation_texts, signals
 
-RECORDS = {
-    "Parameters": effects.Parameters,
-    "Derived": Derived,
-    "State": effects.State,
-    "Flow": Flow,
-    "Outputs": Outputs,
-    "Violation": Violation,
-}
-ARGUMENTS = {"p": "Parameters", "d": "Derived", "s": "State", "f": "Flow", "o": "Outputs", "violation": "Violation"}
-# What the wrapper calls.
-ENTRIES = (
-    "set_up", "start", "advance", "publish", "curve_rule", "fit_rule", "stroke_limit", "time_slack", "stroke_jump",
-    "possible",
+
+@dataclass(frozen=True)
+class Equations:
+    """Equations of a model: its records, which arguments are of them, what the wrapper calls, the sources."""
+
+    records: Mapping[str, type]
+    arguments: Mapping[str, str]  # the record of an argument by its name
+    entries: Sequence[str]
+    texts: Callable[[], Iterable[str]]
+
+
+def damper_texts() -> list[str]:
+    """The sources of kernel, effects, model and rules."""
+    return [*sources.kernel_texts(), *sources.effect_texts(), sources.model_text(), sources.rule_text()]
+
+
+def car_texts() -> list[str]:
+    """The sources of the car without dampers, and the rule of times."""
+    return [*equation_texts(), sources.rule_text()]
+
+
+DAMPER = Equations(
+    {
+        "Parameters": effects.Parameters,
+        "Derived": Derived,
+        "State": effects.State,
+        "Flow": Flow,
+        "Outputs": Outputs,
+        "Violation": Violation,
+    },
+    {"p": "Parameters", "d": "Derived", "s": "State", "f": "Flow", "o": "Outputs", "violation": "Violation"},
+    (
+        "set_up", "start", "advance", "publish", "curve_rule", "fit_rule", "stroke_limit", "time_slack", "stroke_jump",
+        "possible",
+    ),
+    damper_texts,
 )  # fmt: skip
+CAR = Equations(
+    {
+        "Body": car.Body,
+        "BodyMotion": car.BodyMotion,
+        "Wheel": car.Wheel,
+        "WheelMotion": car.WheelMotion,
+        "Brakes": brakes.Brakes,
+        "DriverInputs": signals.DriverInputs,
+        "WheelInputs": signals.WheelInputs,
+        "BodyOutputs": signals.BodyOutputs,
+        "WheelOutputs": signals.WheelOutputs,
+        "Course": signals.Course,
+    },
+    {"car": "Wheel"},  # the corner of a quarter car; other records are in the annotations
+    ("set_up_car", "start_car", "communication_step", "publish_body", "publish_wheel", "time_slack"),
+    car_texts,
+)
 INTEGERS = ("effects_active", "effects_parts", "effects_remember")  # of the functions generated from the effects' files
 
 
@@ -38,12 +79,12 @@ def record_source(name: str, record: type) -> str:
     return "\n".join(lines)
 
 
-def signature(node: ast.FunctionDef) -> str:
-    """The first line of a function with the types that pyccel needs; those of the records go by the arguments' names."""
+def signature(node: ast.FunctionDef, records: Mapping[str, str]) -> str:
+    """The first line of a function with the types that pyccel needs; `records` are those of arguments by their names."""
     arguments = []
     for argument in node.args.args:
         written = ast.unparse(argument.annotation) if argument.annotation else "float"
-        kind = ARGUMENTS.get(argument.arg, written.replace("tuple[float, ...]", "float[:]"))
+        kind = records.get(argument.arg, written.replace("tuple[float, ...]", "float[:]"))
         arguments.append(f"{argument.arg}: {kind!r}")
     returned = ast.unparse(node.returns) if node.returns else "None"
     if node.name.startswith("effects_"):
@@ -53,13 +94,14 @@ def signature(node: ast.FunctionDef) -> str:
     return f"def {node.name}({', '.join(arguments)}){arrow}:"
 
 
-def functions(text: str) -> dict[str, str]:
-    """The functions of a source by name: typed, with its constants in place of their names, comments kept.
+def functions(text: str, records: Mapping[str, str], values: dict[str, float]) -> dict[str, str]:
+    """The functions of a source by name: typed, with constants in place of their names, comments kept.
+
+    `values` are the constants of the sources before it; its own are added.
 
     pyccel would make global variables of the constants.
     """
     body = ast.parse(text).body
-    values: dict[str, float] = {"FV_POINTS": FV_POINTS}
     for node in body:
         match node:
             case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant(value=int() | float() as value)):
@@ -71,7 +113,7 @@ def functions(text: str) -> dict[str, str]:
             inside = "\n".join(lines[node.body[0].lineno - 1 : node.end_lineno])
             for name, value in values.items():
                 inside = re.sub(rf"\b{name}\b", repr(value), inside)
-            texts[node.name] = f"{signature(node)}\n{inside}"
+            texts[node.name] = f"{signature(node, records)}\n{inside}"
     return texts
 
 
@@ -93,36 +135,38 @@ def ordered(texts: dict[str, str], entries: Sequence[str]) -> list[str]:
     return done
 
 
-def joined_source() -> str:
+def joined_source(equations: Equations = DAMPER) -> str:
     """One typed module of all equations, as pyccel reads it."""
     typed: dict[str, str] = {}
-    for text in (*sources.kernel_texts(), *sources.effect_texts(), sources.model_text(), sources.rule_text()):
-        typed |= functions(text)
-    parts = ["import math", *(record_source(name, record) for name, record in RECORDS.items())]
-    parts += [typed[name] for name in ordered(typed, ENTRIES)]
+    values: dict[str, float] = {"FV_POINTS": FV_POINTS}
+    for text in equations.texts():
+        typed |= functions(text, equations.arguments, values)
+    parts = ["import math", *(record_source(name, record) for name, record in equations.records.items())]
+    parts += [typed[name] for name in ordered(typed, equations.entries)]
     return "\n\n\n".join(parts) + "\n"
 
 
-def digest() -> str:
+def digest(equations: Equations = DAMPER) -> str:
     """Of the joined source; stands in the translated file, so that a build sees whether it is current."""
-    return hashlib.sha256(joined_source().encode()).hexdigest()[:16]
+    return hashlib.sha256(joined_source(equations).encode()).hexdigest()[:16]
 
 
 class StaleTranslationError(RuntimeError):
     """The C of the equations is not the translation of the Python equations."""
 
 
-def marked(body: str) -> str:
+def marked(body: str, equations: Equations = DAMPER) -> str:
     """The C under a line that says what it was translated from, and the digest of the body: a change by hand shows."""
     body_digest = hashlib.sha256(body.encode()).hexdigest()[:16]
+    origin = digest(equations)
     return (
-        f"/* Written by twintube/fmu/translate.py from the equations {digest()}, body {body_digest}; do not edit. */\n{body}"
+        f"/* Written by twintube/fmu/translate.py from the equations {origin}, body {body_digest}; do not edit. */\n{body}"
     )
 
 
-def checked(text: str) -> str:
+def checked(text: str, equations: Equations = DAMPER) -> str:
     """The text of `kernel.h`; raises StaleTranslationError unless it is the unchanged translation of the equations."""
-    if text != marked(text.split("\n", 1)[-1]):
+    if text != marked(text.split("\n", 1)[-1], equations):
         raise StaleTranslationError(
             "kernel.h is not the translation of this package's equations: run `python -m twintube.fmu.translate` "
             "(needs pyccel), or build the Python kind"

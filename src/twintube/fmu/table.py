@@ -1,9 +1,10 @@
-"""All variables of the FMU in the order of their value references, the same in both kinds of FMU."""
+"""All variables of a damper's FMU in the order of their value references, the same in both kinds of FMU."""
 
 from collections.abc import Iterator
 from dataclasses import Field, dataclass, fields
 from typing import Any
 
+from twintube.core.checks import tube_limit
 from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import Damper, elements
 
@@ -17,6 +18,8 @@ class Variable:
     item: Field[Any]
     index: int
     start: float | None  # None for outputs
+    place: str  # in `struct memory` of the native FMU
+    bounds: tuple[float | None, float | None]
 
     @property
     def variability(self) -> str:
@@ -31,11 +34,26 @@ class Variable:
         return bool(self.item.metadata["integer"])
 
 
+# The order of the F-v curve's memory in `struct parameters`.
+CURVES = ("v_re", "F_re", "v_co", "F_co")
+
+
+def bounds(item: Field[Any]) -> tuple[float | None, float | None]:
+    """The bounds that the table of variables gives."""
+    return item.metadata["lower"], item.metadata["upper"]
+
+
 def variables(damper: Damper) -> Iterator[Variable]:
-    """Inputs, outputs and parameters, arrays element by element."""
+    """Inputs, outputs and parameters, arrays element by element.
+
+    The bounds of the stroke are where the piston reaches the ends of this damper's tube.
+    """
+    limit = tube_limit(damper.parameters)
     for item in fields(Inputs):
-        yield Variable(fmi_name(item), "input", item, -1, item.metadata["default"])
+        ends = (-limit, limit) if item.name == "stroke" else bounds(item)
+        yield Variable(fmi_name(item), "input", item, -1, item.metadata["default"], f"now.{item.name}", ends)
     for item in fields(Outputs):
-        yield Variable(fmi_name(item), "output", item, -1, None)
+        yield Variable(fmi_name(item), "output", item, -1, None, f"now.out.{item.name}", bounds(item))
     for name, item, i, value in elements(damper):
-        yield Variable(name, "parameter", item, i, value)
+        place = f"wanted.fv[{CURVES.index(item.name)}][{i}]" if item.name in CURVES else f"wanted.p.{item.name}"
+        yield Variable(name, "parameter", item, i, value, place, bounds(item))

@@ -16,20 +16,22 @@ from importlib.resources import files
 from pathlib import Path
 
 from twintube.files import write_text
-from twintube.fmu.equations import joined_source, marked
+from twintube.fmu.equations import CAR, DAMPER, Equations, joined_source, marked
 
-TARGET = Path(str(files("twintube.fmu_sources"))) / "native" / "kernel.h"
+NATIVE = Path(str(files("twintube.fmu_sources"))) / "native"
+TARGET = NATIVE / "kernel.h"
+TARGETS = {TARGET: DAMPER, NATIVE / "car" / "kernel.h": CAR}
 MODULE = "kernel"
 
 
-def translated() -> str:
-    """The text of `kernel.h`; raises RuntimeError with what pyccel says."""
+def translated(equations: Equations = DAMPER) -> str:
+    """The text of a `kernel.h`; raises RuntimeError with what pyccel says."""
     pyccel = shutil.which("pyccel", path=str(Path(sys.executable).parent)) or shutil.which("pyccel")
     if pyccel is None:
         raise RuntimeError("pyccel is not installed: pip install pyccel (its installation needs gfortran)")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        (folder / f"{MODULE}.py").write_text(joined_source(), encoding="utf-8")
+        (folder / f"{MODULE}.py").write_text(joined_source(equations), encoding="utf-8")
         done = subprocess.run(
             [pyccel, "compile", "--language", "C", "--convert-only", f"{MODULE}.py"],
             cwd=folder, capture_output=True, text=True, check=False,
@@ -37,10 +39,10 @@ def translated() -> str:
         output = {path.suffix: path.read_text(encoding="utf-8") for path in folder.rglob(f"{MODULE}.[ch]")}
         if done.returncode != 0 or len(output) != 2:
             raise RuntimeError(f"pyccel failed:\n{done.stdout}{done.stderr}")
-        return header(output[".h"], output[".c"])
+        return header(output[".h"], output[".c"], equations)
 
 
-def header(declared: str, defined: str) -> str:
+def header(declared: str, defined: str, equations: Equations) -> str:
     """A header of records and static functions, so that several FMUs can be linked into one program."""
     records = re.findall(r"^struct \w+ \{\n.*?^\};\n", declared, re.DOTALL | re.MULTILINE)
     # The wrapper sets the records up itself.
@@ -49,7 +51,7 @@ def header(declared: str, defined: str) -> str:
     bodies = [body for body in bodies if body.strip() and not re.match(r"void \w+__(init|drop)\(", body)]
     parts = [re.sub(r"^(?=(?:double|void|bool|int64_t) \w+\()", "static ", commented(body), flags=re.M) for body in bodies]
     text = "\n".join(["#ifndef KERNEL_H", "#define KERNEL_H", "", '#include "subset.h"', "", *records, *parts, "#endif", ""])
-    return marked(re.sub(r"\bkernel__(?=\w)", "kernel_", re.sub(r"INT64_C\((\d+)\)", r"\1", text)))
+    return marked(re.sub(r"\bkernel__(?=\w)", "kernel_", re.sub(r"INT64_C\((\d+)\)", r"\1", text)), equations)
 
 
 def commented(body: str) -> str:
@@ -72,8 +74,9 @@ def commented(body: str) -> str:
 
 
 def main() -> None:
-    """Write `kernel.h` among the sources of the FMU."""
-    write_text(TARGET, translated())
+    """Write each `kernel.h` among the sources of the FMUs."""
+    for target, equations in TARGETS.items():
+        write_text(target, translated(equations))
 
 
 if __name__ == "__main__":

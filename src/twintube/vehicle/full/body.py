@@ -30,113 +30,130 @@ def corner_velocity(b: BodyMotion, k: Wheel, w: WheelMotion) -> float:
 
 
 def car_step(
-    c: Body,
-    b: BodyMotion,
-    ks: Sequence[Wheel],
-    ws: Sequence[WheelMotion],
-    road: Array,
-    rates: Array,
-    steer: float,
-    torque: float,
-    grip: float,
-    dt: float,
-) -> None:
-    """One leapfrog step of `dt` [s]; `road` [m] and `rates` [m/s] (4,) are the heights under the wheels and their rates.
+    c: Body, b: BodyMotion, k1: Wheel, k2: Wheel, k3: Wheel, k4: Wheel,
+    w1: WheelMotion, w2: WheelMotion, w3: WheelMotion, w4: WheelMotion,
+    steer: float, torque: float, grip: float, dt: float,
+) -> None:  # fmt: skip
+    """One leapfrog step of `dt` [s]; records of the wheels in the order of WHEELS.
 
-    `steer` [rad] is the angle of the steered wheels, `torque` [N.m] that of the drive. The damper forces at the step's start
-    and a step earlier, and the brake pressures, stand in `ws`.
+    `steer` [rad] is the angle of the steered wheels, `torque` [N.m] that of the drive. Heights and rates of the road, the
+    damper forces at the step's start (`acting`) and the brake pressures stand in `w1` to `w4`.
+    """
+    begin_sums(c, b)
+    push_wheel(c, b, k1, w1, w2, 1.0, steer, torque, grip, dt)
+    push_wheel(c, b, k2, w2, w1, -1.0, steer, torque, grip, dt)
+    push_wheel(c, b, k3, w3, w4, 1.0, steer, torque, grip, dt)
+    push_wheel(c, b, k4, w4, w3, -1.0, steer, torque, grip, dt)
+    lift_wheel(k1, w1, w2, dt)
+    lift_wheel(k2, w2, w1, dt)
+    lift_wheel(k3, w3, w4, dt)
+    lift_wheel(k4, w4, w3, dt)
+    move_body(c, b, dt)
+
+
+def begin_sums(c: Body, b: BodyMotion) -> None:
+    """Of the body alone: air drag, the inertial forces that speeds make, its mass and inertias."""
+    v_x, v_y, w_yaw = b.v_x + 0.5 * b.dv_x, b.v_y + 0.5 * b.dv_y, b.w_yaw + 0.5 * b.dw_yaw
+    drag = -c.drag * v_x * abs(v_x)
+    b.q_x, b.q_y, b.q_z = drag + c.mass * w_yaw * v_y, -c.mass * w_yaw * v_x, 0.0
+    b.q_yaw, b.q_pitch, b.q_roll = 0.0, 0.0, 0.0
+    b.m_all, b.m_x, b.m_h, b.m_g, b.m_xg = c.mass, 0.0, 0.0, 0.0, 0.0
+    b.i_pitch, b.i_yaw, b.i_roll = c.I_pitch, c.I_yaw, c.I_roll
+    b.power = drag * v_x
+
+
+def push_wheel(
+    c: Body, b: BodyMotion, k: Wheel, w: WheelMotion, other: WheelMotion, side: float,
+    steer: float, torque: float, grip: float, dt: float,
+) -> None:  # fmt: skip
+    """Forces of a wheel and its suspension, its tyre and spin carried over `dt` [s]; adds what it does to the body.
+
+    `other` is the wheel at the axle's other end, `side` 1 for a left wheel and -1 for a right one.
     """
     v_x, v_y, v_z = b.v_x + 0.5 * b.dv_x, b.v_y + 0.5 * b.dv_y, b.v_z + 0.5 * b.dv_z
     w_yaw, w_pitch, w_roll = b.w_yaw + 0.5 * b.dw_yaw, b.w_pitch + 0.5 * b.dw_pitch, b.w_roll + 0.5 * b.dw_roll
-    drag = -c.drag * v_x * abs(v_x)
-    # Generalised forces, inertial parts that speeds make among them, and the matrix of the masses.
-    q_x, q_y, q_z = drag + c.mass * w_yaw * v_y, -c.mass * w_yaw * v_x, 0.0
-    q_yaw, q_pitch, q_roll = 0.0, 0.0, 0.0
-    m_all, m_x, m_h, m_g, m_xg = c.mass, 0.0, 0.0, 0.0, 0.0
-    i_pitch, i_yaw, i_roll = c.I_pitch, c.I_yaw, c.I_roll
-    power = drag * v_x
-    for i in range(4):
-        k, w = ks[i], ws[i]
-        other = ws[i + 1 - 2 * (i % 2)]
-        side = 1.0 - 2.0 * (i % 2)
-        arm, lever = c.height - k.radius, c.height - k.h_roll
-        v_corner = v_z + k.y * w_roll - k.x * w_pitch
-        v_wheel = w.v + 0.5 * w.dv
-        stroke = b.z + k.y * b.roll - k.x * b.pitch - w.z
-        across = b.z - k.y * b.roll - k.x * b.pitch - other.z
-        velocity = v_corner - v_wheel
-        damper = 1.5 * w.damper - 0.5 * w.before
-        elastic = k.c_body * stroke + k.c_bar * (stroke - across)
-        pull = elastic + k.d_links * velocity + k.ratio * (damper - k.F_rest)
-        pull += stop_force(k, stroke - k.travel, velocity) - stop_force(k, -stroke - k.travel, -velocity)
-        press = k.weight + k.c_tyre * (road[i] - w.z)
-        w.load = press
-        if press > 0.0:
-            w.load += k.d_tyre * (rates[i] - v_wheel)
-        w.load = max(w.load, 0.0)
-        # Speeds of wheel centre and contact along and across the body.
-        u_x = v_x - k.y * w_yaw - arm * w_pitch
-        u_y = v_y + k.x * w_yaw + lever * w_roll
-        axle_roll = side * (v_wheel - other.v - 0.5 * other.dv) / k.track
-        at_x = u_x - k.support * velocity
-        at_y = u_y + k.h_roll * axle_roll
-        angle = k.steers * steer - k.steer_compliance * w.F_y
-        cosine, sine = math.cos(angle), math.sin(angle)
-        roll_tyre(k, w, cosine * at_x + sine * at_y, cosine * at_y - sine * at_x, grip, dt)
-        f_x = cosine * w.F_x - sine * w.F_y
-        f_y = sine * w.F_x + cosine * w.F_y
-        drive = 0.5 * k.drive * torque
-        spin = w.spin + 0.5 * w.d_spin
-        braked = turn_wheel(k, w, drive, dt)
-        lift = -k.support * f_x  # the links' share of the force along, on the body
-        q_x += f_x
-        q_y += f_y
-        q_yaw += k.x * f_y - k.y * f_x
-        q_z += lift - pull
-        q_pitch += k.x * (pull - lift) - arm * f_x - drive - braked
-        q_roll += k.y * (lift - pull) + lever * f_y
-        # The mass of the wheel turns and is carried with the car.
-        m = k.m_wheel
-        q_x += m * w_yaw * u_y
-        q_y -= m * w_yaw * u_x
-        q_yaw -= m * w_yaw * (k.y * u_y + k.x * u_x)
-        q_pitch -= m * arm * w_yaw * u_y
-        q_roll -= m * lever * w_yaw * u_x
-        q_roll += (k.weight - m * GRAVITY) * lever * b.roll
-        m_all += m
-        m_x += m * k.x
-        m_h += m * arm
-        m_g += m * lever
-        m_xg += m * k.x * lever
-        i_pitch += m * arm * arm
-        i_yaw += m * (k.x * k.x + k.y * k.y)
-        i_roll += m * lever * lever
-        # What the tyre's lateral force does through the roll centre, half on either wheel of the axle.
-        w.lifted = pull + w.load - k.weight - lift
-        w.aside = side * f_y * k.h_roll / k.track
-        power += w.load * rates[i] - (w.load - max(press, 0.0)) * (rates[i] - v_wheel)
-        power -= (pull - elastic) * velocity
-        power += f_x * at_x + f_y * at_y - w.F_x * k.radius * spin + k.c_x * w.e_x * w.de_x + k.c_y * w.e_y * w.de_y
-        power += (drive + braked) * (spin - w_pitch)
-    for i in range(4):
-        k, w, other = ks[i], ws[i], ws[i + 1 - 2 * (i % 2)]
-        # Both wheels' lateral forces lift the left wheel and press the right one.
-        w.dv = dt * (w.lifted + w.aside - other.aside) / k.m_wheel
-        w.v += w.dv
-        w.z += dt * w.v
-    b.work += dt * power
-    # Forward and pitch share a matrix, and so do aside, yaw and roll.
-    determinant = m_all * i_pitch - m_h * m_h
-    b.dv_x = dt * (q_x * i_pitch + q_pitch * m_h) / determinant
-    b.dw_pitch = dt * (q_pitch * m_all + q_x * m_h) / determinant
-    m11, m12, m13, m22, m23, m33 = m_all, m_x, m_g, i_yaw, m_xg, i_roll
+    arm, lever = c.height - k.radius, c.height - k.h_roll
+    v_corner = v_z + k.y * w_roll - k.x * w_pitch
+    v_wheel = w.v + 0.5 * w.dv
+    stroke = b.z + k.y * b.roll - k.x * b.pitch - w.z
+    across = b.z - k.y * b.roll - k.x * b.pitch - other.z
+    velocity = v_corner - v_wheel
+    elastic = k.c_body * stroke + k.c_bar * (stroke - across)
+    pull = elastic + k.d_links * velocity + k.ratio * (w.acting - k.F_rest)
+    pull += stop_force(k, stroke - k.travel, velocity) - stop_force(k, -stroke - k.travel, -velocity)
+    press = k.weight + k.c_tyre * (w.road - w.z)
+    w.load = press
+    if press > 0.0:
+        w.load += k.d_tyre * (w.road_rate - v_wheel)
+    w.load = max(w.load, 0.0)
+    # Speeds of wheel centre and contact along and across the body.
+    u_x = v_x - k.y * w_yaw - arm * w_pitch
+    u_y = v_y + k.x * w_yaw + lever * w_roll
+    axle_roll = side * (v_wheel - other.v - 0.5 * other.dv) / k.track
+    at_x = u_x - k.support * velocity
+    at_y = u_y + k.h_roll * axle_roll
+    angle = k.steers * steer - k.steer_compliance * w.F_y
+    cosine, sine = math.cos(angle), math.sin(angle)
+    roll_tyre(k, w, cosine * at_x + sine * at_y, cosine * at_y - sine * at_x, grip, dt)
+    f_x = cosine * w.F_x - sine * w.F_y
+    f_y = sine * w.F_x + cosine * w.F_y
+    drive = 0.5 * k.drive * torque
+    spin = w.spin + 0.5 * w.d_spin
+    braked = turn_wheel(k, w, drive, dt)
+    lift = -k.support * f_x  # the links' share of the force along, on the body
+    b.q_x += f_x
+    b.q_y += f_y
+    b.q_yaw += k.x * f_y - k.y * f_x
+    b.q_z += lift - pull
+    b.q_pitch += k.x * (pull - lift) - arm * f_x - drive - braked
+    b.q_roll += k.y * (lift - pull) + lever * f_y
+    # The mass of the wheel turns and is carried with the car.
+    m = k.m_wheel
+    b.q_x += m * w_yaw * u_y
+    b.q_y -= m * w_yaw * u_x
+    b.q_yaw -= m * w_yaw * (k.y * u_y + k.x * u_x)
+    b.q_pitch -= m * arm * w_yaw * u_y
+    b.q_roll -= m * lever * w_yaw * u_x
+    b.q_roll += (k.weight - m * GRAVITY) * lever * b.roll
+    b.m_all += m
+    b.m_x += m * k.x
+    b.m_h += m * arm
+    b.m_g += m * lever
+    b.m_xg += m * k.x * lever
+    b.i_pitch += m * arm * arm
+    b.i_yaw += m * (k.x * k.x + k.y * k.y)
+    b.i_roll += m * lever * lever
+    # What the tyre's lateral force does through the roll centre, half on either wheel of the axle.
+    w.lifted = pull + w.load - k.weight - lift
+    w.aside = side * f_y * k.h_roll / k.track
+    b.power += w.load * w.road_rate - (w.load - max(press, 0.0)) * (w.road_rate - v_wheel)
+    b.power -= (pull - elastic) * velocity
+    b.power += f_x * at_x + f_y * at_y - w.F_x * k.radius * spin + k.c_x * w.e_x * w.de_x + k.c_y * w.e_y * w.de_y
+    b.power += (drive + braked) * (spin - w_pitch)
+
+
+def lift_wheel(k: Wheel, w: WheelMotion, other: WheelMotion, dt: float) -> None:
+    """Move a wheel up or down: both wheels' lateral forces lift the left wheel and press the right one."""
+    w.dv = dt * (w.lifted + w.aside - other.aside) / k.m_wheel
+    w.v += w.dv
+    w.z += dt * w.v
+
+
+def move_body(c: Body, b: BodyMotion, dt: float) -> None:
+    """Move the body by what is summed up. Forward and pitch share a matrix, and so do aside, yaw and roll."""
+    v_x, v_y, w_yaw = b.v_x + 0.5 * b.dv_x, b.v_y + 0.5 * b.dv_y, b.w_yaw + 0.5 * b.dw_yaw
+    b.work += dt * b.power
+    determinant = b.m_all * b.i_pitch - b.m_h * b.m_h
+    b.dv_x = dt * (b.q_x * b.i_pitch + b.q_pitch * b.m_h) / determinant
+    b.dw_pitch = dt * (b.q_pitch * b.m_all + b.q_x * b.m_h) / determinant
+    m11, m12, m13, m22, m23, m33 = b.m_all, b.m_x, b.m_g, b.i_yaw, b.m_xg, b.i_roll
     a11, a12, a13 = m22 * m33 - m23 * m23, m13 * m23 - m12 * m33, m12 * m23 - m13 * m22
     a22, a23, a33 = m11 * m33 - m13 * m13, m12 * m13 - m11 * m23, m11 * m22 - m12 * m12
     determinant = m11 * a11 + m12 * a12 + m13 * a13
-    b.dv_y = dt * (a11 * q_y + a12 * q_yaw + a13 * q_roll) / determinant
-    b.dw_yaw = dt * (a12 * q_y + a22 * q_yaw + a23 * q_roll) / determinant
-    b.dw_roll = dt * (a13 * q_y + a23 * q_yaw + a33 * q_roll) / determinant
-    b.dv_z = dt * q_z / c.mass
+    b.dv_y = dt * (a11 * b.q_y + a12 * b.q_yaw + a13 * b.q_roll) / determinant
+    b.dw_yaw = dt * (a12 * b.q_y + a22 * b.q_yaw + a23 * b.q_roll) / determinant
+    b.dw_roll = dt * (a13 * b.q_y + a23 * b.q_yaw + a33 * b.q_roll) / determinant
+    b.dv_z = dt * b.q_z / c.mass
     b.a_x = b.dv_x / dt - w_yaw * v_y
     b.a_y = b.dv_y / dt + w_yaw * v_x
     b.v_x += b.dv_x

@@ -95,7 +95,28 @@ class Wheel(Car, Suspension, Tyre):
 
 
 @dataclass(slots=True)
-class BodyMotion:
+class Sums:
+    """What the wheels add up in a step: generalised forces, power, and the matrix of the masses."""
+
+    q_x: float = var("sums", "", "N", "force forward", default=0.0)
+    q_y: float = var("sums", "", "N", "force to the left", default=0.0)
+    q_z: float = var("sums", "", "N", "force upward", default=0.0)
+    q_yaw: float = var("sums", "", "N.m", "yaw moment", default=0.0)
+    q_pitch: float = var("sums", "", "N.m", "pitch moment", default=0.0)
+    q_roll: float = var("sums", "", "N.m", "roll moment", default=0.0)
+    m_all: float = var("sums", "", "kg", "mass along and aside", default=0.0)
+    m_x: float = var("sums", "", "kg.m", "masses times their places ahead", default=0.0)
+    m_h: float = var("sums", "", "kg.m", "masses times their arms in pitch", default=0.0)
+    m_g: float = var("sums", "", "kg.m", "masses times their levers in roll", default=0.0)
+    m_xg: float = var("sums", "", "kg.m2", "masses times place and lever", default=0.0)
+    i_pitch: float = var("sums", "", "kg.m2", "inertia in pitch", default=0.0)
+    i_yaw: float = var("sums", "", "kg.m2", "inertia in yaw", default=0.0)
+    i_roll: float = var("sums", "", "kg.m2", "inertia in roll", default=0.0)
+    power: float = var("sums", "", "W", "power of all applied forces", default=0.0)
+
+
+@dataclass(slots=True)
+class BodyMotion(Sums):
     """Places and angles at one time, speeds half a step earlier (leapfrog)."""
 
     x: float = var("motion", "x", "m", "place of the body's centre of gravity", default=0.0)
@@ -145,8 +166,11 @@ class WheelMotion:
     slip_y: float = var("wheel", "s_y", "1", "slip aside", default=0.0)
     stroke: float = var("wheel", "", "m", "stroke of the damper at the start of the step", default=0.0)
     velocity: float = var("wheel", "", "m/s", "its mean velocity over the step", default=0.0)
+    road: float = var("wheel", "", "m", "height of the road under it", default=0.0)
+    road_rate: float = var("wheel", "", "m/s", "its rate", default=0.0)
     damper: float = var("wheel", "F", "N", "damper force", default=0.0)
     before: float = var("wheel", "", "N", "damper force a step earlier", default=0.0)
+    acting: float = var("wheel", "", "N", "damper force at the start of the step to come", default=0.0)
     pressure: float = var("wheel", "p", "Pa", "brake pressure", default=0.0)
     waiting: float = var("wheel", "", "s", "time until the slip control decides again", default=0.0)
     controlled: float = var("wheel", "", "1", "1 once the slip control has acted", default=0.0)

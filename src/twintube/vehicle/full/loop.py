@@ -6,25 +6,23 @@ from typing import Any
 from twintube.core.frame import stroke_limit
 from twintube.core.model import advance
 from twintube.core.outputs import total_force
-from twintube.vehicle.full.body import car_step, corner_stroke, corner_velocity
-from twintube.vehicle.full.brakes import control_brake
+from twintube.vehicle.full.body import corner_stroke, corner_velocity
+from twintube.vehicle.full.driver import drive_step
 
 # Columns of a step: the body's, then those of each wheel in turn.
 BODY_COLUMNS = 15
 WHEEL_COLUMNS = 12
-GAIN, RESET = 6000.0, 2000.0  # [N.s/m], [N/m] of the driver who holds a speed: assumed
 
 
-def drive_step(
+def road_step(
     c: Any, b: Any, ks: Any, ws: Any, h: Any, road: Any, spacing: float,
-    steer: float, wanted: float, held: float, grip: float, dt: float, heights: Any, rates: Any,
+    steer: float, wanted: float, held: float, grip: float, dt: float,
 ) -> bool:  # fmt: skip
     """One step of `dt` [s] of road, driver and car; false where the road ends.
 
     The dampers' forces stand in `ws`, which receives the strokes and velocities under which they do their step. `road`
     (2, m) [m] are the heights under left and right wheels every `spacing` [m], position 0 is at the rear axle at the start.
-    `steer` [rad], brake pressure `wanted` [Pa] and `held` speed [m/s], 0 where he coasts, are the driver's; `heights`,
-    `rates` (4,) are room to work in.
+    `steer` [rad], brake pressure `wanted` [Pa] and `held` speed [m/s], 0 where he coasts, are the driver's.
     """
     speed = b.v_x + 0.5 * b.dv_x
     for i in range(4):
@@ -32,16 +30,14 @@ def drive_step(
         j = int(at)
         if at < 0.0 or j + 2 > road.shape[1]:
             return False
-        side = i % 2
-        heights[i] = road[side, j] + (at - j) * (road[side, j + 1] - road[side, j])
-        rates[i] = speed * (road[side, j + 1] - road[side, j]) / spacing
-        control_brake(h, ks[i], ws[i], speed, wanted, dt)
-        ws[i].stroke = ks[i].ratio * corner_stroke(b, ks[i], ws[i])
-    torque = 0.0
-    if held > 0.0:
-        b.behind += dt * (held - speed)
-        torque = ks[0].radius * (GAIN * (held - speed) + RESET * b.behind)
-    car_step(c, b, ks, ws, heights, rates, steer, torque, grip, dt)
+        w, side = ws[i], i % 2
+        w.road = road[side, j] + (at - j) * (road[side, j + 1] - road[side, j])
+        w.road_rate = speed * (road[side, j + 1] - road[side, j]) / spacing
+        w.acting = 1.5 * w.damper - 0.5 * w.before
+        w.stroke = ks[i].ratio * corner_stroke(b, ks[i], w)
+    drive_step(
+        c, b, ks[0], ks[1], ks[2], ks[3], ws[0], ws[1], ws[2], ws[3], h, steer, wanted, held, 0.0, grip, dt
+    )  # fmt: skip
     b.way += dt * math.sqrt(b.v_x * b.v_x + b.v_y * b.v_y)
     for i in range(4):
         ws[i].velocity = ks[i].ratio * corner_velocity(b, ks[i], ws[i])
@@ -69,9 +65,9 @@ def write_step(b: Any, ws: Any, row: Any, dt: float) -> None:
 
 def run_car(
     p: Any, d: Any, s: Any, f: Any, c: Any, b: Any, ks: Any, ws: Any, h: Any,
-    road: Any, spacing: float, inputs: Any, grip: float, dt: float, out: Any, heights: Any, rates: Any,
+    road: Any, spacing: float, inputs: Any, grip: float, dt: float, out: Any,
 ) -> int:  # fmt: skip
-    """Drive the car with its dampers, whose records `p`, `d`, `s`, `f` (4,) are; the others as `drive_step`.
+    """Drive the car with its dampers, whose records `p`, `d`, `s`, `f` (4,) are; the others as `road_step`.
 
     `inputs` (n, 3) are `steer`, `wanted` and `held`, step by step. `out` (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) is written.
 
@@ -83,9 +79,7 @@ def run_car(
     for n in range(len(inputs)):
         row = out[n]
         write_body(b, row)
-        if not drive_step(
-            c, b, ks, ws, h, road, spacing, inputs[n, 0], inputs[n, 1], inputs[n, 2], grip, dt, heights, rates
-        ):
+        if not road_step(c, b, ks, ws, h, road, spacing, inputs[n, 0], inputs[n, 1], inputs[n, 2], grip, dt):
             return n
         write_step(b, ws, row, dt)
         for i in range(4):

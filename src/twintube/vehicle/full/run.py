@@ -16,8 +16,8 @@ from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import CONDITIONING_STEP, conditioning
 from twintube.vehicle.full.brakes import Brakes
 from twintube.vehicle.full.car import WHEELS, Body, BodyMotion, Wheel, WheelMotion
+from twintube.vehicle.full.layout import balance_body, place_wheel, start_wheel
 from twintube.vehicle.full.loop import BODY_COLUMNS, WHEEL_COLUMNS
-from twintube.vehicle.quarter_car import GRAVITY
 
 DT = 1e-3  # [s]
 
@@ -83,23 +83,16 @@ def full_car(car: CarSet, dampers: Sequence[Damper]) -> FullCar:
     if len(dampers) != len(WHEELS):
         raise ParameterError(f"{len(dampers)} dampers: must be {len(WHEELS)}, for {', '.join(WHEELS)}")
     table = car.whole
-    front, rear = (2.0 * car.axles[name]["m_body"] for name in ("front", "rear"))
-    base, mass = table["body"]["wheelbase"], front + rear
-    body = Body(**table["body"], mass=mass, x_front=base * rear / mass, x_rear=base * front / mass)
+    body = Body(**table["body"], mass=0.0, x_front=0.0, x_rear=0.0)
+    balance_body(body, *(car.axles[name]["m_body"] for name in ("front", "rear")))
     wheels = []
     for i, damper in enumerate(dampers):
         axle = "front" if i < 2 else "rear"
         corner = car.corner_of(axle, damper)
         values = {item.name: getattr(corner, item.name) for item in fields(corner)}
-        suspension = table[f"{axle}_axle"]
-        wheels.append(
-            Wheel(
-                **values, **suspension, **table[f"{axle}_tyre"],
-                x=body.x_front if axle == "front" else -body.x_rear,
-                y=suspension["track"] / 2 * (1 - 2 * (i % 2)),
-                weight=(corner.m_body + corner.m_wheel) * GRAVITY,
-            )
-        )  # fmt: skip
+        wheel = Wheel(**values, **table[f"{axle}_axle"], **table[f"{axle}_tyre"], x=0.0, y=0.0, weight=0.0)
+        place_wheel(wheel, body.x_front if axle == "front" else -body.x_rear, 1.0 - 2.0 * (i % 2))
+        wheels.append(wheel)
     return FullCar(car.name, body, tuple(wheels), Brakes(**table["brakes"]), tuple(dampers))
 
 
@@ -114,7 +107,7 @@ def started(car: FullCar, speed: float) -> tuple[BodyMotion, list[WheelMotion]]:
     body.v_x = speed
     wheels = [blank(WheelMotion) for _ in WHEELS]
     for motion, wheel in zip(wheels, car.wheels, strict=True):
-        motion.spin = speed / wheel.radius
+        start_wheel(wheel, motion, speed)
     return body, wheels
 
 
@@ -140,7 +133,6 @@ def drive_car(
     done = module.run_car(
         p, d, s, f, compiled.as_row(car.body)[0], compiled.as_row(body)[0], together(car.wheels), together(wheels),
         compiled.as_row(car.brakes)[0], np.array(road, dtype=float), spacing, np.array(inputs, dtype=float), grip, dt, out,
-        np.zeros(4), np.zeros(4),
     )  # fmt: skip
     if done < len(inputs):
         limits = ", ".join(f"{stroke_limit(row[1]):.3g}" for row in each)

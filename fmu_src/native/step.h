@@ -1,0 +1,112 @@
+/* Start and step of the damper around the translated equations. */
+#ifndef STEP_H
+#define STEP_H
+
+#include "checks.h"
+
+/* Whether a parameter set is admissible; bounds were checked when it was set. */
+static int admissible(struct unit *u, struct parameters *of)
+{
+    struct kernel_Violation broken;
+    struct kernel_Derived d;
+    int64_t rule;
+    memset(&broken, 0, sizeof broken);
+    memset(&d, 0, sizeof d);
+    rule = kernel_curve_rule(&of->p, 0, &broken);
+    if (rule == 0)
+        rule = kernel_fit_rule(&of->p, &d, 0, &broken);
+    if (rule == 0)
+        return 1;
+    if (broken.point > 0)
+        refuse(u, RULE[rule], (int)broken.point, broken.value, broken.limit);
+    else
+        refuse(u, RULE[rule], broken.value, broken.limit);
+    return 0;
+}
+
+static int computed(struct memory *m)
+{
+    const double force = kernel_total_force(&m->now.s);
+    return force - force == 0.0 && numbers(&m->now.s, sizeof m->now.s);
+}
+
+/* What follows from the parameters in force. */
+static void derive(struct memory *m)
+{
+    kernel_set_up(&m->in_force.p, &m->now.d);
+    m->now.limit = kernel_stroke_limit(&m->now.d);
+}
+
+static void publish(struct memory *m)
+{
+    kernel_publish(&m->now.d, &m->now.s, &m->now.out);
+}
+
+/* For states from elsewhere: whether all that is remembered are numbers, and those of a damper. */
+static int all_numbers(const struct memory *m)
+{
+    return numbers(&m->now.s, sizeof m->now.s) && numbers(&m->now.f, sizeof m->now.f) && numbers(&m->now.out, sizeof m->now.out);
+}
+
+static int possible(struct memory *m)
+{
+    return kernel_possible(&m->now.d, &m->now.s) == 1;
+}
+
+/* The damper at rest at the stroke that is set. */
+static int begin(struct unit *u)
+{
+    struct memory *m = &u->m;
+    if (!m->stale)
+        return 1;
+    if (!take_over(u) || !inside(u, "stroke", m->now.stroke, -m->now.limit, m->now.limit, " m"))
+        return 0;
+    memset(&m->now.s, 0, sizeof m->now.s);
+    memset(&m->now.f, 0, sizeof m->now.f);
+    m->now.f.k_degr = m->now.f.k_mean = 1.0;
+    kernel_start(&m->in_force.p, &m->now.d, &m->now.s, m->now.stroke);
+    kernel_advance(&m->in_force.p, &m->now.d, &m->now.s, &m->now.f, m->now.stroke, m->now.velocity, m->now.velocity, 0.0);
+    if (!computed(m)) {
+        refuse(u, SAY_NO_START);
+        return 0;
+    }
+    publish(m);
+    m->stale = 0;
+    return 1;
+}
+
+/* One step of `h` >= 0 [s] while the velocity changes by `rate` [m/s2]; a message, and the state as before, where it is
+   refused. */
+static fmi2Status move(struct unit *u, double h, double rate)
+{
+    struct memory *m = &u->m;
+    const double z = m->now.stroke, v = m->now.velocity, after = v + rate * h;
+    const double end = z + (v + 0.5 * rate * h) * h;
+    double jump;
+    struct kernel_State before;
+    struct kernel_Flow flow;
+    fmi2Status status = fmi2OK;
+
+    if (m->changed && !take_over(u))
+        return fmi2Error;
+    if (!inside(u, "stroke", z, -m->now.limit, m->now.limit, " m")
+        || !inside(u, "stroke at the end of the step", end, -m->now.limit, m->now.limit, " m")
+        || !inside(u, "velocity at the end of the step", after, LOWEST_VELOCITY, HIGHEST_VELOCITY, " m/s"))
+        return fmi2Error;
+    before = m->now.s;
+    flow = m->now.f;
+    jump = kernel_stroke_jump(&m->now.d, &m->now.s, z);
+    if (!kernel_advance(&m->in_force.p, &m->now.d, &m->now.s, &m->now.f, end, v, after, h) || !computed(m)) {
+        m->now.s = before;
+        m->now.f = flow;
+        return refuse(u, SAY_NO_STEP, m->time);
+    }
+    publish(m);
+    if (!m->warned && jump != 0.0) {
+        m->warned = 1;
+        status = warn(u, SAY_STROKE_JUMP, m->time, z, z - jump);
+    }
+    return status;
+}
+
+#endif

@@ -1,0 +1,20 @@
+"""What an FMU is built of: names, variables and equations; a damper or a car."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from twintube.fmu.equations import Equations
+from twintube.fmu.table import Variable
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model with its start values."""
+
+    name: str  # also the identifier
+    title: str
+    variables: tuple[Variable, ...]
+    experiment: Mapping[str, str]
+    equations: Equations
+    folder: str  # of its equations and wrapper, below `fmu_src/native`
+    takes_derivatives: bool  # of inputs

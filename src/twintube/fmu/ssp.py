@@ -1,0 +1,123 @@
+"""The whole car as an SSP 1.0 file: the car's FMU, four damper FMUs, their connections and parameters."""
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+from twintube import __version__
+from twintube.files import replacing
+from twintube.fmu import archive
+from twintube.fmu.assemble import BuildError, Progress, build_fmu
+from twintube.fmu.car import build_car_fmu, car_model
+from twintube.fmu.description import damper_model, serialized
+from twintube.fmu.model import Model
+from twintube.fmu.platforms import PLATFORMS
+from twintube.fmu.ssv import STANDARD, Given, define_units, parameter_set, to_ssv
+from twintube.vehicle.full.car import WHEELS
+from twintube.vehicle.full.run import FullCar
+
+OMS = "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"
+STEP = "0.001"  # [s]
+CAR = "car"
+# From the car to a damper, and back.
+TO_DAMPER, TO_CAR = ("stroke", "velocity"), ("force",)
+EXCHANGED = (*TO_DAMPER, *TO_CAR)
+
+
+def add_component(elements: ET.Element, name: str, model: Model, wanted: Sequence[str] | None, used: set[str]) -> None:
+    """Add an FMU with its parameters and the connectors that are `wanted`, by default all inputs and outputs."""
+    component = ET.SubElement(
+        elements, "ssd:Component", name=name, type="application/x-fmu-sharedlibrary", source=f"resources/{name}.fmu"
+    )
+    connectors = ET.SubElement(component, "ssd:Connectors")
+    for variable in model.variables:
+        if variable.causality == "parameter" or (wanted is not None and variable.name not in wanted):
+            continue
+        unit = variable.item.metadata["unit"]
+        connector = ET.SubElement(connectors, "ssd:Connector", name=variable.name, kind=variable.causality)
+        ET.SubElement(connector, "ssc:Real", {} if unit == "1" else {"unit": unit})
+        used.add(unit)
+    bindings = ET.SubElement(component, "ssd:ParameterBindings")
+    ET.SubElement(bindings, "ssd:ParameterBinding", type="application/x-ssp-parameter-set", source=f"resources/{name}.ssv")
+
+
+def connect(connections: ET.Element, wheel: str) -> None:
+    """Connect the damper of a wheel."""
+    for name in TO_DAMPER:
+        ET.SubElement(
+            connections, "ssd:Connection",
+            startElement=CAR, startConnector=f"{wheel}.{name}", endElement=wheel, endConnector=name,
+        )  # fmt: skip
+    for name in TO_CAR:
+        ET.SubElement(
+            connections, "ssd:Connection",
+            startElement=wheel, startConnector=name, endElement=CAR, endConnector=f"{wheel}.{name}",
+        )  # fmt: skip
+
+
+def annotate(system: ET.Element) -> None:
+    """Add what OMSimulator wants to know: its master and the communication step. Others ignore it."""
+    annotation = ET.SubElement(ET.SubElement(system, "ssd:Annotations"), "ssc:Annotation", type="org.openmodelica")
+    information = ET.SubElement(ET.SubElement(annotation, "oms:Annotations"), "oms:SimulationInformation")
+    tolerances = {"absoluteTolerance": "0.0001", "relativeTolerance": "0.0001"}
+    ET.SubElement(information, "oms:FixedStepMaster", tolerances, description="oms-ma", stepSize=STEP)
+
+
+def structure(car: FullCar, speed: float) -> bytes:
+    """The text of `SystemStructure.ssd`; inputs of driver and road stay open."""
+    spaces = {"ssd": f"{STANDARD}Description", "ssc": f"{STANDARD}Common", "oms": OMS}
+    root = ET.Element(
+        "ssd:SystemStructureDescription", {f"xmlns:{prefix}": space for prefix, space in spaces.items()},
+        name=car_model(car, speed).name, version="1.0", generationTool=f"twintube {__version__}",
+    )  # fmt: skip
+    system = ET.SubElement(root, "ssd:System", name="root")
+    elements, connections = ET.SubElement(system, "ssd:Elements"), ET.SubElement(system, "ssd:Connections")
+    used: set[str] = set()
+    # Inputs of driver and road stay open: ecos refuses connections to the outside of the system.
+    add_component(elements, CAR, car_model(car, speed), None, used)
+    for wheel, damper in zip(WHEELS, car.dampers, strict=True):
+        add_component(elements, wheel, damper_model(damper), EXCHANGED, used)
+        connect(connections, wheel)
+    annotate(system)
+    define_units(ET.SubElement(root, "ssd:Units"), used)
+    ET.SubElement(root, "ssd:DefaultExperiment", startTime="0.0", stopTime="10.0")
+    return serialized(root)
+
+
+def parameters(car: FullCar, speed: float) -> dict[str, bytes]:
+    """The parameter sets by their path; all have the car's name, by which ecos takes them together."""
+    model = car_model(car, speed)
+    entries = [Given(v.name, v.item, v.start or 0.0) for v in model.variables if v.causality == "parameter"]
+    texts = {CAR: parameter_set(car.name, model.title, entries)}
+    texts |= {wheel: to_ssv(damper, car.name) for wheel, damper in zip(WHEELS, car.dampers, strict=True)}
+    return {f"resources/{name}.ssv": text.encode() for name, text in texts.items()}
+
+
+def build_ssp(
+    car: FullCar,
+    speed: float,
+    output: Path | str,
+    platforms: Sequence[str] = tuple(PLATFORMS),
+    progress: Progress = lambda text: None,
+) -> Path:
+    """Build the SSP of a car that starts at a `speed` [m/s], with libraries for `platforms`.
+
+    Raises BuildError, and OSError where the output cannot be written.
+    """
+    target = Path(output)
+    if target.is_dir() or target.suffix.lower() != ".ssp":
+        raise BuildError(f"output = {target}: must be a file that ends with .ssp")
+    content = {"SystemStructure.ssd": structure(car, speed), **parameters(car, speed)}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        progress("the car")
+        units = {CAR: build_car_fmu(car, speed, folder / f"{CAR}.fmu", platforms, progress)}
+        for wheel, damper in zip(WHEELS, car.dampers, strict=True):
+            progress(f"the damper {wheel}")
+            units[wheel] = build_fmu(damper, folder / f"{wheel}.fmu", platforms=platforms, progress=progress)
+        content |= {f"resources/{key}.fmu": file.read_bytes() for key, file in units.items()}
+        archive.write(folder / target.name, content)
+        with replacing(target) as part:
+            part.write_bytes((folder / target.name).read_bytes())
+    return target
