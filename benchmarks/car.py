@@ -13,6 +13,7 @@ from twintube.dampers import load
 from twintube.dampers.closures import closed
 from twintube.demo.car_ride import drive_car_with_fmus
 from twintube.demo.damper_fmu import DamperFmu
+from twintube.demo.four_dampers import SingleFmus
 from twintube.fmu import build_fmu
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.full.maneuvers import Road
@@ -43,8 +44,9 @@ def with_fmus(car: FullCar, road: Array, inputs: Array) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:
         files = [build_fmu(d, Path(folder) / f"{d.name}.fmu", platforms=(fmpy.platform,)) for d in car.dampers[1:3]]
         fmus = [stack.enter_context(DamperFmu(files[i // 2])) for i in range(len(car.dampers))]
-        drive_car_with_fmus(car, fmus, road, SPACING, inputs[:2000], SPEED)
+        four = SingleFmus(fmus, car.dampers)
+        drive_car_with_fmus(car, four, road, SPACING, inputs[:2000], SPEED)
         some = inputs[: len(inputs) // 6]
         began = time.perf_counter()
-        drive_car_with_fmus(car, fmus, road, SPACING, some, SPEED, preconditioned=False)
+        drive_car_with_fmus(car, four, road, SPACING, some, SPEED, preconditioned=False)
         return {"times_real_time_with_fmus": len(some) * DT / (time.perf_counter() - began)}

@@ -14,6 +14,7 @@ from twintube.core.units import UNITS
 from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import load
 from twintube.fmu import BuildError, assemble, build_fmu
+from twintube.fmu.description import model_name
 
 CONTRACT = (
     "stroke velocity force k_degr V1.oil V1.gas V1.foam V2.oil V2.gas V2.foam V3.oil V3.gas V3.foam force_fluid "
@@ -92,3 +93,11 @@ def test_the_modelica_text_uses_names_of_the_fmu(sa8_fmu: Path) -> None:
     assert description.coSimulation.modelIdentifier == model
     assert set(used) == {"stroke", "velocity", "force", "oil_level", "gas_preload"}
     assert set(used) <= {v.name for v in description.modelVariables}
+
+
+def test_the_modelica_text_of_a_car_uses_names_of_the_fmus() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "TwinTubeCar.mo").read_text(encoding="utf-8")
+    assert re.findall(r"(\w+)_fmu (\w+)\[2\]", text) == [("twintube_SA7", "front"), ("twintube_SA8", "rear")]
+    assert {model_name(load(name)) for name in ("SA7", "SA8")} == {"twintube_SA7", "twintube_SA8"}
+    for axle in ("front", "rear"):
+        assert set(re.findall(rf"\b{axle}\[i\]\.(\w+)", text)) == {"stroke", "velocity", "force"}

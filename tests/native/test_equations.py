@@ -146,9 +146,15 @@ def test_translated_equations_are_current() -> None:
         assert f"Eq. {number}" in text  # a reader finds the paper's equations in the C too
 
 
+def test_translated_equations_of_the_car_are_current() -> None:
+    for target, source in translate.TARGETS.items():
+        equations.checked(target.read_text(encoding="utf-8"), source)
+
+
 def test_translation_repeats() -> None:
     pytest.importorskip("pyccel", reason="pyccel is absent: the digest alone tells that the translation is current")
-    assert translate.translated() == translate.TARGET.read_text(encoding="utf-8")
+    for target, source in translate.TARGETS.items():
+        assert translate.translated(source) == target.read_text(encoding="utf-8")
 
 
 def test_functions_stand_below_those_that_they_call() -> None:

@@ -7,17 +7,21 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from twintube.arrays import Array
+from twintube.cli import app
 from twintube.dampers import load
 from twintube.dampers.closures import closed, condition
 from twintube.demo.car_ride import drive_car_with_fmus
-from twintube.demo.damper_fmu import DamperFmu
+from twintube.demo.damper_fmu import DamperFmu, FmuError
+from twintube.demo.four_dampers import ContainerFmu, SingleFmus
 from twintube.engine.simulate import InputError
-from twintube.fmu import build_fmu
+from twintube.fmu import BuildError, build_fmu
+from twintube.fmu.container import build_container
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.full.maneuvers import Road
-from twintube.vehicle.full.run import FullCar, drive_car, full_car
+from twintube.vehicle.full.run import CarRun, FullCar, drive_car, full_car
 from twintube.vehicle.road import SPACING
 
 SPEED = 50 / 3.6
@@ -57,13 +61,50 @@ def drive(seconds: float, dt: float) -> Array:
     return inputs
 
 
+def assert_equal(run: CarRun, wanted: CarRun) -> None:
+    for name in ("force", "stroke", "load", "v_x", "roll", "damper_work", "slip_x"):
+        a, b = getattr(run, name), getattr(wanted, name)
+        assert np.abs(a - b).max() <= 1e-9 * np.abs(b).max(), name
+
+
 def test_four_fmus_drive_as_the_compiled_dampers_do(car: FullCar, fmus: list[DamperFmu]) -> None:
     road, inputs = Road("C", seed=2).heights(car, 80.0), drive(4.0, 1e-3)
-    with_fmus = drive_car_with_fmus(car, fmus, road, SPACING, inputs, SPEED)
-    in_process = drive_car(car, road, SPACING, inputs, SPEED)
-    for name in ("force", "stroke", "load", "v_x", "roll", "damper_work", "slip_x"):
-        a, b = getattr(with_fmus, name), getattr(in_process, name)
-        assert np.abs(a - b).max() <= 1e-9 * np.abs(b).max(), name
+    with_fmus = drive_car_with_fmus(car, SingleFmus(fmus, car.dampers), road, SPACING, inputs, SPEED)
+    assert_equal(with_fmus, drive_car(car, road, SPACING, inputs, SPEED))
+
+
+def test_a_container_drives_as_the_compiled_dampers_do(car: FullCar, tmp_path: Path) -> None:
+    arguments = ["--worn", "front_right", "--oil-level", "0.5", "--platform", fmpy.platform, "--output", str(tmp_path)]
+    command = CliRunner().invoke(app, ["container", *arguments])
+    assert command.exit_code == 0, command.output
+    file = tmp_path / "twintube_dampers.fmu"
+    description = fmpy.read_model_description(str(file))
+    units = {v.name: v.unit for v in description.modelVariables}
+    assert (units["front_left.stroke"], units["rear_right.velocity"], units["rear_left.force"]) == ("m", "m/s", "N")
+    assert all(output.dependencies == [] for output in description.outputs)
+    road, inputs = Road("C", seed=2).heights(car, 80.0), drive(4.0, 1e-3)
+    with ContainerFmu(file) as dampers:
+        run = drive_car_with_fmus(car, dampers, road, SPACING, inputs, SPEED)
+    assert_equal(run, drive_car(car, road, SPACING, inputs, SPEED))
+    with ContainerFmu(file, **{"front_left.oil_level": 0.5, "front_left.gas_preload": 0}) as dampers:
+        assert dampers.forces()[0] != run.force[0, 0]
+
+
+def test_a_container_for_a_platform_without_one_is_refused(car: FullCar, tmp_path: Path) -> None:
+    with pytest.raises(
+        BuildError, match="platform = aarch64-linux: a container must be for one of linux64, win64, darwin64"
+    ):
+        build_container(car.dampers, tmp_path, platforms=("aarch64-linux",))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_fmu_of_another_damper_is_named(car: FullCar, fmus: list[DamperFmu], built: list[Path]) -> None:
+    with pytest.raises(
+        FmuError, match=r"rear_left: the FMU is not that of SA8: its geometry\.\w+ is [\d.]+, must be [\d.]+"
+    ):
+        SingleFmus([fmus[0], fmus[1], fmus[0], fmus[3]], car.dampers)
+    with pytest.raises(FmuError, match=r"front_left\.stroke is missing, this is not the FMU it should be"):
+        ContainerFmu(built[0])
 
 
 def test_the_coupling_error_falls_with_the_communication_step(car: FullCar) -> None:
@@ -78,4 +119,6 @@ def test_the_coupling_error_falls_with_the_communication_step(car: FullCar) -> N
 
 def test_the_end_of_the_road_is_named(car: FullCar, fmus: list[DamperFmu]) -> None:
     with pytest.raises(InputError, match="the road of 4 m ends"):
-        drive_car_with_fmus(car, fmus, np.zeros((2, 201)), SPACING, drive(1.0, 1e-3), SPEED, preconditioned=False)
+        drive_car_with_fmus(
+            car, SingleFmus(fmus, car.dampers), np.zeros((2, 201)), SPACING, drive(1.0, 1e-3), SPEED, preconditioned=False
+        )

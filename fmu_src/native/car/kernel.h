@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 4e96a00d513ae3b9, body 5aab14878ecf945e; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations c829afd9eaec52e0, body c58901f5e3bd67bd; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -379,6 +379,12 @@ static double kernel_between_loads(double nominal, double double_0001, double lo
     return nominal + (double_0001 - nominal) * (load - 1.0);
 }
 
+/* Length of a vector; `math.hypot` rounds otherwise in Python than in C. */
+static double kernel_combined(double along, double across)
+{
+    return sqrt(along * along + across * across);
+}
+
 /* Force over slip [N] at a `slip` >= 0: the secant of the curve through its rise, largest force and sliding force. */
 static double kernel_force_over_slip(double slip, double rise, double s_most, double most, double s_slide, double slide)
 {
@@ -472,7 +478,7 @@ static void kernel_roll_tyre(struct kernel_Wheel* k, struct kernel_WheelMotion* 
         unit_y = s_y / (s_x + s_y) + most_y / rise_y / (most_x / rise_x + most_y / rise_y);
         n_x = w->slip_x / unit_x;
         n_y = w->slip_y / unit_y;
-        slip = sqrt(n_x * n_x + n_y * n_y);
+        slip = kernel_combined(n_x, n_y);
         along = sqrt(0.5);
         across = sqrt(0.5);
         if (slip > 1e-09)
@@ -480,11 +486,11 @@ static void kernel_roll_tyre(struct kernel_Wheel* k, struct kernel_WheelMotion* 
             along = n_x / slip;
             across = n_y / slip;
         }
-        rise = hypot(rise_x * unit_x * along, rise_y * unit_y * across);
-        s_most = hypot(s_x / unit_x * along, s_y / unit_y * across);
-        most = hypot(most_x * along, most_y * across);
-        s_slide = hypot(kernel_between_loads(k->s_slide_x, k->s_slide_x2, load) / unit_x * along, kernel_between_loads(k->s_slide_y, k->s_slide_y2, load) / unit_y * across);
-        slide = hypot(kernel_over_load(k->slide_x, k->slide_x2, load) * along, kernel_over_load(k->slide_y, k->slide_y2, load) * across);
+        rise = kernel_combined(rise_x * unit_x * along, rise_y * unit_y * across);
+        s_most = kernel_combined(s_x / unit_x * along, s_y / unit_y * across);
+        most = kernel_combined(most_x * along, most_y * across);
+        s_slide = kernel_combined(kernel_between_loads(k->s_slide_x, k->s_slide_x2, load) / unit_x * along, kernel_between_loads(k->s_slide_y, k->s_slide_y2, load) / unit_y * across);
+        slide = kernel_combined(kernel_over_load(k->slide_x, k->slide_x2, load) * along, kernel_over_load(k->slide_y, k->slide_y2, load) * across);
         /* Grip scales forces and slips, not the rise. */
         secant = kernel_force_over_slip(slip, rise, grip * s_most, grip * most, grip * s_slide, grip * slide);
         secant_x = secant / unit_x;
@@ -746,6 +752,7 @@ static void kernel_communication_step(struct kernel_Body* c, struct kernel_BodyM
 {
     int64_t parts;
     double dt;
+    double earlier;
     double apart;
     int64_t n;
     double at;
@@ -764,7 +771,9 @@ static void kernel_communication_step(struct kernel_Body* c, struct kernel_BodyM
     kernel_take_force(w2, j2);
     kernel_take_force(w3, j3);
     kernel_take_force(w4, j4);
-    apart = 0.5 * (t->span + t->earlier);
+    /* The force at the start is that of a rest before it, as long as a step. */
+    earlier = (t->earlier > 0.0 ? t->earlier : t->span);
+    apart = 0.5 * (t->span + earlier);
     for (n = 0; n < parts; n += 1)
     {
         at = n * dt;

@@ -1,12 +1,9 @@
 """The whole car in process with four damper FMUs, stepped through fmpy as any tool would step them."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.demo.damper_fmu import DamperFmu
-from twintube.demo.ride import precondition
+from twintube.demo.four_dampers import FourDampers, precondition_four
 from twintube.engine import compiled
 from twintube.engine.simulate import InputError
 from twintube.vehicle.full.car import WHEELS
@@ -15,10 +12,10 @@ from twintube.vehicle.full.run import DT, CarRun, FullCar, as_run, started, toge
 
 
 def drive_car_with_fmus(
-    car: FullCar, fmus: Sequence[DamperFmu], road: Array, spacing: float, inputs: Array, speed: float, *, grip: float = 1.0,
+    car: FullCar, dampers: FourDampers, road: Array, spacing: float, inputs: Array, speed: float, *, grip: float = 1.0,
     dt: float = DT, preconditioned: bool = True,
 ) -> CarRun:  # fmt: skip
-    """As `drive_car`, but the dampers are FMUs (4,) in the order of WHEELS, just initialised; `car.dampers` is not used.
+    """As `drive_car`, but the dampers are FMUs, just initialised; of `car.dampers` only preload and stroke are used.
 
     The communication step is `dt` [s]. Raises FmuError where an FMU refuses a step, InputError at the end of the road.
     """
@@ -26,11 +23,10 @@ def drive_car_with_fmus(
     body, wheels = started(car, speed)
     c, b, h = (compiled.as_row(record)[0] for record in (car.body, body, car.brakes))
     ks, ws = together(car.wheels), together(wheels)
-    for fmu, w in zip(fmus, ws, strict=True):
-        if preconditioned:
-            precondition(fmu)
-        w["damper"] = w["before"] = fmu.outputs()["force"]
-    before = np.array([fmu.outputs()["work"] for fmu in fmus])
+    if preconditioned:
+        precondition_four(dampers)
+    ws["damper"] = ws["before"] = dampers.forces()
+    before = np.array(dampers.works())
     out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
     work = BODY_COLUMNS + 10 + WHEEL_COLUMNS * np.arange(len(WHEELS))
     ground = np.array(road, dtype=float)
@@ -39,8 +35,7 @@ def drive_car_with_fmus(
         if not module.road_step(c, b, ks, ws, h, ground, spacing, steer, wanted, held, grip, dt):
             raise InputError(f"time {n * dt:g} s: the road of {(road.shape[1] - 1) * spacing:g} m ends")
         module.write_step(b, ws, out[n], dt)
-        out[n, work] = [fmu.outputs()["work"] for fmu in fmus]
-        for fmu, w in zip(fmus, ws, strict=True):
-            w["before"] = w["damper"]
-            w["damper"] = fmu.step(float(w["stroke"]), float(w["velocity"]), dt)
+        out[n, work] = dampers.works()
+        ws["before"] = ws["damper"]
+        ws["damper"] = dampers.step(ws["stroke"].tolist(), ws["velocity"].tolist(), dt)
     return as_run(out, dt, before)

@@ -102,7 +102,9 @@ def communication_step(
     take_force(w2, j2)
     take_force(w3, j3)
     take_force(w4, j4)
-    apart = 0.5 * (t.span + t.earlier)
+    # The force at the start is that of a rest before it, as long as a step.
+    earlier = t.earlier if t.earlier > 0.0 else t.span
+    apart = 0.5 * (t.span + earlier)
     for n in range(parts):
         at = n * dt
         ahead = (0.5 * t.span + at) / apart if apart > 0.0 and span <= LONGEST_CARRIED else 0.0

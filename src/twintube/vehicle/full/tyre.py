@@ -25,6 +25,11 @@ def between_loads(nominal: float, double: float, load: float) -> float:
     return nominal + (double - nominal) * (load - 1.0)
 
 
+def combined(along: float, across: float) -> float:
+    """Length of a vector; `math.hypot` rounds otherwise in Python than in C."""
+    return math.sqrt(along * along + across * across)
+
+
 def force_over_slip(slip: float, rise: float, s_most: float, most: float, s_slide: float, slide: float) -> float:
     """Force over slip [N] at a `slip` >= 0: the secant of the curve through its rise, largest force and sliding force."""
     rise = max(rise, 2.0 * most / s_most)  # else the curve would bend the wrong way
@@ -72,18 +77,18 @@ def roll_tyre(k: Wheel, w: WheelMotion, v_x: float, v_y: float, grip: float, dt:
         unit_x = s_x / (s_x + s_y) + (most_x / rise_x) / (most_x / rise_x + most_y / rise_y)
         unit_y = s_y / (s_x + s_y) + (most_y / rise_y) / (most_x / rise_x + most_y / rise_y)
         n_x, n_y = w.slip_x / unit_x, w.slip_y / unit_y
-        slip = math.sqrt(n_x * n_x + n_y * n_y)
+        slip = combined(n_x, n_y)
         along, across = math.sqrt(0.5), math.sqrt(0.5)
         if slip > 1e-9:
             along, across = n_x / slip, n_y / slip
-        rise = math.hypot(rise_x * unit_x * along, rise_y * unit_y * across)
-        s_most = math.hypot(s_x / unit_x * along, s_y / unit_y * across)
-        most = math.hypot(most_x * along, most_y * across)
-        s_slide = math.hypot(
+        rise = combined(rise_x * unit_x * along, rise_y * unit_y * across)
+        s_most = combined(s_x / unit_x * along, s_y / unit_y * across)
+        most = combined(most_x * along, most_y * across)
+        s_slide = combined(
             between_loads(k.s_slide_x, k.s_slide_x2, load) / unit_x * along,
             between_loads(k.s_slide_y, k.s_slide_y2, load) / unit_y * across,
         )
-        slide = math.hypot(over_load(k.slide_x, k.slide_x2, load) * along, over_load(k.slide_y, k.slide_y2, load) * across)
+        slide = combined(over_load(k.slide_x, k.slide_x2, load) * along, over_load(k.slide_y, k.slide_y2, load) * across)
         # Grip scales forces and slips, not the rise.
         secant = force_over_slip(slip, rise, grip * s_most, grip * most, grip * s_slide, grip * slide)
         secant_x, secant_y = secant / unit_x, secant / unit_y

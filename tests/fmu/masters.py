@@ -73,7 +73,7 @@ def drive(
         force = [unit.get("force")[0] for unit in units]
         for n, (steer, pressure, speed) in enumerate(inputs.tolist()):
             heights, rates = road(way)
-            forward, aside = car.get("motion.v_x", "motion.v_y")
+            x, y, forward = car.get("motion.x", "motion.y", "motion.v_x")
             stroke, velocity = car.get(*wheels_of("stroke")), car.get(*wheels_of("velocity"))
             values = {"steer": steer, "brake_pressure": pressure, "speed": speed}
             values |= dict(zip(wheels_of("force"), force, strict=True))
@@ -81,8 +81,8 @@ def drive(
             values |= dict(zip(wheels_of("road_rate"), rates * forward, strict=True))
             car.set(values)
             car.step(n * length, length)
-            after = car.get("motion.v_x", "motion.v_y")
-            way += length * float(np.hypot(0.5 * (forward + after[0]), 0.5 * (aside + after[1])))
+            after = car.get("motion.x", "motion.y")
+            way += float(np.hypot(after[0] - x, after[1] - y))
             if not parallel:
                 moved = car.get(*wheels_of("stroke"))
                 velocity = [(b - a) / length for a, b in zip(stroke, moved, strict=True)]
