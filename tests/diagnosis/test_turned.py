@@ -20,7 +20,8 @@ def test_a_sign_that_does_not_help_the_model_is_turned_back(runs: list[small.Run
     problem = small.problem(records)
     fault = Fault("sign_flip", "", "", -1.0, records=(records[0].name,))
     kept, same = really_turned(fault, problem)
-    assert kept is fault and same is problem
+    assert kept is fault
+    assert np.array_equal(same.records[0].force, problem.records[0].force)
     wrong = problem.with_records([scaled(problem.records[0], -1.0, 1.0), *problem.records[1:]])
     dropped, back = really_turned(fault, wrong)
     assert dropped is None
@@ -36,3 +37,18 @@ def test_a_record_in_another_unit_is_named_beside_others_that_are_not_quite_righ
     fault, others = odd_records(problem)
     assert fault is not None and len(others.records) == 4
     assert fault.records == (problem.records[2].name,)
+
+
+def test_a_turned_stroke_is_told_from_a_turned_force(runs: list[small.Run]) -> None:
+    records = [small.record(r, seed=i) for i, r in enumerate(runs)]
+    problem = small.problem(records)
+    names = tuple(record.name for record in problem.records)
+    # The data door turns the forces of a record whose stroke has the other sign.
+    door = problem.with_records([scaled(r, -1.0, -1.0) for r in problem.records])
+    fault, right = really_turned(Fault("sign_flip", "", "The force channel", -1.0, records=names), door)
+    assert fault is not None
+    assert (fault.channel, fault.title) == ("stroke", "Sign of the stroke channel")
+    assert "stroke channel" in fault.explanation
+    for turned, record in zip(right.records, problem.records, strict=True):
+        assert np.array_equal(turned.stroke, record.stroke) and np.array_equal(turned.force, record.force)
+        assert turned.top_speed == record.top_speed

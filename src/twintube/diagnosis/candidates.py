@@ -179,6 +179,26 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
     return [f.start + sign * share * side for share in RULES.shares for sign, side in sides]
 
 
+def clock_starts(problems: Sequence[Problem], fixed: Sequence[Mapping[str, float]]) -> list[float]:
+    """Errors of the clock that explain the records best, seen by moving the forces of the model without one.
+
+    Over a long record a clock drifts by whole oscillations, so that there are many local optima.
+    """
+    clocks = np.linspace(-RULES.clock_range, RULES.clock_range, RULES.clocks)
+    costs = np.zeros(len(clocks))
+    for problem, values in zip(problems, fixed, strict=True):
+        forces = problem.forces(values)
+        for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
+            elapsed = np.maximum(record.time - record.begin, 0.0)
+            weight, measured = (problem.weight * problem.share)[a:b], problem.measured[a:b]
+            for i, clock in enumerate(clocks):
+                moved = np.interp(record.time - clock * elapsed, record.time, forces[a:b])
+                costs[i] += float(np.sum((weight * (moved - measured)) ** 2))
+    inner = costs[1:-1]
+    lowest = 1 + np.flatnonzero((inner <= costs[:-2]) & (inner <= costs[2:]))
+    return [float(clocks[i]) for i in lowest[np.argsort(costs[lowest])][: RULES.clock_starts]] or [0.0]
+
+
 def best_start(
     problems: Sequence[Problem], candidate: Candidate, fixed: Sequence[Mapping[str, float]]
 ) -> tuple[float, dict[str, float]]:
@@ -191,6 +211,8 @@ def best_start(
     """
     zeros = [nuisances(problem)[0] for problem in problems]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
+    if CLOCK in grids:
+        grids[CLOCK] = clock_starts(problems, fixed)
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength][: RULES.shapes]
     best, low = {f.name: f.start for f in candidate.free}, np.inf
     left = list(candidate.strength)

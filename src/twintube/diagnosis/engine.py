@@ -55,9 +55,8 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     problem = without_outliers(problem)
     remarks += [*notes, *drift, *([history_remark(bare)] if bare else [])]
     if turned is not None:
-        recorded = recorded.with_records(
-            [scaled(r, turned.factor, 1.0) if r.name in turned.records else r for r in recorded.records]
-        )
+        factors = (1.0, turned.factor) if turned.channel == "stroke" else (turned.factor, 1.0)
+        recorded = recorded.with_records([scaled(r, *factors) if r.name in turned.records else r for r in recorded.records])
 
     def concluded(judged: Problem, odd: Fault | None = None) -> Diagnosis:
         folds, split_remarks = split(dataset.title, judged.records)

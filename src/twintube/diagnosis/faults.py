@@ -48,6 +48,7 @@ class Fault:
     name: str = "factor"
     unit: str = "1"
     records: tuple[str, ...] = ()  # names of those that have it; empty where all have
+    channel: str = "force"
 
 
 def read(path: str | Path) -> tuple[LoadedDataset, Fault | None]:
@@ -72,23 +73,34 @@ def scaled(record: PreparedRecord, force: float, stroke: float) -> PreparedRecor
     return replace(
         record, force=record.force * force, noise=record.noise * abs(force), peak=record.peak * abs(force),
         path=PPoly(record.path.c * stroke, record.path.x), resolution=record.resolution * abs(force),
-        stroke=record.stroke * stroke, velocity=record.velocity * stroke, top_speed=record.top_speed * stroke,
+        stroke=record.stroke * stroke, velocity=record.velocity * stroke, top_speed=record.top_speed * abs(stroke),
     )  # fmt: skip
 
 
 def really_turned(turned: Fault | None, problem: Problem) -> tuple[Fault | None, Problem]:
-    """The fault if the model, too, explains the turned records far better, else none, and the records as they were.
+    """The turned sign with which the model, too, explains the records far better, if there is any, and these records.
 
-    A clock that is wrong makes the work of a long record negative as well.
+    The work of a record is negative with either channel turned, and that of a long record also if a clock is wrong.
     """
     if turned is None:
         return None, problem
     part = problem.with_records([r for r in problem.records if r.name in turned.records])
-    back = part.with_records([scaled(r, -1.0, 1.0) for r in part.records])
-    if relative(part) <= relative(back) - RULES.unit_gain:
-        return turned, problem
-    before = {record.name: record for record in back.records}
-    return None, problem.with_records([before.get(record.name, record) for record in problem.records])
+    as_recorded = part.with_records([scaled(r, -1.0, 1.0) for r in part.records])
+    stroke = part.with_records([scaled(r, 1.0, -1.0) for r in as_recorded.records])
+    better: tuple[Fault | None, Problem] = min(
+        ((turned, part), (stroke_turned(turned), stroke)), key=lambda pair: relative(pair[1])
+    )
+    if relative(better[1]) > relative(as_recorded) - RULES.unit_gain:
+        better = (None, as_recorded)
+    fault, best = better
+    changed = {record.name: record for record in best.records}
+    return fault, problem.with_records([changed.get(record.name, record) for record in problem.records])
+
+
+def stroke_turned(turned: Fault) -> Fault:
+    """The fault in the stroke channel, not in the force channel."""
+    return replace(turned, title="Sign of the stroke channel", explanation=turned.explanation.replace("force", "stroke"),
+                   channel="stroke")  # fmt: skip
 
 
 def unit_error(problem: Problem) -> tuple[Fault | None, Problem]:

@@ -14,12 +14,15 @@ STRANGER = "odd_record"
 
 def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     """The few records that the model contradicts while it explains all others, and the problem without them."""
-    odd = contradicting(problem)
+    odd, sure, usual = contradicting(problem)
     if not odd:
         return None, problem
     part = problem.with_records([problem.records[i] for i in odd])
     others = problem.with_records([r for i, r in enumerate(problem.records) if i not in odd])
     names = tuple(record.name for record in part.records)
+    if not sure:  # a cause may act in some records alone, but makes none of another unit
+        fault = own_unit(part, names, usual)
+        return (fault, others) if fault is not None else (None, problem)
     fault = own_fault(part, names)
     # A single record of another setting looks as if its gain were wrong.
     if fault is None or (len(names) == 1 and fault.effect in ("force_gain", STROKE_GAIN)):
@@ -27,10 +30,10 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     return (fault, others) if fault is not None else (None, problem)
 
 
-def contradicting(problem: Problem) -> Sequence[int]:
+def contradicting(problem: Problem) -> tuple[Sequence[int], bool, float]:
     """The numbers of the fewest records without which the model is right; none where it is right or that does not help.
 
-    What is far beyond all others, as in another unit, needs no right model.
+    Also whether that is sure, and the largest misfit of all others. What is far beyond them needs no right model.
     """
     misfit = problem.misfits(problem.residual({}))
     logs = problem.counts * np.log(np.maximum(RULES.least_misfit, misfit))
@@ -39,17 +42,26 @@ def contradicting(problem: Problem) -> Sequence[int]:
         odd, rest = order[:count], order[count:]
         usual = max(1.0, float(misfit[rest].max()))
         right = logs[rest].sum() <= RULES.right * problem.counts[rest].sum()
-        if misfit[odd].min() >= (RULES.odd if right else RULES.odd_far) * usual:
-            return sorted(odd.tolist())
-    return []
+        beyond = misfit[odd].min() / usual
+        if beyond >= (RULES.odd if right else RULES.odd_unit):
+            return sorted(odd.tolist()), bool(right or beyond >= RULES.odd_far), usual
+    return [], False, 1.0
+
+
+def own_unit(part: Problem, names: tuple[str, ...], usual: float = 1.0) -> Fault | None:
+    """The other unit in which the model explains these records as well as others, whose misfits are up to `usual`."""
+    wrong, put_right = unit_error(part)
+    if wrong is None or not right(put_right, {}, usual):
+        return None
+    of = f"In {', '.join(names)}: {wrong.explanation[0].lower()}{wrong.explanation[1:]}"
+    return Fault(wrong.effect, wrong.title, of, wrong.factor, records=names)
 
 
 def own_fault(part: Problem, names: tuple[str, ...]) -> Fault | None:
     """The fault of the measurement that explains these records, if any does."""
-    wrong, put_right = unit_error(part)
-    if wrong is not None and right(put_right, {}):
-        of = f"In {', '.join(names)}: {wrong.explanation[0].lower()}{wrong.explanation[1:]}"
-        return Fault(wrong.effect, wrong.title, of, wrong.factor, records=names)
+    unit = own_unit(part, names)
+    if unit is not None:
+        return unit
     best = None
     for candidate in faults(part):
         (f,) = candidate.free
@@ -66,10 +78,10 @@ def own_fault(part: Problem, names: tuple[str, ...]) -> Fault | None:
     return Fault(candidate.name, candidate.title, text, value, f.name, candidate.units[f.name], names)
 
 
-def right(part: Problem, values: dict[str, float]) -> bool:
-    """Whether the model explains the records."""
+def right(part: Problem, values: dict[str, float], usual: float = 1.0) -> bool:
+    """Whether the model explains the records, as well as others with misfits up to `usual`."""
     misfit = part.misfits(part.residual(values))
-    return bool(np.all(misfit <= RULES.odd_right))
+    return bool(np.all(misfit <= RULES.odd_right * usual))
 
 
 def stranger(part: Problem, names: tuple[str, ...]) -> Fault | None:

@@ -87,6 +87,7 @@ class Rules:
     slow_share: float = records(0.2, "1", "of the top speed: slower is preconditioning", JUDGEMENT)
     slow_way: float = records(2.0, "1", "of the range of the stroke that preconditioning goes at least", JUDGEMENT)
     odd: float = records(4.0, "1", "times the largest misfit of all others, at which a record does not belong", DEVELOPMENT)
+    odd_unit: float = records(25.0, "1", "the like where only another unit of these records is looked for", JUDGEMENT)
     odd_far: float = records(1000.0, "1", "the like where the others are not explained within noise", DEVELOPMENT)
     odd_share: float = records(1 / 3, "1", "of the records that may contradict the others", JUDGEMENT)
     odd_force: float = records(
@@ -167,6 +168,8 @@ class Rules:
     delay_samples: float = starts(3.0, "1", "samples that this range holds at least", JUDGEMENT)
     stroke_range: tuple[float, float] = starts((0.8, 1.25), "1", "range of a gain of the stroke that is a fault", JUDGEMENT)
     clock_range: float = starts(0.01, "1", "range of a clock's error, to both sides", JUDGEMENT)
+    clocks: int = starts(401, "1", "errors of a clock within this range that are looked at by moving forces", JUDGEMENT)
+    clock_starts: int = starts(3, "1", "best of these from which a fit may begin", JUDGEMENT)
 
     alarm: float = selection(0.01, "1", "datasets without a cause in which noise makes any; gives the limit c", STATISTICS)
     least_misfit: float = selection(0.5, "1", "mean squared weighted error below which nothing is gained", JUDGEMENT)

@@ -14,7 +14,7 @@ LEAST = 0.01  # probability from which another answer is mentioned
 OTHERS = 2  # of them
 ANSWERS = {"none": "nothing is missing", "unknown": "none of the known causes"}
 REPAIRS = {
-    "sign_flip": "turn the sign of the force channel: force_sign in dataset.toml",
+    "sign_flip": "turn the sign of this channel: force_sign or stroke_sign in dataset.toml",
     "unit_error": "correct the unit of this channel in dataset.toml",
     "force_averaging": "record the force without this mean; here the model was seen through an equal mean",
     "odd_record": "look up damper, setting and fill of what is named, and correct dataset.toml or repeat the measurement",
