@@ -1,6 +1,17 @@
 """The command `twintube`."""
 
-from twintube.cli import car, dataset, demo, fmu, inspect, measured, model, ssp, vehicle  # noqa: F401  # registers the commands
+from twintube.cli import (  # noqa: F401  # registers the commands
+    car,
+    dataset,
+    demo,
+    explore,
+    fmu,
+    inspect,
+    measured,
+    model,
+    ssp,
+    vehicle,
+)
 from twintube.cli.base import app
 
 __all__ = ["app"]

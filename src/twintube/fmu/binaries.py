@@ -43,7 +43,7 @@ def headers() -> Path:
 
 def target_flags(target: str, flags: Sequence[str], file: str) -> tuple[str, ...]:
     """What a target needs besides the common flags: code that can be loaded anywhere, on macOS a name without a path."""
-    if "windows" in target:
+    if "windows" in target or "wasm" in target:
         return ()
     if "macos" in target and "-shared" in flags:
         return ("-fPIC", f"-Wl,-install_name,@rpath/{file}")
@@ -62,17 +62,22 @@ def compiled(source: Path, target: str, output: Path, flags: Sequence[str] = FLA
         raise CompilerError(f"{target}: {done.stderr.strip() or 'the compiler wrote no library'}")
 
 
-def key(texts: Mapping[str, str], target: str, file: str) -> str:
+def key(
+    texts: Mapping[str, str], target: str, file: str, source: str = COMPILED, flags: Sequence[str] = FLAGS
+) -> str:
     """A digest of all that a library depends on: sources, headers, flags, target, name and compiler."""
-    parts = [target, file, version("ziglang"), *FLAGS, *target_flags(target, FLAGS, file)]
+    parts = [target, file, source, version("ziglang"), *flags, *target_flags(target, flags, file)]
     parts += [part for name in sorted(texts) for part in (name, texts[name])]
     parts += [path.read_text(encoding="utf-8") for path in sorted(headers().glob("fmi2*.h"))]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 
 
-def library(texts: Mapping[str, str], target: str, file: str) -> bytes:
+def library(
+    texts: Mapping[str, str], target: str, file: str, source: str = COMPILED, flags: Sequence[str] = FLAGS
+) -> bytes:
     """A library for a target, from the cache where it was compiled before; raises CompilerError."""
-    name = key(texts, target, file)
+    require_compiler()
+    name = key(texts, target, file, source, flags)
     data = library_cache.stored(name)
     if data is None:
         with tempfile.TemporaryDirectory() as temporary:
@@ -81,7 +86,7 @@ def library(texts: Mapping[str, str], target: str, file: str) -> bytes:
                 (folder / path).write_text(text, encoding="utf-8")
             output = folder / "out" / file
             output.parent.mkdir()
-            compiled(folder / COMPILED, target, output)
+            compiled(folder / source, target, output, flags)
             data = output.read_bytes()
         library_cache.store(name, data)
     return data

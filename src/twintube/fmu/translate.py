@@ -26,23 +26,28 @@ MODULE = "kernel"
 
 def translated(equations: Equations = DAMPER) -> str:
     """The text of a `kernel.h`; raises RuntimeError with what pyccel says."""
+    return marked(converted(joined_source(equations), MODULE), equations)
+
+
+def converted(source: str, module: str) -> str:
+    """A typed Python source as a C header whose names begin with `module`; raises RuntimeError with what pyccel says."""
     pyccel = shutil.which("pyccel", path=str(Path(sys.executable).parent)) or shutil.which("pyccel")
     if pyccel is None:
         raise RuntimeError("pyccel is not installed: pip install pyccel (its installation needs gfortran)")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        (folder / f"{MODULE}.py").write_text(joined_source(equations), encoding="utf-8")
+        (folder / f"{module}.py").write_text(source, encoding="utf-8")
         done = subprocess.run(
-            [pyccel, "compile", "--language", "C", "--convert-only", f"{MODULE}.py"],
+            [pyccel, "compile", "--language", "C", "--convert-only", f"{module}.py"],
             cwd=folder, capture_output=True, text=True, check=False,
         )  # fmt: skip
-        output = {path.suffix: path.read_text(encoding="utf-8") for path in folder.rglob(f"{MODULE}.[ch]")}
+        output = {path.suffix: path.read_text(encoding="utf-8") for path in folder.rglob(f"{module}.[ch]")}
         if done.returncode != 0 or len(output) != 2:
             raise RuntimeError(f"pyccel failed:\n{done.stdout}{done.stderr}")
-        return header(output[".h"], output[".c"], equations)
+        return header(output[".h"], output[".c"], module)
 
 
-def header(declared: str, defined: str, equations: Equations) -> str:
+def header(declared: str, defined: str, module: str) -> str:
     """A header of records and static functions, so that several FMUs can be linked into one program."""
     records = re.findall(r"^struct \w+ \{\n.*?^\};\n", declared, re.DOTALL | re.MULTILINE)
     # The wrapper sets the records up itself.
@@ -50,8 +55,9 @@ def header(declared: str, defined: str, equations: Equations) -> str:
     bodies = re.split(r"^/\*\.+\*/\n", defined, flags=re.MULTILINE)[1:]
     bodies = [body for body in bodies if body.strip() and not re.match(r"void \w+__(init|drop)\(", body)]
     parts = [re.sub(r"^(?=(?:double|void|bool|int64_t) \w+\()", "static ", commented(body), flags=re.M) for body in bodies]
-    text = "\n".join(["#ifndef KERNEL_H", "#define KERNEL_H", "", '#include "subset.h"', "", *records, *parts, "#endif", ""])
-    return marked(re.sub(r"\bkernel__(?=\w)", "kernel_", re.sub(r"INT64_C\((\d+)\)", r"\1", text)), equations)
+    guard = f"{module.upper()}_H"
+    text = "\n".join([f"#ifndef {guard}", f"#define {guard}", "", '#include "subset.h"', "", *records, *parts, "#endif", ""])
+    return re.sub(rf"\b{module}__(?=\w)", f"{module}_", re.sub(r"INT64_C\((\d+)\)", r"\1", text))
 
 
 def commented(body: str) -> str:

@@ -1,0 +1,30 @@
+"""The command that writes the explorer."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from twintube.cli.base import app
+from twintube.dampers import load
+from twintube.files import write_text
+
+
+@app.command(epilog="Example: twintube explore --output explorer.html")
+def explore(
+    parameters: Annotated[
+        list[Path] | None, typer.Option(help="A parameter file (TOML) beside SA1 to SA8; may be repeated.")
+    ] = None,
+    output: Annotated[Path, typer.Option(help="HTML file.")] = Path("explorer.html"),
+) -> None:
+    """Write a page that runs the damper in a browser: chambers, loops, work and wheel load, live and against intact.
+
+    The page needs no network. The first time the compiler builds its C library too, which takes half a minute.
+    """
+    from twintube.explorer.assemble import page
+
+    if output.is_dir():
+        raise IsADirectoryError(f"{output}: is a folder, must be a file")
+    text = page([load(file) for file in parameters or []])
+    write_text(output, text)
+    typer.echo(f"{output}: {len(text.encode()) // 1000} kB; open it in a browser")

@@ -1,0 +1,67 @@
+"""The page in one file: template, style, scripts, content and module joined."""
+
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Sequence
+from importlib.resources import files
+
+import jinja2
+
+from twintube import __version__
+from twintube.dampers import Damper
+from twintube.explorer.content import content
+from twintube.explorer.module import module
+
+FOLDER = files("twintube.explorer")
+# In the order in which they are joined: what a file uses at once stands before it.
+SCRIPTS = ("unit.js", "excitation.js", "state.js", "compute.js", "tube.js", "plots.js", "charts.js", "tour.js", "controls.js",
+           "main.js")  # fmt: skip
+CHAMBERS = (("V1", "rebound"), ("V2", "compression"), ("V3", "reserve"))
+CHARTS = (  # identifier, title, text for screen readers
+    ("chart-s", "Force over stroke", "Force over stroke of this damper and the intact one"),
+    ("chart-v", "Force over velocity", "Force over velocity of this damper and the intact one"),
+    ("chart-work", "Work", "Work of every oscillation, or second of a drive; the same values are in the table below"),
+    ("chart-k", "Degradation factor", "k_degr, the fluid force over that of the intact damper, over time"),
+    ("chart-load", "Wheel load", "Wheel load over time with this damper and with the intact one"),
+)
+
+
+def part(folder: str, name: str) -> str:
+    """A file of the page."""
+    return FOLDER.joinpath(folder, name).read_text(encoding="utf-8")
+
+
+def vendored() -> str:
+    """The plotting library under its licence."""
+    licence, library = part("vendor", "LICENSE"), part("vendor", "uPlot.iife.min.js")
+    return f"/*\n{licence}*/\n{library}"
+
+
+def script_hash(text: str) -> str:
+    """A script as the page's security policy names it."""
+    return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii") + "'"
+
+
+def page(own: Sequence[Damper] = ()) -> str:
+    """The page with SA1 to SA8 and the user's dampers, of which the first is shown; raises BuildError."""
+    data = content(own)
+    data["shown"] = data["dampers"][0]["name"] if own else "SA8"
+    library, program = vendored(), "".join(part("page", name) for name in SCRIPTS)
+    version = re.search(r"uPlot \(v([\d.]+)\)", library)
+    environment = jinja2.Environment(autoescape=False, undefined=jinja2.StrictUndefined)  # all texts are the package's own
+    return environment.from_string(part("page", "page.html")).render(
+        hashes=" ".join(map(script_hash, (library, program))),
+        style=part("vendor", "uPlot.min.css") + part("page", "page.css"),
+        library=library,
+        program=program,
+        # No text of a user can end the element.
+        content=json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
+        module=base64.b64encode(module()).decode("ascii"),
+        chambers=CHAMBERS,
+        charts=CHARTS,
+        car=data["car"],
+        version=__version__,
+        uplot=version[1] if version else "",
+    )

@@ -1,0 +1,122 @@
+"""What the page knows beside the module: dampers, corners of the car, closures, effects, a road; as JSON."""
+
+import base64
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, fields
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from twintube.core.checks import tube_limit
+from twintube.core.effects import EFFECTS, Parameters
+from twintube.core.variables import fmi_name
+from twintube.dampers import Damper, load, names
+from twintube.dampers.closures import CLOSURES, DEFAULT, LETTER, has_own
+from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
+from twintube.fmu.table import variables
+from twintube.rig.plan import BLOCKS_17, amplitude
+from twintube.rig.signals import AMPLITUDE, OSCILLATIONS, PRECONDITIONING, V_PRECONDITIONING
+from twintube.vehicle import ride, road
+from twintube.vehicle.cars import axle, load_car
+from twintube.vehicle.drive import CONDITIONING_STEP
+
+ROAD_LENGTH = 300.0  # [m]; the drive ends where it ends
+ROAD_SEED = 1
+RAMPS = (0.001, 0.01, 0.05, 0.1, 0.25, 0.5, 1.0)  # [m/s]
+# Strengths of effects beyond the paper for a first look, all assumed: a parameter file of one's own says better.
+STRENGTHS: Mapping[str, Mapping[str, float]] = {
+    "oil_temperature": {"fade_heat": 2e-5},  # as in docs/effects.md: 2 % less force per 1000 J
+    "foam_decay": {"foam_decay_rate": 0.1},  # half of the foam in 7 s
+    "smooth_transition": {"build_up": 5e-3},  # a few millimetres, as measured loops round their edges
+    "fluid_lag": {"C_fluid": 1.9e-7, "C_fluid_co": 7.7e-6},  # docs/effects.md: oil of 1 GPa in SA2
+    "mount_compliance": {"C_mount": 1e-6},  # a soft top mount, 1 kN/mm
+    "valve_wear": {"wear_re": -0.2, "wear_co": -0.2},  # valves that lost a fifth of their force
+    "seal_leak": {"leak_film": 1e-6},  # 1 mL/s at 1 m/s: far gone
+}
+NAMES = {item.name: fmi_name(item) for item in fields(Parameters)}
+UNITS = {item.name: item.metadata["unit"] for item in fields(Parameters)}
+
+
+def named(values: Mapping[str, float]) -> dict[str, float]:
+    """Parameters by their names in the unit."""
+    return {NAMES[name]: value for name, value in values.items()}
+
+
+def damper_data(damper: Damper) -> dict[str, Any]:
+    """A damper: its values in the order of the unit's parameters, its tests, its corner of the car."""
+    return {
+        "name": damper.name,
+        "title": damper.title,
+        "values": [float(v.start or 0.0) for v in variables(damper) if v.causality == "parameter"],
+        "amplitude": amplitude(damper),
+        "limit": tube_limit(damper.parameters),
+        "levels": damper.measured_levels,
+        "axle": axle(damper),
+        "corner": astuple(load_car().corner(damper)),
+        "closes": has_own(damper),
+        "assumed": dict(damper.assumed),
+    }
+
+
+def effect_data(name: str) -> dict[str, Any]:
+    """An effect beyond the paper, at the strength that the page offers."""
+    values = STRENGTHS[name]
+    strength = ", ".join(f"{item} = {value:g} {UNITS[item] if UNITS[item] != '1' else ''}".strip()
+                         for item, value in values.items())  # fmt: skip
+    return {"title": EFFECTS[name].title, "strength": strength, "parameters": named(values)}
+
+
+def profile() -> str:
+    """Heights of a class D road as a tyre feels them, 32-bit floats every `road.SPACING`; other classes are in proportion."""
+    heights = road.generate(ROAD_LENGTH, seed=ROAD_SEED).enveloped
+    return base64.b64encode(heights.astype("<f4").tobytes()).decode("ascii")
+
+
+@lru_cache
+def common() -> dict[str, Any]:
+    """What does not depend on the user's dampers."""
+    table = list(variables(load("SA8")))
+    return {
+        "names": [v.name for v in table],
+        "integers": [v.name for v in table if v.integer],
+        "parameters": [v.name for v in table if v.causality == "parameter"],
+        "closures": {name: {"says": item.says, "parameters": named(item.parameters)} for name, item in CLOSURES.items()},
+        "letter": LETTER,
+        "return": DEFAULT,
+        "noFoam": named(NO_FOAM),
+        "noCavitation": named(NO_CAVITATION),
+        "wear": [NAMES["wear_re"], NAMES["wear_co"]],
+        "effects": {name: effect_data(name) for name in STRENGTHS},
+        "rig": {
+            "velocities": BLOCKS_17,
+            "ramps": RAMPS,
+            "oscillations": OSCILLATIONS,
+            "preconditioning": PRECONDITIONING,
+            "slow": V_PRECONDITIONING,
+            "amplitude": AMPLITUDE,
+        },
+        "road": {
+            "heights": profile(),
+            "spacing": road.SPACING,
+            "classes": {name: float(np.sqrt(gd / road.GD_N0["D"])) for name, gd in road.GD_N0.items()},
+            "step": ride.DT,
+            "fade": ride.FADE,
+            "settled": ride.SETTLED,
+            "conditioningStep": CONDITIONING_STEP,
+        },
+        "car": load_car().title,
+    }
+
+
+def content(own: Sequence[Damper]) -> dict[str, Any]:
+    """All that the page is given; the user's dampers come first."""
+    taken = {*names()}
+    listed = []
+    for damper in own:
+        data = damper_data(damper)
+        while data["name"] in taken:
+            data["name"] += " (own)"
+        taken.add(data["name"])
+        listed.append(data)
+    return common() | {"dampers": [*listed, *(damper_data(load(name)) for name in names())]}

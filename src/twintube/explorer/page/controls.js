@@ -1,0 +1,79 @@
+// The form: every control named as its key of the state.
+
+class Controls {
+  constructor(form, content, changed) {
+    Object.assign(this, { form, content });
+    const fields = form.elements;
+    this.filled(fields.damper, content.dampers.map(({ name, title }) => [name, `${name}: ${title}`]));
+    this.filled(fields.gas, Object.keys(content.closures).map((name) => [name, name]));
+    this.filled(fields.road, Object.keys(content.road.classes).map((name) => [name, `class ${name}`]));
+    const box = form.querySelector("#effects");
+    for (const [name, { title, strength }] of Object.entries(content.effects)) {
+      const label = document.createElement("label");
+      const input = Object.assign(document.createElement("input"), { type: "checkbox", name: "effects", value: name });
+      const said = Object.assign(document.createElement("small"), { textContent: `${strength}, assumed` });
+      label.append(input, `${title} `, said);
+      box.append(label);
+    }
+    this.lists = { velocity: content.rig.velocities, ramp: content.rig.ramps };
+    for (const [name, values] of Object.entries(this.lists)) fields[name].max = values.length - 1;
+    form.addEventListener("input", (event) => changed(this.values(), event.target.name));
+    form.addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  filled(select, options) {
+    options.forEach(([value, text]) => select.append(new Option(text, value)));
+  }
+
+  values() {
+    const fields = this.form.elements;
+    const effects = [...this.form.querySelectorAll("[name=effects]:checked")].map((input) => input.value);
+    return {
+      damper: fields.damper.value,
+      oil: Number(fields.oil.value),
+      preload: fields.preload.checked,
+      excitation: this.form.querySelector("[name=excitation]:checked").value,
+      velocity: this.lists.velocity[fields.velocity.value],
+      ramp: this.lists.ramp[fields.ramp.value],
+      amplitude: Number(fields.amplitude.value),
+      speed: Number(fields.speed.value),
+      road: fields.road.value,
+      foam: fields.foam.checked,
+      cavitation: fields.cavitation.checked,
+      gas: fields.gas.value,
+      factor: fields.factor.checked,
+      effects,
+    };
+  }
+
+  // The controls as a state says, with what belongs to its damper and excitation.
+  show(state) {
+    const fields = this.form.elements;
+    const damper = this.content.dampers.find((item) => item.name === state.damper);
+    fields.amplitude.max = Math.floor(900 * damper.limit);
+    for (const name of ["damper", "oil", "amplitude", "speed", "road", "gas"]) fields[name].value = state[name];
+    for (const name of ["preload", "foam", "cavitation", "factor"]) fields[name].checked = state[name];
+    for (const [name, values] of Object.entries(this.lists)) fields[name].value = values.indexOf(state[name]);
+    this.form.querySelector(`[name=excitation][value=${state.excitation}]`).checked = true;
+    this.form.querySelectorAll("[name=effects]").forEach((input) => (input.checked = state.effects.includes(input.value)));
+    this.form.querySelectorAll("[data-for]").forEach((part) => {
+      part.hidden = !part.dataset.for.split(" ").includes(state.excitation);
+    });
+    fields.gas.disabled = damper.closes;
+    this.form.querySelector("#gas-says").textContent = damper.closes
+      ? "The parameter file says what becomes of the gas."
+      : this.content.closures[state.gas].says;
+    const reach = Math.min(state.amplitude, fields.amplitude.max);
+    const said = {
+      oil: `${state.oil} %`,
+      velocity: `${state.velocity} m/s`,
+      ramp: `${state.ramp} m/s`,
+      amplitude: `${reach} mm`,
+      speed: `${state.speed} km/h`,
+    };
+    for (const [name, text] of Object.entries(said)) {
+      this.form.querySelector(`output[for=${name}]`).textContent = text;
+      fields[name].setAttribute("aria-valuetext", text);
+    }
+  }
+}
