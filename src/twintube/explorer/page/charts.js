@@ -1,7 +1,7 @@
 // Which diagrams there are, and what a result shows in them.
 
 const FACTOR_DASH = [6, 4];
-const LEAF = 4; // [s] of a drive that a diagram over time shows at once
+const LEAF = 5; // [s] of a drive that a diagram over time shows at most
 const scaled = (array, factor) => Float64Array.from(array, (value) => factor * value);
 
 // The worn damper's share of a record that others are drawn beside; an intact bench loop repeats, so its last one is enough.
@@ -38,18 +38,18 @@ class Charts {
     const velocity = worn.velocity.subarray(0, worn.done);
     const forces = bounds([worn.force, ...loops.map((loop) => loop.F)]);
     const curve = (x) => ({ F, colour, dash, [x]: values }) => ({ x: values, y: F, colour, dash });
-    const loopMarks = drive ? null : marks;
     // A drive's loops cover each other: there the intact one is left out.
     this.loopS.show({ x: bounds([stroke, ...loops.map((loop) => loop.s)]), y: forces }, drive ? [] : loops.map(curve("s")), {
-      x: stroke, y: worn.force, marks: loopMarks,
+      x: stroke, y: worn.force, marks,
     });
     this.loopV.show({ x: bounds([velocity, ...loops.map((loop) => loop.v)]), y: forces }, drive ? [] : loops.map(curve("v")), {
-      x: velocity, y: worn.force, marks: loopMarks,
+      x: velocity, y: worn.force, marks,
     });
     this.showWork(result, others);
     const t = time.subarray(0, worn.done);
-    const span = [time[0], drive ? LEAF : time.at(-1)];
-    this.drive = drive ? time : null;
+    this.time = time;
+    this.leaves = drive ? Math.ceil(time.at(-1) / LEAF) : 1;
+    const span = this.leafAt(0);
     const level = [{ x: [time[0], time.at(-1)], y: [1, 1], colour: "--intact" }];
     this.degradation.show({ x: span, y: [-0.04, Math.max(1.1, bounds([worn.k_degr])[1])] }, level, { x: t, y: worn.k_degr });
     this.loadHost.hidden = !drive;
@@ -78,12 +78,19 @@ class Charts {
     });
   }
 
-  // The diagrams up to a sample; those over the time of a drive turn a leaf where it ends.
+  // The times that the diagrams over time show around a sample.
+  leafAt(i) {
+    const length = this.time.at(-1) / this.leaves;
+    const leaf = Math.min(this.leaves - 1, Math.floor(this.time[i] / length));
+    return [leaf * length, (leaf + 1) * length];
+  }
+
+  // The diagrams up to a sample.
   to(i) {
-    const leaf = this.drive ? LEAF * Math.floor(this.drive[i] / LEAF) : 0;
-    for (const chart of this.drive ? [this.degradation, this.load] : []) {
-      if (chart.ranges.x[0] === leaf) continue;
-      chart.ranges = { ...chart.ranges, x: [leaf, leaf + LEAF] };
+    const x = this.leafAt(i);
+    for (const chart of [this.degradation, this.load]) {
+      if (chart.ranges.x[0] === x[0]) continue;
+      chart.ranges = { ...chart.ranges, x };
       chart.refresh();
     }
     this.all.filter((chart) => chart.live).forEach((chart) => chart.to(i));
