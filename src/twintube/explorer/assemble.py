@@ -16,8 +16,7 @@ from twintube.explorer.module import module
 
 FOLDER = files("twintube.explorer")
 # In the order in which they are joined: what a file uses at once stands before it.
-SCRIPTS = ("unit.js", "excitation.js", "state.js", "compute.js", "tube.js", "plots.js", "charts.js", "tour.js", "controls.js",
-           "main.js")  # fmt: skip
+SCRIPTS = ("unit", "excitation", "state", "compute", "tube", "plots", "charts", "tour", "controls", "main")
 CHAMBERS = (("V1", "rebound"), ("V2", "compression"), ("V3", "reserve"))
 CHARTS = (  # identifier, title, text for screen readers
     ("chart-s", "Force over stroke", "Force over stroke of this damper and the intact one"),
@@ -48,7 +47,7 @@ def page(own: Sequence[Damper] = ()) -> str:
     """The page with SA1 to SA8 and the user's dampers, of which the first is shown; raises BuildError."""
     data = content(own)
     data["shown"] = data["dampers"][0]["name"] if own else "SA8"
-    library, program = vendored(), "".join(part("page", name) for name in SCRIPTS)
+    library, program = vendored(), "".join(part("page", f"{name}.js") for name in SCRIPTS)
     version = re.search(r"uPlot \(v([\d.]+)\)", library)
     environment = jinja2.Environment(autoescape=False, undefined=jinja2.StrictUndefined)  # all texts are the package's own
     return environment.from_string(part("page", "page.html")).render(

@@ -68,7 +68,7 @@ def effect_data(name: str) -> dict[str, Any]:
 
 
 def profile() -> str:
-    """Heights of a class D road as a tyre feels them, 32-bit floats every `road.SPACING`; other classes are in proportion."""
+    """Heights of a class D road as a tyre feels them, 32-bit floats every `road.SPACING`; others are in proportion."""
     heights = road.generate(ROAD_LENGTH, seed=ROAD_SEED).enveloped
     return base64.b64encode(heights.astype("<f4").tobytes()).decode("ascii")
 

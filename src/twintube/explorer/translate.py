@@ -35,7 +35,8 @@ def checked(text: str) -> str:
     """The text of `quarter_car.h`; raises StaleTranslationError unless it is the translation of the present Python."""
     if text != marked(text.split("\n", 1)[-1]):
         raise StaleTranslationError(
-            "quarter_car.h is not the translation of quarter_car.py: run `python -m twintube.explorer.translate` (needs pyccel)"
+            "quarter_car.h is not the translation of quarter_car.py: run `python -m twintube.explorer.translate` "
+            "(needs pyccel)"
         )
     return text
 

@@ -62,9 +62,7 @@ def compiled(source: Path, target: str, output: Path, flags: Sequence[str] = FLA
         raise CompilerError(f"{target}: {done.stderr.strip() or 'the compiler wrote no library'}")
 
 
-def key(
-    texts: Mapping[str, str], target: str, file: str, source: str = COMPILED, flags: Sequence[str] = FLAGS
-) -> str:
+def key(texts: Mapping[str, str], target: str, file: str, source: str = COMPILED, flags: Sequence[str] = FLAGS) -> str:
     """A digest of all that a library depends on: sources, headers, flags, target, name and compiler."""
     parts = [target, file, source, version("ziglang"), *flags, *target_flags(target, flags, file)]
     parts += [part for name in sorted(texts) for part in (name, texts[name])]
@@ -72,9 +70,7 @@ def key(
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 
 
-def library(
-    texts: Mapping[str, str], target: str, file: str, source: str = COMPILED, flags: Sequence[str] = FLAGS
-) -> bytes:
+def library(texts: Mapping[str, str], target: str, file: str, source: str = COMPILED, flags: Sequence[str] = FLAGS) -> bytes:
     """A library for a target, from the cache where it was compiled before; raises CompilerError."""
     require_compiler()
     name = key(texts, target, file, source, flags)

@@ -31,7 +31,7 @@ function at(t) {
   const scrub = find("scrub");
   scrub.value = result.end > 0 ? now / result.end : 0;
   const mark = Math.max(1, result.marks.filter((sample) => sample <= i && sample < result.time.length - 1).length);
-  const place = `${now.toFixed(2)} s of ${result.end.toFixed(2)} s, ${result.excitation.window} ${mark}`;
+  const place = `${now.toFixed(3)} s of ${result.end.toFixed(3)} s, ${result.excitation.window} ${mark}`;
   scrub.setAttribute("aria-valuetext", place);
   find("place").textContent = place;
   find("moment").textContent = `s = ${(1e3 * worn.stroke[i]).toFixed(1)} mm, v = ${worn.velocity[i].toFixed(3)} m/s, ` +
