@@ -118,8 +118,10 @@ def test_every_control_changes_the_result_and_the_address_restores_it(view: View
         lambda: page.check("[value=sine]"),
         lambda: page.focus("#amplitude") or page.keyboard.press("Home"),
         lambda: page.check("[value=drive]"),
+        lambda: page.uncheck("[name=preload]"),
         lambda: page.select_option("#road", "E"),
-        lambda: page.select_option("#gas", "displaced") and page.check("[name=cavitation]"),
+        lambda: page.check("[name=cavitation]"),
+        lambda: page.select_option("#gas", "displaced"),
     ]
     for action in actions:
         action()

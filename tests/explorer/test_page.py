@@ -37,12 +37,9 @@ def test_bad_input_is_answered_with_one_line(
 
 
 def test_without_a_compiler_the_command_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from twintube.explorer.module import module
     from twintube.fmu import binaries
 
-    module.cache_clear()
     monkeypatch.setattr(binaries, "find_spec", lambda name: None if name == "ziglang" else util.find_spec(name))
     done = CliRunner().invoke(app, ["explore", "--output", str(tmp_path / "explorer.html")])
-    module.cache_clear()
     assert done.exit_code == 2 and done.stderr == "error: no C compiler: pip install ziglang\n"
     assert metadata.version("ziglang")  # it was there all the time

@@ -19,12 +19,12 @@ def explore(
 ) -> None:
     """Write a page that runs the damper in a browser: chambers, loops, work and wheel load, live and against intact.
 
-    The page needs no network. The first time the compiler builds its C library too, which takes half a minute.
+    The page needs no network. What it computes is the native FMU, compiled for browsers.
     """
     from twintube.explorer.assemble import page
 
     if output.is_dir():
         raise IsADirectoryError(f"{output}: is a folder, must be a file")
-    text = page([load(file) for file in parameters or []])
+    text = page([load(file) for file in parameters or []], lambda said: typer.echo(said, err=True))
     write_text(output, text)
     typer.echo(f"{output}: {len(text.encode()) // 1000} kB; open it in a browser")

@@ -4,7 +4,7 @@ import base64
 import hashlib
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.resources import files
 
 import jinja2
@@ -43,8 +43,9 @@ def script_hash(text: str) -> str:
     return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii") + "'"
 
 
-def page(own: Sequence[Damper] = ()) -> str:
+def page(own: Sequence[Damper] = (), progress: Callable[[str], None] = lambda text: None) -> str:
     """The page with SA1 to SA8 and the user's dampers, of which the first is shown; raises BuildError."""
+    wasm = module(progress)
     data = content(own)
     data["shown"] = data["dampers"][0]["name"] if own else "SA8"
     library, program = vendored(), "".join(part("page", f"{name}.js") for name in SCRIPTS)
@@ -57,7 +58,7 @@ def page(own: Sequence[Damper] = ()) -> str:
         program=program,
         # No text of a user can end the element.
         content=json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
-        module=base64.b64encode(module()).decode("ascii"),
+        module=base64.b64encode(wasm).decode("ascii"),
         chambers=CHAMBERS,
         charts=CHARTS,
         car=data["car"],

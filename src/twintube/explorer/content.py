@@ -18,7 +18,7 @@ from twintube.fmu.table import variables
 from twintube.rig.plan import BLOCKS_17, amplitude
 from twintube.rig.signals import AMPLITUDE, OSCILLATIONS, PRECONDITIONING, V_PRECONDITIONING
 from twintube.vehicle import ride, road
-from twintube.vehicle.cars import axle, load_car
+from twintube.vehicle.cars import load_car
 from twintube.vehicle.drive import CONDITIONING_STEP
 
 ROAD_LENGTH = 300.0  # [m]; the drive ends where it ends
@@ -52,7 +52,6 @@ def damper_data(damper: Damper) -> dict[str, Any]:
         "amplitude": amplitude(damper),
         "limit": tube_limit(damper.parameters),
         "levels": damper.measured_levels,
-        "axle": axle(damper),
         "corner": astuple(load_car().corner(damper)),
         "closes": has_own(damper),
         "assumed": dict(damper.assumed),

@@ -1,6 +1,6 @@
 """The WebAssembly module: the C sources of the native FMU, the loops of `explorer.c` and the translated quarter car."""
 
-from functools import lru_cache
+from collections.abc import Callable
 
 from twintube.dampers import load
 from twintube.explorer.translate import checked
@@ -25,10 +25,11 @@ def texts() -> dict[str, str]:
     return sources.sources(load(DAMPER), "explorer") | own
 
 
-@lru_cache
-def module() -> bytes:
+def module(progress: Callable[[str], None] = lambda text: None) -> bytes:
     """The module, compiled by ziglang or from the cache of libraries; raises BuildError."""
     try:
+        binaries.require_compiler()
+        progress("the module; its first compilation takes half a minute")
         return binaries.library(texts(), TARGET, FILE, COMPILED, FLAGS)
     except (binaries.CompilerError, StaleTranslationError) as error:
         raise BuildError(str(error)) from error

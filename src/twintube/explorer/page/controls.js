@@ -59,6 +59,8 @@ class Controls {
     this.form.querySelectorAll("[data-for]").forEach((part) => {
       part.hidden = !part.dataset.for.split(" ").includes(state.excitation);
     });
+    const levels = damper.levels.map((level) => `${Math.round(100 * level)} %`).join(" and ");
+    this.form.querySelector("#levels").textContent = levels && `The paper measured ${levels}, without preload.`;
     fields.gas.disabled = damper.closes;
     this.form.querySelector("#gas-says").textContent = damper.closes
       ? "The parameter file says what becomes of the gas."

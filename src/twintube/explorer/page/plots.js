@@ -3,7 +3,7 @@
 
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const FONT = '13px system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
-const FADED = 0.28; // of earlier oscillations
+const FADED = 0.4; // of earlier oscillations
 
 // Bounds around values, with room to each side.
 function bounds(arrays, floor = Infinity) {
