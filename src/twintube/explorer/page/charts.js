@@ -19,7 +19,6 @@ class Charts {
     this.work = chart("chart-work", "oscillation", "work [J]");
     this.degradation = chart("chart-k", "time t [s]", "k_degr [1]");
     this.load = chart("chart-load", "time t [s]", "wheel load [N]");
-    this.workHost = host.querySelector("#chart-work");
     this.loadHost = host.querySelector("#chart-load");
   }
 

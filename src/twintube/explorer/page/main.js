@@ -3,6 +3,8 @@
 const content = JSON.parse(document.getElementById("content").textContent);
 content.road.profile = new Float32Array(bytesOf(content.road.heights).buffer);
 const find = (id) => document.getElementById(id);
+const SAID_EVERY = 4; // frames: figures that change faster cannot be read
+const NO_BREAK = "\u00a0";
 const HASH_DELAY = 250; // [ms] between changes of the address
 
 const module = await Module.opened(bytesOf(find("module").textContent.trim()), content.names, content.integers);
@@ -14,6 +16,7 @@ let result = null;
 let now = 0; // [s] in the record
 let playing = false;
 let lastFrame = 0;
+let frames = 0;
 let waiting = 0;
 
 function kept() {
@@ -21,21 +24,26 @@ function kept() {
   waiting = setTimeout(() => history.replaceState(null, "", state.hash()), HASH_DELAY);
 }
 
-// The picture of a time.
-function at(t) {
+// The picture of a time, with its figures where `said`.
+function at(t, said = true) {
   now = Math.min(Math.max(t, 0), result.end);
   const { worn } = result.records;
   const i = Math.min(sampleAt(result.time, now), worn.done - 1);
   tube.at(worn, i);
   charts.to(i);
+  if (!said) return;
+  tube.say(worn, i);
   const scrub = find("scrub");
   scrub.value = result.end > 0 ? now / result.end : 0;
   const mark = Math.max(1, result.marks.filter((sample) => sample <= i && sample < result.time.length - 1).length);
   const place = `${now.toFixed(3)} s of ${result.end.toFixed(3)} s, ${result.excitation.window} ${mark}`;
   scrub.setAttribute("aria-valuetext", place);
   find("place").textContent = place;
-  find("moment").textContent = `s = ${(1e3 * worn.stroke[i]).toFixed(1)} mm, v = ${worn.velocity[i].toFixed(3)} m/s, ` +
-    `F = ${worn.force[i].toFixed(0)} N, k_degr = ${worn.k_degr[i].toFixed(2)}`;
+  const moment = [
+    `s = ${(1e3 * worn.stroke[i]).toFixed(1)} mm`, `v = ${worn.velocity[i].toFixed(3)} m/s`,
+    `F = ${worn.force[i].toFixed(0)} N`, `k_degr = ${worn.k_degr[i].toFixed(2)}`,
+  ];
+  find("moment").textContent = moment.map((text) => text.replaceAll(" ", NO_BREAK)).join(", ");
 }
 
 // A sentence on the result, which screen readers announce.
@@ -105,6 +113,7 @@ function play(wanted) {
   playing = wanted;
   find("play").textContent = playing ? "Pause" : "Play";
   if (!playing) {
+    at(now);
     state.values.time = now >= result.end ? null : Number(now.toFixed(4));
     kept();
     return;
@@ -118,7 +127,9 @@ function frame(time) {
   if (!playing) return;
   const passed = Math.min(0.1, Math.max(0, (time - lastFrame) / 1e3));
   lastFrame = time;
-  at(now + passed * state.values.slow);
+  frames += 1;
+  const next = now + passed * state.values.slow;
+  at(next, next >= result.end || frames % SAID_EVERY === 0);
   if (now >= result.end) play(false);
   else requestAnimationFrame(frame);
 }

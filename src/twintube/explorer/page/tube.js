@@ -76,11 +76,17 @@ class Tube {
       if (id === "V1") this.layers(id, volumes, this.top, piston);
       if (id === "V2") this.layers(id, volumes, piston + this.dead * 0.7, base);
       if (id === "V3") this.layers(id, volumes, this.top, this.top + HEIGHT);
-      volumes.forEach((volume, k) => (this.cells[id][k].textContent = (1e6 * volume).toFixed(1)));
     }
     this.piston.setAttribute("y", piston.toFixed(2));
     this.rod.setAttribute("height", piston.toFixed(2));
     this.labels[0].setAttribute("y", (piston - 8).toFixed(1));
     this.labels[1].setAttribute("y", (base - 8).toFixed(1));
+  }
+
+  // The volumes as figures.
+  say(record, i) {
+    for (const [id] of CHAMBERS) {
+      PHASES.forEach((phase, k) => (this.cells[id][k].textContent = (1e6 * record[`${id}.${phase}`][i]).toFixed(1)));
+    }
   }
 }
