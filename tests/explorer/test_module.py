@@ -26,7 +26,7 @@ from twintube.vehicle.ride import track
 REFERENCE = {variable.name: i for i, variable in enumerate(variables(load("SA8")))}
 VOLUMES = [f"V{chamber}.{phase}" for chamber in (1, 2, 3) for phase in ("oil", "gas", "foam")]
 OUTPUTS = [REFERENCE[name] for name in ("force", "k_degr", *VOLUMES)]
-DT = 4e-3  # [s]; coarse, as rounding and not the sampling is tested
+DT = 8e-3  # [s]; coarse, as rounding and not the sampling is tested
 ROUNDING = 1e-12  # of each quantity's scale: C libraries differ in the last bit of exp and pow
 
 

@@ -36,21 +36,38 @@ class Charts {
     const stroke = scaled(worn.stroke, 1e3).subarray(0, worn.done);
     const velocity = worn.velocity.subarray(0, worn.done);
     const forces = bounds([worn.force, ...loops.map((loop) => loop.F)]);
-    const curve = (x) => ({ F, colour, dash, [x]: values }) => ({ x: values, y: F, colour, dash });
+    const curve =
+      (x) =>
+      ({ F, colour, dash, [x]: values }) => ({ x: values, y: F, colour, dash });
     // A drive's loops cover each other: there the intact one is left out.
-    this.loopS.show({ x: bounds([stroke, ...loops.map((loop) => loop.s)]), y: forces }, drive ? [] : loops.map(curve("s")), {
-      x: stroke, y: worn.force, marks,
-    });
-    this.loopV.show({ x: bounds([velocity, ...loops.map((loop) => loop.v)]), y: forces }, drive ? [] : loops.map(curve("v")), {
-      x: velocity, y: worn.force, marks,
-    });
+    this.loopS.show(
+      { x: bounds([stroke, ...loops.map((loop) => loop.s)]), y: forces },
+      drive ? [] : loops.map(curve("s")),
+      {
+        x: stroke,
+        y: worn.force,
+        marks,
+      },
+    );
+    this.loopV.show(
+      { x: bounds([velocity, ...loops.map((loop) => loop.v)]), y: forces },
+      drive ? [] : loops.map(curve("v")),
+      {
+        x: velocity,
+        y: worn.force,
+        marks,
+      },
+    );
     this.showWork(result, others);
     const t = time.subarray(0, worn.done);
     this.time = time;
     this.leaves = drive ? Math.ceil(time.at(-1) / LEAF) : 1;
     const span = this.leafAt(0);
     const level = [{ x: [time[0], time.at(-1)], y: [1, 1], colour: "--intact" }];
-    this.degradation.show({ x: span, y: [-0.04, Math.max(1.1, bounds([worn.k_degr])[1])] }, level, { x: t, y: worn.k_degr });
+    this.degradation.show({ x: span, y: [-0.04, Math.max(1.1, bounds([worn.k_degr])[1])] }, level, {
+      x: t,
+      y: worn.k_degr,
+    });
     this.loadHost.hidden = !drive;
     if (drive) this.showLoad(result, others, t, span);
     else this.load.live = null;
@@ -62,7 +79,12 @@ class Charts {
     const highest = Math.max(...Object.values(work).flat(), 1e-9);
     const steps = others.map(([record, colour, dash]) => {
       const done = work[Object.keys(records).find((name) => records[name] === record)];
-      return { x: done.flatMap((_, i) => [i + 0.55, i + 1.45]), y: done.flatMap((value) => [value, value]), colour, dash };
+      return {
+        x: done.flatMap((_, i) => [i + 0.55, i + 1.45]),
+        y: done.flatMap((value) => [value, value]),
+        colour,
+        dash,
+      };
     });
     const ranges = { x: [0.4, marks.length - 0.4], y: [0, 1.08 * highest] };
     this.work.show(ranges, steps, { work: records.worn.work, marks });
@@ -71,10 +93,20 @@ class Charts {
   showLoad({ records, time }, others, t, span) {
     const { worn } = records;
     const level = { x: [time[0], time.at(-1)], y: [worn.staticLoad, worn.staticLoad], colour: "--line" };
-    const curves = others.map(([record, colour, dash]) => ({ x: time.subarray(0, record.done), y: record.wheelLoad, colour, dash }));
-    this.load.show({ x: span, y: bounds([worn.wheelLoad, ...curves.map((curve) => curve.y), [0]]) }, [level, ...curves], {
-      x: t, y: worn.wheelLoad,
-    });
+    const curves = others.map(([record, colour, dash]) => ({
+      x: time.subarray(0, record.done),
+      y: record.wheelLoad,
+      colour,
+      dash,
+    }));
+    this.load.show(
+      { x: span, y: bounds([worn.wheelLoad, ...curves.map((curve) => curve.y), [0]]) },
+      [level, ...curves],
+      {
+        x: t,
+        y: worn.wheelLoad,
+      },
+    );
   }
 
   // The times that the diagrams over time show around a sample.

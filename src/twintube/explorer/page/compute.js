@@ -20,7 +20,9 @@ function workBetween(record, marks) {
 function dynamicLoad(record, road) {
   const load = record.wheelLoad.subarray(Math.round(road.settled / road.step));
   const mean = load.reduce((sum, value) => sum + value, 0) / load.length;
-  return Math.sqrt(load.reduce((sum, value) => sum + (value - mean) ** 2, 0) / load.length) / record.staticLoad;
+  return (
+    Math.sqrt(load.reduce((sum, value) => sum + (value - mean) ** 2, 0) / load.length) / record.staticLoad
+  );
 }
 
 const INTACT = { oil_level: 1, gas_preload: 1 };
@@ -40,7 +42,8 @@ function computed(module, state, content) {
   const result = { damper, excitation, marks: excitation.marks, records: {}, work: {}, load: {} };
   for (const [name, changes] of Object.entries(states)) {
     const record = module.simulated({ ...values, ...changes }, excitation);
-    if (!excitation.drive) Object.assign(record, { stroke: excitation.run.stroke, velocity: excitation.run.velocity });
+    if (!excitation.drive)
+      Object.assign(record, { stroke: excitation.run.stroke, velocity: excitation.run.velocity });
     result.records[name] = record;
     result.work[name] = workBetween(record, excitation.marks);
     if (excitation.drive) result.load[name] = dynamicLoad(record, content.road);

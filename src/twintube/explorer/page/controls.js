@@ -4,13 +4,26 @@ class Controls {
   constructor(form, content, changed) {
     Object.assign(this, { form, content });
     const fields = form.elements;
-    this.filled(fields.damper, content.dampers.map(({ name, title }) => [name, `${name}: ${title}`]));
-    this.filled(fields.gas, Object.keys(content.closures).map((name) => [name, name]));
-    this.filled(fields.road, Object.keys(content.road.classes).map((name) => [name, `class ${name}`]));
+    this.filled(
+      fields.damper,
+      content.dampers.map(({ name, title }) => [name, `${name}: ${title}`]),
+    );
+    this.filled(
+      fields.gas,
+      Object.keys(content.closures).map((name) => [name, name]),
+    );
+    this.filled(
+      fields.road,
+      Object.keys(content.road.classes).map((name) => [name, `class ${name}`]),
+    );
     const box = form.querySelector("#effects");
     for (const [name, { title, strength }] of Object.entries(content.effects)) {
       const label = document.createElement("label");
-      const input = Object.assign(document.createElement("input"), { type: "checkbox", name: "effects", value: name });
+      const input = Object.assign(document.createElement("input"), {
+        type: "checkbox",
+        name: "effects",
+        value: name,
+      });
       const said = Object.assign(document.createElement("small"), { textContent: `${strength}, assumed` });
       label.append(input, `${title} `, said);
       box.append(label);
@@ -51,16 +64,20 @@ class Controls {
     const fields = this.form.elements;
     const damper = this.content.dampers.find((item) => item.name === state.damper);
     fields.amplitude.max = Math.floor(900 * damper.limit);
-    for (const name of ["damper", "oil", "amplitude", "speed", "road", "gas"]) fields[name].value = state[name];
+    for (const name of ["damper", "oil", "amplitude", "speed", "road", "gas"])
+      fields[name].value = state[name];
     for (const name of ["preload", "foam", "cavitation", "factor"]) fields[name].checked = state[name];
     for (const [name, values] of Object.entries(this.lists)) fields[name].value = values.indexOf(state[name]);
     this.form.querySelector(`[name=excitation][value=${state.excitation}]`).checked = true;
-    this.form.querySelectorAll("[name=effects]").forEach((input) => (input.checked = state.effects.includes(input.value)));
+    this.form
+      .querySelectorAll("[name=effects]")
+      .forEach((input) => (input.checked = state.effects.includes(input.value)));
     this.form.querySelectorAll("[data-for]").forEach((part) => {
       part.hidden = !part.dataset.for.split(" ").includes(state.excitation);
     });
     const levels = damper.levels.map((level) => `${Math.round(100 * level)} %`).join(" and ");
-    this.form.querySelector("#levels").textContent = levels && `The paper measured ${levels}, without preload.`;
+    this.form.querySelector("#levels").textContent =
+      levels && `The paper measured ${levels}, without preload.`;
     fields.gas.disabled = damper.closes;
     this.form.querySelector("#gas-says").textContent = damper.closes
       ? "The parameter file says what becomes of the gas."

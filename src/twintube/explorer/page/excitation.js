@@ -1,5 +1,5 @@
-// Excitations as the package makes them (rig/signals.py, vehicle/ride.py): the preconditioning `before`, which ends at time 0,
-// and the `run`, whose oscillations begin at the samples `marks`.
+// Excitations as the package makes them (rig/signals.py, vehicle/ride.py): the preconditioning `before`, which ends at
+// time 0, and the `run`, whose oscillations begin at the samples `marks`.
 
 const SAMPLES = 400; // of an oscillation
 const SINES = 10;
@@ -66,7 +66,9 @@ function track(road, factor, kmh) {
     return factor * (height - profile[0]) * Math.min(time / road.fade, 1);
   };
   const heights = Float64Array.from({ length: n }, (_, i) => at(i));
-  const rates = Float64Array.from({ length: n }, (_, i) => (i ? (0.5 * (at(i + 1) - at(i - 1))) / road.step : 0));
+  const rates = Float64Array.from({ length: n }, (_, i) =>
+    i ? (0.5 * (at(i + 1) - at(i - 1))) / road.step : 0,
+  );
   return { heights, rates, seconds };
 }
 
@@ -79,15 +81,24 @@ function driven(rig, road, damper, state) {
     stroke: slow.stroke,
   };
   const run = { time: Float64Array.from(heights, (_, i) => i * road.step) };
-  const marks = Array.from({ length: seconds }, (_, i) => Math.round(i / road.step)).concat(heights.length - 1);
-  return { before, run, drive: { heights, rates, corner: damper.corner, step: road.step }, marks, window: "second" };
+  const marks = Array.from({ length: seconds }, (_, i) => Math.round(i / road.step)).concat(
+    heights.length - 1,
+  );
+  return {
+    before,
+    run,
+    drive: { heights, rates, corner: damper.corner, step: road.step },
+    marks,
+    window: "second",
+  };
 }
 
 // The excitation of a state: `block`, `sine`, `ramp` or `drive`.
 function excitationOf(state, damper, content) {
   const { rig, road } = content;
   if (state.excitation === "drive") return driven(rig, road, damper, state);
-  const reach = state.excitation === "block" ? damper.amplitude : Math.min(state.amplitude / 1e3, 0.999 * damper.limit);
+  const reach =
+    state.excitation === "block" ? damper.amplitude : Math.min(state.amplitude / 1e3, 0.999 * damper.limit);
   if (state.excitation === "ramp") return bench(rig, reach, triangles(state.ramp, reach, RAMPS), RAMPS, true);
   const count = state.excitation === "block" ? rig.oscillations : SINES;
   return bench(rig, reach, oscillations(state.velocity, reach, count, SAMPLES, BOTTOM), count, false);

@@ -7,7 +7,11 @@ const SAID_EVERY = 4; // frames: figures that change faster cannot be read
 const NO_BREAK = "\u00a0";
 const HASH_DELAY = 250; // [ms] between changes of the address
 
-const module = await Module.opened(bytesOf(find("module").textContent.trim()), content.names, content.integers);
+const module = await Module.opened(
+  bytesOf(find("module").textContent.trim()),
+  content.names,
+  content.integers,
+);
 const state = new State(content);
 const tube = new Tube(find("tube"), find("volumes"));
 const charts = new Charts(find("charts"));
@@ -35,13 +39,18 @@ function at(t, said = true) {
   tube.say(worn, i);
   const scrub = find("scrub");
   scrub.value = result.end > 0 ? now / result.end : 0;
-  const mark = Math.max(1, result.marks.filter((sample) => sample <= i && sample < result.time.length - 1).length);
+  const mark = Math.max(
+    1,
+    result.marks.filter((sample) => sample <= i && sample < result.time.length - 1).length,
+  );
   const place = `${now.toFixed(3)} s of ${result.end.toFixed(3)} s, ${result.excitation.window} ${mark}`;
   scrub.setAttribute("aria-valuetext", place);
   find("place").textContent = place;
   const moment = [
-    `s = ${(1e3 * worn.stroke[i]).toFixed(1)} mm`, `v = ${worn.velocity[i].toFixed(3)} m/s`,
-    `F = ${worn.force[i].toFixed(0)} N`, `k_degr = ${worn.k_degr[i].toFixed(2)}`,
+    `s = ${(1e3 * worn.stroke[i]).toFixed(1)} mm`,
+    `v = ${worn.velocity[i].toFixed(3)} m/s`,
+    `F = ${worn.force[i].toFixed(0)} N`,
+    `k_degr = ${worn.k_degr[i].toFixed(2)}`,
   ];
   find("moment").textContent = moment.map((text) => text.replaceAll(" ", NO_BREAK)).join(", ");
 }
@@ -51,15 +60,20 @@ function summary() {
   const { damper, work, load, records, excitation } = result;
   const { oil, preload } = state.values;
   const head = `${damper.name}, ${oil} % oil, preload ${preload ? "present" : "lost"}`;
-  if (records.worn.refusal) return `${head}. The unit stopped at ${result.end.toFixed(2)} s: ${records.worn.refusal}`;
+  if (records.worn.refusal)
+    return `${head}. The unit stopped at ${result.end.toFixed(2)} s: ${records.worn.refusal}`;
   if (excitation.drive) {
     const total = (name) => records[name].work.at(-1) - records[name].work[0];
-    return `${head}: dynamic wheel load coefficient ${load.worn.toFixed(3)}, intact ${load.intact.toFixed(3)} ` +
-      `(${load.worn < load.intact ? "−" : "+"}${Math.abs(100 * (load.worn / load.intact - 1)).toFixed(0)} %); damper work ${percent(total("worn") / total("intact"))} of intact.`;
+    return (
+      `${head}: dynamic wheel load coefficient ${load.worn.toFixed(3)}, intact ${load.intact.toFixed(3)} ` +
+      `(${load.worn < load.intact ? "−" : "+"}${Math.abs(100 * (load.worn / load.intact - 1)).toFixed(0)} %); damper work ${percent(total("worn") / total("intact"))} of intact.`
+    );
   }
   const [first, last] = [0, -1].map((i) => percent(share(work.worn, work.intact, i)));
-  return `${head}: oscillation 1 does ${joule(work.worn[0])}, ${first} of the intact work; ` +
-    `oscillation ${work.worn.length} does ${joule(work.worn.at(-1))}, ${last}.`;
+  return (
+    `${head}: oscillation 1 does ${joule(work.worn[0])}, ${first} of the intact work; ` +
+    `oscillation ${work.worn.length} does ${joule(work.worn.at(-1))}, ${last}.`
+  );
 }
 
 function fillTable() {
@@ -77,7 +91,10 @@ function fillTable() {
 function fillAssumed(damper) {
   const items = Object.entries(damper.assumed).map(([name, why]) => {
     const row = document.createElement("div");
-    const parts = [["dt", name], ["dd", why]].map(([tag, text]) => Object.assign(document.createElement(tag), { textContent: text }));
+    const parts = [
+      ["dt", name],
+      ["dd", why],
+    ].map(([tag, text]) => Object.assign(document.createElement(tag), { textContent: text }));
     row.append(...parts);
     return row;
   });
@@ -100,7 +117,8 @@ function update() {
   charts.show(result);
   find("factor-key").hidden = !state.values.factor;
   find("summary").textContent = summary();
-  find("cost").textContent = `Computed in ${result.milliseconds.toFixed(0)} ms: ${result.steps} steps of the module.`;
+  find("cost").textContent =
+    `Computed in ${result.milliseconds.toFixed(0)} ms: ${result.steps} steps of the module.`;
   fillTable();
   fillAssumed(result.damper);
   tour.show(state.values.tour);
@@ -157,7 +175,8 @@ function step(direction) {
 const controls = new Controls(find("controls"), content, (values, changed) => {
   Object.assign(state.values, values);
   // As the package has it: blocks of seconds by the paper's equations alone, rides with gas that dissolves again.
-  if (changed === "excitation") state.values.gas = values.excitation === "drive" ? content.return : content.letter;
+  if (changed === "excitation")
+    state.values.gas = values.excitation === "drive" ? content.return : content.letter;
   update();
 });
 const tour = new Tour(

@@ -48,7 +48,14 @@ class Chart {
       padding: [6, 12, 0, 0],
       hooks: { draw: [() => this.laidOut()] },
     };
-    this.plot = new uPlot(options, [[0, 1], [null, null]], host);
+    this.plot = new uPlot(
+      options,
+      [
+        [0, 1],
+        [null, null],
+      ],
+      host,
+    );
     this.canvas = document.createElement("canvas");
     this.canvas.className = "live";
     this.dot = document.createElement("div");

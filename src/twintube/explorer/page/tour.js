@@ -1,6 +1,14 @@
 // A guided tour of five findings of the paper: each a state, what the paper says, and the module's figures for it.
 
-const WORN = { preload: false, excitation: "block", foam: true, cavitation: true, gas: "letter", factor: false, effects: [] };
+const WORN = {
+  preload: false,
+  excitation: "block",
+  foam: true,
+  cavitation: true,
+  gas: "letter",
+  factor: false,
+  effects: [],
+};
 
 const lastOf = (result, name) => share(result.work[name ?? "worn"], result.work.intact, -1);
 const firstOf = (result, name) => share(result.work[name ?? "worn"], result.work.intact, 0);
@@ -14,8 +22,10 @@ const TOUR = [
       "force. Where oil arrives, the force rises sharply. The 19 loops lie on each other. The paper's 40 % of SA1 are 112 of 321 mL.",
     figures: (result) => {
       const { work } = result;
-      return `Here oscillation 19 does ${percent(work.worn.at(-1) / work.worn[0])} of the work of oscillation 1, and ` +
-        `${percent(lastOf(result))} of that of the intact damper.`;
+      return (
+        `Here oscillation 19 does ${percent(work.worn.at(-1) / work.worn[0])} of the work of oscillation 1, and ` +
+        `${percent(lastOf(result))} of that of the intact damper.`
+      );
     },
     claims: "C1, C2 (the sharp rise is not found in every stroke of every damper)",
   },
@@ -110,7 +120,8 @@ class Tour {
     if (step === 0) return;
     const { title, text, claims } = TOUR[step - 1];
     const parts = { title: `${step} of ${TOUR.length}: ${title}`, text, figures: this.figures(step), claims };
-    for (const [name, value] of Object.entries(parts)) this.host.querySelector(`#tour-${name}`).textContent = value;
+    for (const [name, value] of Object.entries(parts))
+      this.host.querySelector(`#tour-${name}`).textContent = value;
     this.host.querySelector("#tour-back").disabled = step === 1;
     this.host.querySelector("#tour-on").textContent = step === TOUR.length ? "Begin again" : "Next finding";
   }

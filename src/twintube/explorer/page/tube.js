@@ -3,7 +3,11 @@
 const SVG = "http://www.w3.org/2000/svg";
 const PHASES = ["oil", "foam", "gas"];
 const HEIGHT = 400; // of the inner tube in the picture
-const CHAMBERS = [["V1", "rebound"], ["V2", "compression"], ["V3", "reserve"]];
+const CHAMBERS = [
+  ["V1", "rebound"],
+  ["V2", "compression"],
+  ["V3", "reserve"],
+];
 
 function drawn(kind, attributes, parent) {
   const node = document.createElementNS(SVG, kind);
@@ -15,14 +19,18 @@ function drawn(kind, attributes, parent) {
 class Tube {
   constructor(svg, table) {
     this.svg = svg;
-    this.cells = Object.fromEntries(CHAMBERS.map(([id]) => [id, PHASES.map((phase) => table.querySelector(`#${id}-${phase}`))]));
+    this.cells = Object.fromEntries(
+      CHAMBERS.map(([id]) => [id, PHASES.map((phase) => table.querySelector(`#${id}-${phase}`))]),
+    );
     this.group = drawn("g", {}, svg);
   }
 
   // Tubes and rod of a damper, widths to each other as in it; the height is another scale.
   of(damper, names) {
     const value = (name) => damper.values[names.indexOf(name)];
-    const [outer, between, inner, rod] = ["D_a", "D_la", "D_li", "D_PR"].map((name) => value(`geometry.${name}`));
+    const [outer, between, inner, rod] = ["D_a", "D_la", "D_li", "D_PR"].map((name) =>
+      value(`geometry.${name}`),
+    );
     const length = value("geometry.h_l");
     const dead = value("geometry.dead_length");
     this.scale = HEIGHT / length; // per metre of stroke
@@ -39,14 +47,17 @@ class Tube {
     this.rects = { V1: {}, V2: {}, V3: {} };
     for (const phase of PHASES) this.rects.V3[phase] = [rect(phase, ...across(outer))];
     rect("wall", ...across(between), top - 6, HEIGHT + 12);
-    for (const chamber of ["V1", "V2"]) for (const phase of PHASES) this.rects[chamber][phase] = [rect(phase, ...across(inner))];
+    for (const chamber of ["V1", "V2"])
+      for (const phase of PHASES) this.rects[chamber][phase] = [rect(phase, ...across(inner))];
     this.rod = rect("steel", ...across(rod), 0, 0);
     this.piston = rect("steel", ...across(inner), 0, this.dead * 0.7);
     rect("steel", ...across(inner), top + HEIGHT - this.dead * 0.3, this.dead * 0.3);
     rect("wall", ...across(outer + 0.003), top - 14, 14);
     this.group.append(this.rod);
     this.top = top;
-    this.labels = CHAMBERS.map(([id]) => drawn("text", { class: "chamber", "text-anchor": "middle", x: middle }, this.group));
+    this.labels = CHAMBERS.map(([id]) =>
+      drawn("text", { class: "chamber", "text-anchor": "middle", x: middle }, this.group),
+    );
     this.labels.forEach((label, i) => (label.textContent = CHAMBERS[i][0]));
     this.labels[0].setAttribute("x", (middle - ((inner + rod) * wide) / 4).toFixed(1));
     this.labels[2].setAttribute("x", (middle + ((outer + between) * wide) / 4).toFixed(1));
@@ -86,7 +97,9 @@ class Tube {
   // The volumes as figures.
   say(record, i) {
     for (const [id] of CHAMBERS) {
-      PHASES.forEach((phase, k) => (this.cells[id][k].textContent = (1e6 * record[`${id}.${phase}`][i]).toFixed(1)));
+      PHASES.forEach(
+        (phase, k) => (this.cells[id][k].textContent = (1e6 * record[`${id}.${phase}`][i]).toFixed(1)),
+      );
     }
   }
 }

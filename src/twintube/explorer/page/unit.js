@@ -1,8 +1,21 @@
 // The damper: the module's FMI functions and loops, compiled from the C sources of the native FMU.
 
 const OUTPUTS = [
-  "force", "k_degr", "V1.oil", "V1.gas", "V1.foam", "V2.oil", "V2.gas", "V2.foam", "V3.oil", "V3.gas", "V3.foam",
-  "force_fluid", "force_friction", "force_gas", "work",
+  "force",
+  "k_degr",
+  "V1.oil",
+  "V1.gas",
+  "V1.foam",
+  "V2.oil",
+  "V2.gas",
+  "V2.foam",
+  "V3.oil",
+  "V3.gas",
+  "V3.foam",
+  "force_fluid",
+  "force_friction",
+  "force_gas",
+  "work",
 ];
 const MOTION = ["stroke", "velocity", "wheelLoad"]; // what a drive adds
 
@@ -41,7 +54,10 @@ class Module {
   }
 
   set(unit, values) {
-    const groups = [[this.c.fmi2SetReal, Float64Array, false], [this.c.fmi2SetInteger, Int32Array, true]];
+    const groups = [
+      [this.c.fmi2SetReal, Float64Array, false],
+      [this.c.fmi2SetInteger, Int32Array, true],
+    ];
     for (const [set, Kind, integer] of groups) {
       const names = Object.keys(values).filter((name) => this.integers.has(name) === integer);
       const references = this.place(Uint32Array.from(names, (name) => this.reference.get(name)));
@@ -61,7 +77,16 @@ class Module {
 
   record({ time, stroke, velocity }, unit, wanted, out) {
     const speeds = velocity ? this.place(velocity) : 0;
-    return this.c.run_record(unit, time.length, this.place(time), this.place(stroke), speeds, wanted, OUTPUTS.length, out);
+    return this.c.run_record(
+      unit,
+      time.length,
+      this.place(time),
+      this.place(stroke),
+      speeds,
+      wanted,
+      OUTPUTS.length,
+      out,
+    );
   }
 
   // The damper with its parameters by name over an excitation, after its preconditioning.
