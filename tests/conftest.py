@@ -1,7 +1,9 @@
 import os
+import shutil
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import fmpy
 import pytest
@@ -18,6 +20,10 @@ if os.environ.get("CI"):
 
 
 HERE = (fmpy.platform,)
+PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+# No sandbox: containers run as root. The rest keeps the browser from calling its maker.
+FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+         "--disable-component-update", "--disable-sync"]  # fmt: skip
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -48,3 +54,16 @@ def sa7_fmu(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def sa8_native(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_fmu(load("SA8"), tmp_path_factory.mktemp("fmu"), platforms=HERE)
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Any]:
+    """A headless Chromium, driven by playwright."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: the page is not opened")
+    program = next(filter(None, map(shutil.which, PROGRAMS)), None)
+    if program is None:
+        pytest.skip("no Chromium is installed (Debian: chromium): the page is not opened")
+    with playwright.sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=program, args=FLAGS)
+        yield browser
+        browser.close()

@@ -1,4 +1,4 @@
-/* Written by twintube/explorer/translate.py from quarter_car.py 63a925a97edbb19a, body 62708c1d6cefbd07; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 63a925a97edbb19a, body 62708c1d6cefbd07; do not edit. */
 #ifndef QUARTER_H
 #define QUARTER_H
 

@@ -26,6 +26,7 @@ def test_page_of_intact_records(tmp_path: Path) -> None:
     page = (tmp_path / "report.html").read_text()
     assert "F_FrS" in page and "1, 1 stochastic" in page
     assert "Measured up to 0.3 m/s" in page
+    assert page.count('"label":"100% oil') == 3  # to look into
     axes = works([row for row in identified.validation if row.measurement == "harmonic"]).axes[0]
     lines = [line for line in axes.lines if line.get_linestyle() == "-" and len(line.get_xdata()) > 1]
     # Two of the records have equal amplitudes: the work between them rises, without a dent at the third.

@@ -29,7 +29,7 @@ class Page(HTMLParser):
             self.links.append(table["href"])
         if "id" in table:
             self.anchors.add(table["id"])
-        if tag not in ("meta", "img", "br", "link", "source"):
+        if tag not in ("meta", "img", "br", "link", "source", "input"):
             self.open.append(tag)
 
     def handle_endtag(self, tag):

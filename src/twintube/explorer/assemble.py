@@ -3,20 +3,19 @@
 import base64
 import hashlib
 import json
-import re
 from collections.abc import Callable, Sequence
 from importlib.resources import files
 
 import jinja2
 
-from twintube import __version__
+from twintube import __version__, web
 from twintube.dampers import Damper
 from twintube.explorer.content import content
 from twintube.explorer.module import module
 
 FOLDER = files("twintube.explorer")
 # In the order in which they are joined: what a file uses at once stands before it.
-SCRIPTS = ("unit", "excitation", "state", "compute", "tube", "plots", "charts", "tour", "controls", "main")
+SCRIPTS = ("unit", "excitation", "state", "compute", "tube", "charts", "tour", "controls", "main")
 CHAMBERS = (("V1", "rebound"), ("V2", "compression"), ("V3", "reserve"))
 CHARTS = (  # identifier, title, text for screen readers
     ("chart-s", "Force over stroke", "Force over stroke of this damper and the intact one"),
@@ -27,15 +26,9 @@ CHARTS = (  # identifier, title, text for screen readers
 )
 
 
-def part(folder: str, name: str) -> str:
+def part(name: str) -> str:
     """A file of the page."""
-    return FOLDER.joinpath(folder, name).read_text(encoding="utf-8")
-
-
-def vendored() -> str:
-    """The plotting library under its licence."""
-    licence, library = part("vendor", "LICENSE"), part("vendor", "uPlot.iife.min.js")
-    return f"/*\n{licence}*/\n{library}"
+    return FOLDER.joinpath("page", name).read_text(encoding="utf-8")
 
 
 def script_hash(text: str) -> str:
@@ -48,12 +41,11 @@ def page(own: Sequence[Damper] = (), progress: Callable[[str], None] = lambda te
     wasm = module(progress)
     data = content(own)
     data["shown"] = data["dampers"][0]["name"] if own else "SA8"
-    library, program = vendored(), "".join(part("page", f"{name}.js") for name in SCRIPTS)
-    version = re.search(r"uPlot \(v([\d.]+)\)", library)
+    library, program = web.library(), web.plots() + "".join(part(f"{name}.js") for name in SCRIPTS)
     environment = jinja2.Environment(autoescape=False, undefined=jinja2.StrictUndefined)  # all texts are the package's own
-    return environment.from_string(part("page", "page.html")).render(
+    return environment.from_string(part("page.html")).render(
         hashes=" ".join(map(script_hash, (library, program))),
-        style=part("vendor", "uPlot.min.css") + part("page", "page.css"),
+        style=web.library_style() + part("page.css"),
         library=library,
         program=program,
         # No text of a user can end the element.
@@ -63,5 +55,5 @@ def page(own: Sequence[Damper] = (), progress: Callable[[str], None] = lambda te
         charts=CHARTS,
         car=data["car"],
         version=__version__,
-        uplot=version[1] if version else "",
+        uplot=web.library_version(),
     )

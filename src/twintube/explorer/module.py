@@ -3,10 +3,10 @@
 from collections.abc import Callable
 
 from twintube.dampers import load
-from twintube.explorer.translate import checked
+from twintube.explorer.translate import QUARTER_CAR
 from twintube.fmu import binaries, sources
 from twintube.fmu.assemble import BuildError
-from twintube.fmu.equations import StaleTranslationError
+from twintube.fmu.equations import StaleTranslationError, checked
 
 TARGET = "wasm32-wasi"
 FILE = "explorer.wasm"
@@ -21,7 +21,7 @@ DAMPER = "SA8"
 def texts() -> dict[str, str]:
     """All sources by name; raises StaleTranslationError where C is not the translation of the present equations."""
     own = {name: (FOLDER / name).read_text(encoding="utf-8") for name in (COMPILED, "quarter_car.h")}
-    checked(own["quarter_car.h"])
+    checked(own["quarter_car.h"], QUARTER_CAR)
     return sources.sources(load(DAMPER), "explorer") | own
 
 

@@ -168,7 +168,7 @@ def checked(text: str, equations: Equations = DAMPER) -> str:
     """The text of `kernel.h`; raises StaleTranslationError unless it is the unchanged translation of the equations."""
     if text != marked(text.split("\n", 1)[-1], equations):
         raise StaleTranslationError(
-            "kernel.h is not the translation of this package's equations: run `python -m twintube.fmu.translate` "
-            "(needs pyccel), or build the Python kind"
+            "the C is not the translation of this package's equations: run `python -m twintube.fmu.translate` and "
+            "`python -m twintube.explorer.translate` (needs pyccel), or build the Python kind"
         )
     return text

@@ -12,6 +12,8 @@ from twintube.files import write_bytes, write_text
 from twintube.readable import MISSING, amount, digits, percent, unit_of, with_interval
 from twintube.report import style
 from twintube.report.answer import confidence, has_extension, next_step, number
+from twintube.report.diagnosis_live import MOST as MOST_LIVE
+from twintube.report.diagnosis_live import live_part
 from twintube.report.diagnosis_loop import caption
 from twintube.report.diagnosis_pictures import MOST, NARROW, PICTURES, pictures, shown_record
 from twintube.report.diagnosis_records import compared, models, name_of, ranked
@@ -221,6 +223,14 @@ def sections(d: Diagnosis, drawn: dict[str, Picture]) -> list[Section]:
     if tables:
         has = [drawn["ranking"]] if "ranking" in drawn else []
         parts.append(Section("candidates", "Candidates", pictures=has, tables=tables))
+    live = live_part(d)
+    if live:
+        text = (
+            f"The {MOST_LIVE} records of the largest base error at most, oscillation by oscillation."
+            if len(d.records) > MOST_LIVE
+            else ""
+        )
+        parts.insert(1, Section("records-live", "Look into the records", text=[text] if text else [], live=live))
     if d.remarks:
         parts.append(Section("remarks", "Remarks", items=d.remarks))
     return parts

@@ -17,6 +17,7 @@ from twintube.identification.intact import fv_points
 from twintube.identification.remarks import reach
 from twintube.identification.validation import Validated, predicted
 from twintube.report import style
+from twintube.report.live import Curve, Look, live
 from twintube.report.page import Picture, Section, Table, html
 
 EQUAL_AMPLITUDES = 1.1  # amplitudes that differ by a smaller factor belong to a line
@@ -47,6 +48,25 @@ def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> Figure:
     style.label(axes, "stroke [mm]", "force [N]")
     style.legend_above(figure, axes[0, 0])
     return figure
+
+
+def live_part(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> str:
+    """The same records to look into, as the identified model has them."""
+    damper, offset = result.identification.damper, result.identification.offset
+    looks = []
+    for record, split in chosen:
+        first, last = int(record.marks[0]), int(record.marks[-1])
+        span = slice(first, last + 1)
+        where = "held out" if split == "heldout" else "fitted"
+        looks.append(
+            Look(
+                f"{record.oil_level:.0%} oil, {record.top_speed:.3g} m/s, {where}", record.name,
+                record.time[span], record.stroke[span], record.velocity[span],
+                {"measured": record.force[span], "simulated": predicted(damper, record, offset)[span]},
+                (record.marks - first).tolist(),
+            )
+        )  # fmt: skip
+    return live([Curve("measured", "measured", style.INK), Curve("simulated", "identified model", style.RED)], looks)
 
 
 def works(rows: Sequence[Validated]) -> Figure:
@@ -204,6 +224,7 @@ def write_report(result: Result, folder: Path) -> list[Path]:
     continued = f"Measured up to {top:.3g} m/s; the parameter file continues it by its last slope." if top else ""
     pictures = {"works": works(harmonics), "loops": loops(result, chosen), "fv_curve": curve(result)}
     sections = [
+        Section("records-live", "Look into the records", live=live_part(result, chosen)),
         section("works", "Work per oscillation", pictures, "Filled: fitted, open: held out."),
         section("loops", "Force over stroke", pictures, "First and last oscillation of some records, those held out first."),
         section("fv_curve", "F-v curve", pictures, f"The first step of the identification. {continued}"),

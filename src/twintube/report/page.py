@@ -94,6 +94,7 @@ class Section:
     tables: Sequence[Table] = ()
     notes: Sequence[tuple[str, str]] = ()  # name and text, below the findings
     items: Sequence[str] = ()  # a list below the text
+    live: str = ""  # HTML of `report.live`
 
     @property
     def mark(self) -> str:

@@ -111,8 +111,13 @@ class Chart {
     ctx.clip();
     for (const { x, y, colour, dash } of this.still) {
       ctx.beginPath();
+      let gap = true; // a value that is no number breaks a curve
       for (let i = 0; i < x.length; i++) {
-        ctx.lineTo(this.plot.valToPos(x[i], "x", true), this.plot.valToPos(y[i], "y", true));
+        const at = [this.plot.valToPos(x[i], "x", true), this.plot.valToPos(y[i], "y", true)];
+        if (!Number.isFinite(at[1])) gap = true;
+        else if (gap) ctx.moveTo(...at);
+        else ctx.lineTo(...at);
+        gap &&= !Number.isFinite(at[1]);
       }
       ctx.strokeStyle = css(colour);
       ctx.lineWidth = 1.6 * window.devicePixelRatio;
