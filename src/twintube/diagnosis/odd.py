@@ -37,15 +37,26 @@ def contradicting(problem: Problem) -> tuple[Sequence[int], bool, float]:
     """
     misfit = problem.misfits(problem.residual({}))
     logs = problem.counts * np.log(np.maximum(RULES.least_misfit, misfit))
-    order = np.argsort(-misfit)
+    order, share = np.argsort(-misfit), np.array(shares(problem))
     for count in range(1, int(RULES.odd_share * len(misfit)) + 1):
         odd, rest = order[:count], order[count:]
         usual = max(1.0, float(misfit[rest].max()))
         right = logs[rest].sum() <= RULES.right * problem.counts[rest].sum()
         beyond = misfit[odd].min() / usual
-        if beyond >= (RULES.odd if right else RULES.odd_unit):
-            return sorted(odd.tolist()), bool(right or beyond >= RULES.odd_far), usual
+        # The noise of a record that does not belong is overestimated: its error's share of the force tells, too.
+        apart = share[odd].min() >= RULES.odd_apart * share[rest].max()
+        if beyond >= (RULES.odd if right or apart else RULES.odd_unit):
+            return sorted(odd.tolist()), bool(right or apart or beyond >= RULES.odd_far), usual
     return [], False, 1.0
+
+
+def shares(problem: Problem) -> list[float]:
+    """Root mean square errors of the records' compared intervals, shares of their peak forces."""
+    errors = problem.errors({})
+    return [
+        float(np.sqrt(np.mean(errors[a:b][record.judged] ** 2))) / record.peak if record.judged.any() else 0.0
+        for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True)
+    ]
 
 
 def own_unit(part: Problem, names: tuple[str, ...], usual: float = 1.0) -> Fault | None:
@@ -86,11 +97,10 @@ def right(part: Problem, values: dict[str, float], usual: float = 1.0) -> bool:
 
 def stranger(part: Problem, names: tuple[str, ...]) -> Fault | None:
     """Records of something else; None where they differ by no more than a model does where the filling changes."""
-    sizes = [float(np.sqrt(np.mean((part.measured - part.forces({}))[a:b][record.judged] ** 2)))
-             for record, a, b in zip(part.records, part.starts[:-1], part.starts[1:], strict=True)]  # fmt: skip
-    if any(size < RULES.odd_force * record.peak for size, record in zip(sizes, part.records, strict=True)):
+    sizes = shares(part)
+    if min(sizes) < RULES.odd_force:
         return None
-    size = max(sizes)
+    size = max(share * record.peak for share, record in zip(sizes, part.records, strict=True))
     kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
     text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."
     return Fault(STRANGER, f"The {kind} {', '.join(names)}", text, size, "force_rmse_N", "N", names)
