@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-ENDINGS = {".py", ".pyi", ".toml", ".html", ".png", ".c", ".h", ".csv", ".parquet", ".mat", ".md", ".typed"}
+ENDINGS = {".py", ".pyi", ".toml", ".html", ".js", ".css", ".png", ".c", ".h", ".csv", ".parquet", ".mat", ".md", ".typed"}
 
 
 @pytest.fixture(scope="module")
