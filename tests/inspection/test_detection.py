@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 
+from twintube.core import model
+from twintube.core.outputs import total_force
 from twintube.dampers import load
-from twintube.engine.simulate import InputError
+from twintube.dampers.closures import READINGS
+from twintube.engine.simulate import InputError, at_rest, simulate
 from twintube.inspection import METHODS, Condition, Detection, conditions, first_seen, study
-from twintube.inspection.scatter import RANGES, samples
+from twintube.inspection.scatter import AMBIENT, FADE, KELVIN, RANGES, ROOM, samples, warm
+from twintube.rig.signals import harmonic_block
 from twintube.vehicle.cars import load_car
 
 
@@ -59,6 +63,30 @@ def test_draws_are_within_their_ranges_and_a_longer_list_begins_with_a_shorter_o
     assert samples(5, seed=4) != drawn[:5]
 
 
+def test_a_temperature_acts_as_the_measured_temperature_of_the_package_does():
+    """The same damper in the kernel's own way: the temperature in the state, its laws in the parameters."""
+    damper, degC = load("SA8"), 40.0
+    p = damper.parameters
+    ambient = AMBIENT * np.pi / 4 * p.D_PR**2
+    rising = (1 + ambient / p.F_0) / (ROOM + KELVIN)
+    acting = damper.with_(fade_kelvin=FADE, gas_kelvin=rising)
+    block = harmonic_block(0.524)
+    forces = []
+    for each, kelvin in ((acting, degC - ROOM), (warm(damper, degC), 0.0)):
+        q, d, s, f = at_rest(each, 0.0)
+        s.warm = kelvin
+        model.start(q, d, s, float(block.stroke[0]))
+        s.warm = kelvin
+        before, found = float(block.velocity[0]), []
+        for z, v in zip(block.stroke[:2000].tolist(), block.velocity[:2000].tolist(), strict=True):
+            assert model.advance(q, d, s, f, z, before, v, 1e-3)
+            before = v
+            found.append(total_force(s))
+        forces.append(found)
+    assert forces[1] == pytest.approx(forces[0], abs=1e-6 * max(forces[0]))
+    assert max(forces[1]) < 0.97 * max(simulate(damper, block.stroke, block.velocity).force)
+
+
 def test_the_study_sees_30_percent_oil_and_not_90():
     damper = load("SA8")
     states = conditions((0.9, 0.3), None)
@@ -71,6 +99,16 @@ def test_the_study_sees_30_percent_oil_and_not_90():
     again = study([damper], load_car(), states, ("push_down",), count=20, processes=2)
     alone = [d.as_json for d in found if d.method.name == "push_down"]
     assert [d.as_json for d in again] == alone, "the number of processes is without effect"
+
+
+def test_every_closure_is_studied_and_the_scalar_factor_once():
+    found = study(
+        [load("SA8")], load_car(), conditions((0.4,), None), ("push_down",), count=20, closures=READINGS, processes=1
+    )
+    assert [d.condition.closure for d in found if not d.condition.scalar] == list(READINGS)
+    assert sum(d.condition.scalar for d in found) == 1
+    assert {first_seen(found, "SA8", "push_down", name) for name in READINGS} == {0.4}
+    assert first_seen(found, "SA8", "push_down", "return_fast") is None, "was not studied"
 
 
 @pytest.mark.parametrize("count", [1, 19, 10_001])

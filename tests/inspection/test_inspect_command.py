@@ -7,8 +7,10 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
+from twintube.dampers.closures import READINGS
 from twintube.inspection import METHODS
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, markdown, method_rows, range_rows
+from twintube.report.inspection import by_closure
 
 RUNNER = CliRunner()
 ROOT = Path(__file__).parents[2]
@@ -32,7 +34,10 @@ def test_entries_and_detection_as_json(tmp_path: Path) -> None:
     assert {item["false_alarm_rate"] for item in found["detection"]} == {0.05}
     assert all(0 <= d["detected_band"][0] <= d["detected_share"] <= d["detected_band"][1] <= 1 for d in found["detection"])
     assert [item["oil_level"] for item in found["first_seen"]] == [0.4, 0.4]
-    assert "eusama: 90% detected at 5% false alarms from oil level 40%" in run.output
+    assert "eusama: 90% detected at 5% false alarms from oil level 40% under every closure tried" in run.output
+    for item in found["first_seen"]:
+        assert set(item["closures"]) == set(READINGS) and item["closures"]["return"] == item["oil_level"]
+    assert all(set(entry["closures"]) == set(READINGS) for entry in found["entries"])
 
 
 def test_the_page_has_all_methods_and_pictures(tmp_path: Path) -> None:
@@ -105,3 +110,10 @@ def test_the_documentation_has_the_tables_of_methods_and_ranges() -> None:
     page = (ROOT / "docs" / "inspection.md").read_text(encoding="utf-8")
     assert markdown(METHOD_HEAD, method_rows()) in page
     assert markdown(RANGE_HEAD, range_rows()) in page
+
+
+def test_what_flips_from_closure_to_closure_is_said() -> None:
+    assert by_closure({"return": "60%"}) == "60%"
+    assert by_closure({"return": "60%", "letter": "60%"}) == "60% under every closure tried"
+    texts = {"return": "60%", "letter": "50%", "displaced": "not seen", "exhausted": "50%"}
+    assert by_closure(texts) == "60%, but 50% under the closures letter, exhausted, not seen under the closure displaced"

@@ -29,7 +29,9 @@ def inspect(
         bool | None, typer.Option("--gas-lost/--with-preload", help="Gas preload; lost below 100 % oil if left out.")
     ] = None,
     car: Annotated[str, typer.Option(help="A named car or a car's file.")] = "passat_b8",
-    closure: Annotated[str | None, typer.Option(help="Closure for the gas that cavitation frees.")] = None,
+    closure: Annotated[
+        str | None, typer.Option(help="Closure for the gas that cavitation frees; several, as a band, if left out.")
+    ] = None,
     scatter: Annotated[int, typer.Option(help="Cars and testers drawn for the detection; 0 for none.", min=0)] = 100,
     seed: Annotated[int, typer.Option(help="Seed of the scatter.", min=0)] = 1,
     processes: Annotated[int | None, typer.Option(help="Processes; all cores if left out.", min=1)] = None,
@@ -37,7 +39,7 @@ def inspect(
     output: Annotated[Path | None, typer.Option(help="Folder for the page and its pictures.")] = None,
 ) -> None:
     """Put one corner of a car on the inspection benches, and say from which oil level on each method sees the loss."""
-    from twintube.dampers.closures import CLOSURES, DEFAULT
+    from twintube.dampers.closures import CLOSURES, READINGS
     from twintube.inspection import LEVELS, METHODS, conditions, inspected, method, study
     from twintube.inspection.detection import check_count
     from twintube.report.inspection import Inspection, summary, terminal, write_report
@@ -51,8 +53,8 @@ def inspect(
     loaded, vehicle = [dampers.load(name) for name in dict.fromkeys(names or ["SA8"])], load_car(car)
     steps = sorted(dict.fromkeys(levels or LEVELS), reverse=True)
     states = conditions(steps, None if gas_lost is None else int(not gas_lost))
-    how = closure or DEFAULT
-    entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, closure=how)]
+    closures = READINGS if closure is None else (closure,)
+    entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, closures=closures)]
     detections = []
     if scatter:
         with tqdm(total=scatter * len(loaded), unit="car", leave=False) as bar:
@@ -63,11 +65,11 @@ def inspect(
                 wanted,
                 count=scatter,
                 seed=seed,
-                closure=how,
+                closures=closures,
                 processes=processes,
                 progress=bar.update,
             )
-    result = Inspection(loaded, vehicle, entries, detections, how, seed)
+    result = Inspection(loaded, vehicle, entries, detections, closures, seed)
     if json_file is not None:
         write_text(json_file, json.dumps(summary(result), indent=1) + "\n")
     typer.echo(terminal(result))

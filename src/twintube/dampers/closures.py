@@ -58,6 +58,8 @@ CLOSURES: Final = {item.name: item for item in (
 )}  # fmt: skip
 LETTER: Final = "letter"
 DEFAULT: Final = "return"
+# The default and the furthest to either side: what is said of vehicles and inspections is varied over these.
+READINGS: Final = (DEFAULT, LETTER, "exhausted", "displaced")
 SCALAR: Final = "scalar factor"  # variant 1 of Section 3.4: no closure, the usual shortcut
 GAS = ("gas_redissolution", "gas_exhaustion", "oil_displacement")  # the effects that a closure is made of
 OWN = tuple(name for effect in GAS for name in EFFECTS[effect].strength)

@@ -1,7 +1,7 @@
 """One corner of a car inspected over oil levels, with a scalar factor in place of the model beside it."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from twintube.dampers import Damper
@@ -24,12 +24,13 @@ class Condition:
     oil_level: float
     gas_preload: int
     scalar: bool = False
+    closure: str = DEFAULT
 
-    def applied(self, damper: Damper, closure: str = DEFAULT) -> Damper:
+    def applied(self, damper: Damper) -> Damper:
         """The damper in this state; raises ParameterError."""
         if self.scalar:
             return damper.with_(gas_preload=self.gas_preload, **scalar_factor(self.oil_level))
-        return closed(damper.with_(oil_level=self.oil_level, gas_preload=self.gas_preload), closure)
+        return closed(damper.with_(oil_level=self.oil_level, gas_preload=self.gas_preload), self.closure)
 
 
 INTACT = Condition(1.0, 1)
@@ -44,12 +45,17 @@ class Entry:
     method: str
     figure: float  # in the method's unit
     scalar_figure: float | None = None  # with the oil level as factor; None below LEAST_FACTOR
+    readings: Mapping[str, float] = field(default_factory=dict)  # the figure under every closure, that of `figure` included
     windows: Mapping[str, float] = field(default_factory=dict)  # [deg] the phase shift in other windows
 
     @property
     def passed(self) -> bool:
         """Whether the damper passes."""
         return METHODS[self.method].passed(self.figure)
+
+    def passes_under(self, closure: str) -> bool:
+        """Whether it passes under a closure of `readings`."""
+        return METHODS[self.method].passed(self.readings[closure])
 
     @property
     def as_json(self) -> dict[str, Any]:
@@ -64,6 +70,7 @@ class Entry:
             "unit": how.unit,
             "limit": how.limit,
             "passed": self.passed,
+            "closures": dict(self.readings),
             "scalar_factor": None
             if scalar is None
             else {"factor": self.condition.oil_level, "figure": scalar, "passed": how.passed(scalar)},
@@ -80,31 +87,41 @@ def conditions(levels: Iterable[float], gas_preload: int | None) -> list[Conditi
     return [Condition(level, int(level >= 1.0) if gas_preload is None else gas_preload) for level in levels]
 
 
+def under(closures: Iterable[str], states: Iterable[Condition]) -> list[Condition]:
+    """The states under each closure in turn."""
+    several = list(states)
+    return [replace(state, closure=name) for name in closures for state in several]
+
+
 def inspected(
     damper: Damper,
     vehicle: CarSet,
     states: Iterable[Condition],
     methods: tuple[str, ...] = tuple(METHODS),
     *,
-    closure: str = DEFAULT,
+    closures: Sequence[str] = (DEFAULT,),
     setting: Setting | None = None,
     dt: float = DT,
 ) -> list[Entry]:
-    """The figures of all states and methods on ideal benches; raises InputError if the piston would leave the tube."""
+    """The figures of all states and methods on ideal benches; raises InputError if the piston would leave the tube.
+
+    `closures` are those of `readings`; the first one is that of `figure`.
+    """
     bench, corner = setting or Setting(), vehicle.corner(damper)
 
     def figures(state: Condition) -> dict[str, float]:
-        return read(state.applied(damper, closure), corner, methods, bench, dt=dt)
+        return read(state.applied(damper), corner, methods, bench, dt=dt)
 
-    reference = figures(INTACT)
+    reference = figures(replace(INTACT, closure=closures[0]))
     entries = []
-    for state in states:
-        model = relative(figures(state), reference)
-        scalar = Condition(state.oil_level, state.gas_preload, scalar=True)
+    for state in under(closures[:1], states):
+        models = {each.closure: relative(figures(each), reference) for each in under(closures, [state])}
+        scalar = replace(state, scalar=True)
         factor = relative(figures(scalar), reference) if state.oil_level >= LEAST_FACTOR else {}
         for name in methods:
-            windows = in_windows(state.applied(damper, closure), corner, bench, dt) if name == "phase_shift" else {}
-            entries.append(Entry(damper.name, state, name, model[name], factor.get(name), windows))
+            readings = {closure: model[name] for closure, model in models.items()}
+            windows = in_windows(state.applied(damper), corner, bench, dt) if name == "phase_shift" else {}
+            entries.append(Entry(damper.name, state, name, readings[state.closure], factor.get(name), readings, windows))
     return entries
 
 

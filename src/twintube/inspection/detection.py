@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -15,7 +15,7 @@ from twintube.dampers import Damper
 from twintube.dampers.closures import DEFAULT
 from twintube.engine.simulate import InputError
 from twintube.inspection.benches import Setting, read
-from twintube.inspection.corner import INTACT, LEAST_FACTOR, Condition, relative
+from twintube.inspection.corner import INTACT, LEAST_FACTOR, Condition, relative, under
 from twintube.inspection.methods import METHODS, Method
 from twintube.inspection.scatter import Sample, samples
 from twintube.processes import pool
@@ -94,6 +94,7 @@ class Detection:
             "oil_level": self.condition.oil_level,
             "gas_preload": self.condition.gas_preload,
             "scalar_factor": self.condition.scalar,
+            "closure": None if self.condition.scalar else self.condition.closure,
             "samples": len(self.figures),
             "false_alarm_rate": FALSE_ALARMS,
             "limit_at_false_alarm_rate": self.threshold,
@@ -114,15 +115,13 @@ class Job:
     reference: dict[str, float]  # figures of the intact damper in the nominal car
 
 
-def figures(
-    job: Job, vehicle: CarSet, states: tuple[Condition, ...], methods: tuple[str, ...], closure: str
-) -> list[list[float]]:
+def figures(job: Job, vehicle: CarSet, states: tuple[Condition, ...], methods: tuple[str, ...]) -> list[list[float]]:
     """The figures by state and method."""
     rows = []
     car, setting, made = job.sample.corner(job.damper, vehicle), job.sample.setting, job.sample.made(job.damper)
     for state in states:
         # The same noise for every state: what differs is the damper.
-        found = relative(read(state.applied(made, closure), car, methods, setting, job.sample.seed), job.reference)
+        found = relative(read(state.applied(made), car, methods, setting, job.sample.seed), job.reference)
         rows.append([found[name] for name in methods])
     return rows
 
@@ -141,25 +140,26 @@ def study(
     *,
     count: int,
     seed: int = 1,
-    closure: str = DEFAULT,
+    closures: Sequence[str] = (DEFAULT,),
     processes: int | None = None,
     progress: Callable[[], None] = lambda: None,
 ) -> list[Detection]:
-    """The detection of every state, and of the oil level as a scalar factor, over `count` samples.
+    """The detection of every state under every closure, and of the oil level as a scalar factor, over `count` samples.
 
     `progress` is called after each sample of each damper. `processes` is by default the number of cores; the result does not
     depend on it. Raises InputError for a number of samples outside FEWEST to MOST.
     """
     check_count(count)
-    models = list(states)
-    factors = [Condition(s.oil_level, s.gas_preload, scalar=True) for s in models if s.oil_level >= LEAST_FACTOR]
-    everything = (INTACT, *models, *factors)
+    levels = under(closures[:1], states)
+    intact = replace(INTACT, closure=closures[0])
+    factors = [replace(s, scalar=True) for s in levels if s.oil_level >= LEAST_FACTOR]
+    everything = (intact, *under(closures, levels), *factors)
     drawn = samples(count, seed)
     jobs = []
     for damper in dampers:
-        reference = read(INTACT.applied(damper, closure), vehicle.corner(damper), methods, Setting())
+        reference = read(intact.applied(damper), vehicle.corner(damper), methods, Setting())
         jobs += [Job(damper, sample, reference) for sample in drawn]
-    work = partial(figures, vehicle=vehicle, states=everything, methods=methods, closure=closure)
+    work = partial(figures, vehicle=vehicle, states=everything, methods=methods)
     rows = []
     with ExitStack() as stack:
         workers = min(processes or os.cpu_count() or 1, len(jobs))
@@ -177,9 +177,19 @@ def study(
     ]
 
 
-def first_seen(found: Iterable[Detection], damper: str, method: str, *, scalar: bool = False) -> float | None:
-    """The highest oil level from which on down the method detects SEEN of the dampers, else None."""
-    here = [d for d in found if (d.damper, d.method.name, d.condition.scalar) == (damper, method, scalar)]
+def first_seen(
+    found: Iterable[Detection], damper: str, method: str, closure: str = DEFAULT, *, scalar: bool = False
+) -> float | None:
+    """The highest oil level from which on down the method detects SEEN of the dampers, else None.
+
+    With `scalar`, those with the oil level as a factor; they have no closure.
+    """
+    here = [
+        d
+        for d in found
+        if (d.damper, d.method.name, d.condition.scalar) == (damper, method, scalar)
+        and (scalar or d.condition.closure == closure)
+    ]
     seen = None
     for item in sorted(here, key=lambda d: d.condition.oil_level):
         if item.share < SEEN:

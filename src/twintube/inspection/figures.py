@@ -6,8 +6,10 @@ from twintube.arrays import Array
 from twintube.inspection.plate import Cycles, Motion, cycles
 
 ABOVE_BODY = 2.0  # [Hz] bodies of cars swing at 1 to 1.6 Hz
-# Other readings of the window between the resonances: lower end [Hz], upper end as a share of the wheel's resonance, or in
-# Hz where it is above 2.
+# Other readings of the window between the resonances: lower end [Hz], below the wheel's resonance where it is negative;
+# upper end as a share of that resonance, or in Hz where it is above 2. 6 and 18 Hz and 5 Hz below the resonance are the
+# MinCalcFreq, MaxCalcFreq and DeltaF of SPECSUS2018 in two public programs (donfreerk/shock_tester,
+# 0wojtaszek0/Modele-inzynieryjne); how the standard joins them is not public.
 WINDOWS = {
     "2 Hz to the wheel": (ABOVE_BODY, 1.0),
     "3 Hz to the wheel": (3.0, 1.0),
@@ -15,6 +17,7 @@ WINDOWS = {
     "2 Hz to 0.8 of the wheel": (ABOVE_BODY, 0.8),
     "2 Hz to 1.2 of the wheel": (ABOVE_BODY, 1.2),
     "6 Hz to 18 Hz": (6.0, 18.0),
+    "5 Hz below the wheel to the wheel": (-5.0, 1.0),
 }
 READING = "2 Hz to the wheel"
 AROUND_WHEEL = (0.6, 1.6)  # of its resonance: cycles to which the single mass is fitted
@@ -32,6 +35,7 @@ def phase_shift(measured: Cycles, window: str = READING) -> float:
     Where the wheel leaves the plate the force has other harmonics, and its first one may lag.
     """
     low, high = WINDOWS[window]
+    low = low if low > 0.0 else measured.wheel_frequency + low
     end = high if high > 2.0 else high * measured.wheel_frequency
     inside = (measured.frequency >= low) & (measured.frequency <= end)
     inside[np.argmin(np.abs(measured.frequency - low))] |= not inside.any()

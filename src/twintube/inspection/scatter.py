@@ -16,6 +16,9 @@ from twintube.vehicle.cars import CarSet
 from twintube.vehicle.quarter_car import Car
 
 FADE: Final = 0.003  # [1/K] of the fluid force, which falls as that of warm oil does (assumed)
+ROOM: Final = 23.0  # [degC] at which F-v curve and preload are those of the parameter set (assumed)
+KELVIN: Final = 273.15  # [K] at 0 degC
+AMBIENT: Final = 1.013e5  # [Pa]
 
 
 @dataclass(frozen=True)
@@ -37,8 +40,9 @@ RANGES: Final = (
     Range("load", "sprung mass of the corner over the car file's", 0.85, 1.25, "", "assumed",
           "from the driver alone to a full rear seat; the height of the body and the stroke's middle stay"),
     Range("force", "F-v curve over the parameter set's", 0.9, 1.1, "", "assumed", "tolerance of new dampers"),
-    Range("temperature", "oil temperature less that of the F-v curve", -15.0, 25.0, "K", "assumed",
-          "cold car to end of a drive; acts on the fluid force only, 0.3 % per kelvin"),
+    Range("temperature_degC", "temperature of oil and gas", 0.0, 40.0, "degC", "assumed",
+          "winter to summer; above 23 degC the fluid force is 0.3 % weaker per kelvin (assumed), and the gas presses harder "
+          "as an ideal one"),
     Range("amplitude", "amplitude of the plate", 2.9e-3, 3.1e-3, "m",
           "3 mm sourced (EUSAMA), tolerance assumed", "wear of the crank"),
     Range("top", "highest frequency of the plate", 24.0, 26.0, "Hz",
@@ -54,6 +58,21 @@ RANGES: Final = (
     Range("acceleration_noise", "noise of the axle's acceleration, root mean square", 0.0, 0.5, "m/s2", "assumed",
           "MEMS sensor"),
 )  # fmt: skip
+
+
+def warm(damper: Damper, degC: float) -> Damper:
+    """The damper at a temperature: thinner oil, higher pressure of the enclosed gas; raises ParameterError.
+
+    The laws are those of the effect that the package has for measured temperatures (Reynolds' viscosity, ideal gas). The
+    reserve's gas presses on the cross-section of the rod: F_0 is that of its pressure above the ambient one.
+    """
+    p, kelvin = damper.parameters, degC - ROOM
+    fluid = math.exp(-FADE * kelvin)
+    ambient = AMBIENT * math.pi / 4 * p.D_PR**2
+    gas = 1.0 + kelvin / (ROOM + KELVIN) * (1.0 + ambient / p.F_0) if p.F_0 > 0.0 else 1.0
+    return damper.with_(
+        F_re=[fluid * F for F in p.F_re], F_co=[fluid * F for F in p.F_co], F_0=gas * p.F_0, c_gas=gas * p.c_gas
+    )
 
 
 @dataclass(frozen=True)
@@ -72,9 +91,10 @@ class Sample:
 
     def made(self, damper: Damper) -> Damper:
         """The damper as manufactured and as warm as it is; raises ParameterError."""
-        share = self.values["force"] * math.exp(-FADE * self.values["temperature"])
+        share = self.values["force"]
         p = damper.parameters
-        return damper.with_(F_re=[share * F for F in p.F_re], F_co=[share * F for F in p.F_co])
+        made = damper.with_(F_re=[share * F for F in p.F_re], F_co=[share * F for F in p.F_co])
+        return warm(made, self.values["temperature_degC"])
 
     @property
     def setting(self) -> Setting:

@@ -1,6 +1,6 @@
 """The page of `twintube inspect`: figures and verdicts over the oil level, and what is detected over the scatter."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,9 +12,10 @@ from twintube.inspection.detection import CONFIDENCE, FALSE_ALARMS, SEEN
 from twintube.inspection.figures import READING, WINDOWS
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, method_rows, range_rows
 from twintube.report import style
-from twintube.report.inspection_pictures import figures_over_oil, roc_curves, shares, sweep
+from twintube.report.inspection_pictures import figures_over_oil, roc_curves, shares, spanned, sweep
 from twintube.report.page import Headline, Picture, Section, Table, html
 from twintube.vehicle.cars import CarSet, axle
+from twintube.words import listed
 
 MODEL, FACTOR = "model", "scalar factor"
 ONE_CORNER = (
@@ -31,7 +32,7 @@ class Inspection:
     vehicle: CarSet
     entries: Sequence[Entry]
     detections: Sequence[Detection]
-    closure: str
+    closures: Sequence[str]  # for the gas that cavitation frees; the first is that of the figures
     seed: int
 
     @property
@@ -60,7 +61,8 @@ def summary(result: Inspection) -> dict[str, Any]:
     plate = Setting().plate
     return {
         "car": result.vehicle.name,
-        "closure": result.closure,
+        "closure": result.closures[0],
+        "closures": list(result.closures),
         "plate": {"amplitude_m": plate.amplitude, "top_Hz": plate.top, "coast_s": plate.coast},
         "methods": {
             m.name: {"figure": m.figure, "unit": m.unit, "limit": m.limit, "rule": m.rule, "source": m.source,
@@ -75,7 +77,8 @@ def summary(result: Inspection) -> dict[str, Any]:
         },
         "detection": [item.as_json for item in result.detections],
         "first_seen": [
-            {"damper": damper.name, "method": m.name, "oil_level": first_seen(result.detections, damper.name, m.name),
+            {"damper": damper.name, "method": m.name, "oil_level": seen_under(result, damper, m)[result.closures[0]],
+             "closures": seen_under(result, damper, m),
              "scalar_factor": first_seen(result.detections, damper.name, m.name, scalar=True)}
             for damper in result.dampers
             for m in result.methods
@@ -84,23 +87,56 @@ def summary(result: Inspection) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def seen_in_words(result: Inspection, damper: Damper, method: Method, *, scalar: bool = False) -> str:
-    """From which oil level on a method sees the loss."""
-    level = first_seen(result.detections, damper.name, method.name, scalar=scalar)
-    return "not seen" if level is None else f"{level:.0%}"
+def seen_under(result: Inspection, damper: Damper, method: Method) -> dict[str, float | None]:
+    """From which oil level on a method sees the loss, by closure."""
+    return {name: first_seen(result.detections, damper.name, method.name, name) for name in result.closures}
+
+
+def by_closure(texts: Mapping[str, str]) -> str:
+    """One text where all closures agree; else that of the first, and under which conditions it is another."""
+    first, *others = texts.items()
+    conditions: dict[str, list[str]] = {}
+    for name, text in others:
+        if text != first[1]:
+            conditions.setdefault(text, []).append(name)
+    if not conditions:
+        return first[1] + (" under every closure tried" if others else "")
+    flips = (f"{text} under the closure{'s' * (len(names) > 1)} {listed(names)}" for text, names in conditions.items())
+    return f"{first[1]}, but {', '.join(flips)}"
+
+
+def seen_in_words(result: Inspection, damper: Damper, method: Method) -> str:
+    """From which oil level on a method sees the loss, and under which closures from another one."""
+    return by_closure({name: share_or(level, "not seen") for name, level in seen_under(result, damper, method).items()})
+
+
+def factor_seen(result: Inspection, damper: Damper, method: Method) -> str:
+    """From which oil level on a method sees the scalar factor."""
+    return share_or(first_seen(result.detections, damper.name, method.name, scalar=True), "not seen")
+
+
+def share_or(level: float | None, otherwise: str) -> str:
+    """An oil level as text."""
+    return otherwise if level is None else f"{level:.0%}"
+
+
+def passed_down_to(result: Inspection, damper: Damper, closure: str) -> float | None:
+    """The lowest oil level down to which the damper passes every method under a closure."""
+    passed = None
+    for level in sorted({e.condition.oil_level for e in result.entries}, reverse=True):
+        own = (e for e in result.entries if (e.damper, e.condition.oil_level) == (damper.name, level))
+        if not all(e.passes_under(closure) for e in own):
+            break
+        passed = level
+    return passed
 
 
 def sentence(result: Inspection, damper: Damper) -> str:
-    """Down to which oil level the damper passes every method."""
-    passed = None
-    for state in sorted({e.condition for e in result.entries}, key=lambda state: -state.oil_level):
-        if not all(e.passed for e in result.entries if (e.damper, e.condition) == (damper.name, state)):
-            break
-        passed = state
+    """Down to which oil level the damper passes every method, and under which closures down to another one."""
     names = "every method" if len(result.methods) > 1 else result.methods[0].title
-    if passed is None:
-        return f"{damper.name} does not pass {names} at the highest of these oil levels."
-    return f"{damper.name} passes {names} down to {passed.oil_level:.0%} oil."
+    levels = {closure: passed_down_to(result, damper, closure) for closure in result.closures}
+    texts = {name: "at none of these oil levels" if x is None else f"down to {x:.0%} oil" for name, x in levels.items()}
+    return f"{damper.name} passes {names} {by_closure(texts)}."
 
 
 def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
@@ -111,10 +147,17 @@ def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
         row = [f"{state.oil_level:.0%}", "yes" if state.gas_preload else "no"]
         for entry, m in zip(entries, result.methods, strict=True):
             row.append(
-                f"{digits(entry.figure, m)}{'' if entry.passed else ' fails'} ({digits(entry.scalar_figure, m) or 'none'})"
+                f"{digits(entry.figure, m)}{'' if entry.passed else ' fails'}{other_closures(entry, m)} "
+                f"({digits(entry.scalar_figure, m) or 'none'})"
             )
         rows.append(row)
     return rows
+
+
+def other_closures(entry: Entry, method: Method) -> str:
+    """From which to which figure the closures lead, where that shows in the digits."""
+    ends = [digits(end(entry.readings.values()), method) for end in (min, max)]
+    return "" if ends[0] == ends[1] else f" [{ends[0]} to {ends[1]}]"
 
 
 def terminal(result: Inspection) -> str:
@@ -123,6 +166,7 @@ def terminal(result: Inspection) -> str:
     for damper in result.dampers:
         lines.append(
             f"{damper.name}, {axle(damper)} corner of {result.vehicle.name}; in brackets the oil level as a scalar factor"
+            + ("; [ ]: from closure to closure" if len(result.closures) > 1 else "")
         )
         head = ["oil", "preload", *(m.name for m in result.methods)]
         rows = [head, *figure_rows(result, damper)]
@@ -132,7 +176,7 @@ def terminal(result: Inspection) -> str:
         if result.detections:
             lines += [
                 f"{m.name}: {SEEN:.0%} detected at {FALSE_ALARMS:.0%} false alarms from oil level "
-                f"{seen_in_words(result, damper, m)} (scalar factor: {seen_in_words(result, damper, m, scalar=True)})"
+                f"{seen_in_words(result, damper, m)} (scalar factor: {factor_seen(result, damper, m)})"
                 for m in result.methods
             ]
     return "\n".join(lines)
@@ -141,7 +185,7 @@ def terminal(result: Inspection) -> str:
 def seen_table(result: Inspection) -> Table:
     """Where each method first sees the loss."""
     rows = [
-        [damper.name, m.title, seen_in_words(result, damper, m), seen_in_words(result, damper, m, scalar=True)]
+        [damper.name, m.title, seen_in_words(result, damper, m), factor_seen(result, damper, m)]
         for damper in result.dampers
         for m in result.methods
     ]
@@ -155,9 +199,11 @@ def detection_tables(result: Inspection, damper: Damper) -> list[Table]:
     """Share detected and share that fails at the method's limit, a column per oil level."""
     here = [d for d in result.detections if d.damper == damper.name]
     levels = sorted({d.condition.oil_level for d in here}, reverse=True)
-    found = {(d.method.name, d.condition.scalar, d.condition.oil_level): d for d in here}
+    found: dict[tuple[str, bool, float], list[Detection]] = {}
+    for d in here:
+        found.setdefault((d.method.name, d.condition.scalar, d.condition.oil_level), []).append(d)
 
-    def rows(text: Callable[[Detection], str]) -> list[list[str]]:
+    def rows(text: Callable[[Sequence[Detection]], str]) -> list[list[str]]:
         return [
             [m.title, FACTOR if scalar else MODEL]
             + [text(found[m.name, scalar, level]) if (m.name, scalar, level) in found else "" for level in levels]
@@ -165,11 +211,19 @@ def detection_tables(result: Inspection, damper: Damper) -> list[Table]:
             for scalar in (False, True)
         ]
 
+    def detected(several: Sequence[Detection]) -> str:
+        low, high = spanned(several)
+        return f"{several[0].share:.0%} ({low:.0%} to {high:.0%})"
+
+    def failed(several: Sequence[Detection]) -> str:
+        shares = [f"{end(d.failed_share for d in several):.0%}" for end in (min, max)]
+        return shares[0] if shares[0] == shares[1] else f"{several[0].failed_share:.0%} ({shares[0]} to {shares[1]})"
+
     head = ["method", "damper", *(f"{level:.0%} oil" for level in levels)]
-    detected = rows(lambda d: f"{d.share:.0%} ({d.band[0]:.0%} to {d.band[1]:.0%})")
+    band = f"{CONFIDENCE:.0%} band{', widest over the closures' if len(result.closures) > 1 else ''}"
     return [
-        Table(head, detected, f"{damper.name}: detected at {FALSE_ALARMS:.0%} false alarms, {CONFIDENCE:.0%} bands"),
-        Table(head, rows(lambda d: f"{d.failed_share:.0%}"), f"{damper.name}: fails at the method's own limit"),
+        Table(head, rows(detected), f"{damper.name}: detected at {FALSE_ALARMS:.0%} false alarms ({band})"),
+        Table(head, rows(failed), f"{damper.name}: fails at the method's own limit (from closure to closure)"),
     ]
 
 
@@ -188,7 +242,7 @@ def damper_section(result: Inspection, damper: Damper, png: bytes) -> Section:
     """Figures of one damper."""
     text = "Lines: the model, open squares: the oil level as a scalar factor on the fluid force. Red: the side that fails."
     head = ["oil", "preload", *(f"{m.title}{f' [{m.unit}]' if m.unit else ''}" for m in result.methods)]
-    table = Table(head, figure_rows(result, damper), "Figure and verdict; in brackets the scalar factor's figure")
+    table = Table(head, figure_rows(result, damper), "Figure and verdict; [ ]: from closure to closure; ( ): scalar factor")
     return Section(
         damper.name, f"{damper.name}, {damper.title}", text=[text], pictures=[Picture(png, damper.name)], tables=[table]
     )
@@ -200,7 +254,7 @@ def write_report(result: Inspection, folder: Path) -> list[Path]:
     sections = [damper_section(result, damper, pictures[damper.name]) for damper in result.dampers]
     first = result.dampers[0]
     states = [entry.condition for entry in result.of(first, result.methods[0])]
-    pictures["plate"] = style.png(sweep(first, result.vehicle, states, result.closure))
+    pictures["plate"] = style.png(sweep(first, result.vehicle, states))
     caption = (
         "Force per height of the plate over tyre stiffness, and the angle by which the force leads, one value per cycle."
     )
@@ -219,13 +273,18 @@ def write_report(result: Inspection, folder: Path) -> list[Path]:
             sections.append(Section(
                 f"detection-{damper.name}", f"Detection of {damper.name}",
                 text=[f"{result.samples} draws from the ranges below; the same cars and testers for all states. "
-                      f"Bands: binomial, {CONFIDENCE:.0%}, for the drawn limit."],
+                      f"Bands: binomial, {CONFIDENCE:.0%}, for the drawn limit, from the lowest to the highest of the "
+                      f"closures {listed(result.closures)}."],
                 pictures=[Picture(pictures[f"{damper.name}_{name}"], name) for name in ("detected", "roc")],
                 tables=detection_tables(result, damper),
             ))  # fmt: skip
     sections.append(Section("methods", "Methods", tables=[Table(METHOD_HEAD, method_rows())]))
     sections.append(Section("scatter", "Ranges of the scatter", tables=[Table(RANGE_HEAD, range_rows())]))
-    lead = [ONE_CORNER, f"Car: {result.vehicle.title}. Closure: {result.closure}."]
+    lead = [
+        ONE_CORNER,
+        f"Car: {result.vehicle.title}. Figures and lines: closure {result.closures[0]} for the gas that cavitation frees"
+        + (f"; shaded: from the lowest to the highest of {listed(result.closures)}." if len(result.closures) > 1 else "."),
+    ]
     headline = Headline(" ".join(sentence(result, damper) for damper in result.dampers))
     text = html("Inspection of degraded dampers", lead, sections, summaries, headline=headline)
     files = [folder / f"{name}.png" for name in pictures]

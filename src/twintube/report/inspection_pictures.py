@@ -40,9 +40,11 @@ def figures_over_oil(of: Callable[[Damper, Method], list[Entry]], damper: Damper
         oil = [100 * entry.condition.oil_level for entry in entries]
         values = [entry.figure for entry in entries]
         scalar = [np.nan if entry.scalar_figure is None else entry.scalar_figure for entry in entries]
+        lowest, highest = ([end(entry.readings.values()) for entry in entries] for end in (min, max))
+        ax.fill_between(oil, lowest, highest, color=style.INK, alpha=0.15, lw=0, label="over the closures")
         ax.plot(oil, values, "o-", ms=4, color=style.INK, label="model")
         ax.plot(oil, scalar, "s:", ms=5, mfc="white", color=style.BLUE, label="oil level as scalar factor")
-        top = 1.1 * max(method.limit, *values, *(x for x in scalar if np.isfinite(x)))
+        top = 1.1 * max(method.limit, *highest, *(x for x in scalar if np.isfinite(x)))
         ax.set_ylim(0.0, top)
         low, high = (0.0, method.limit) if method.low_fails else (method.limit, top)
         ax.axhspan(low, high, color=style.RED, alpha=0.08, lw=0)
@@ -60,12 +62,12 @@ def spread(states: Sequence[Condition]) -> list[Condition]:
     return [states[i] for i in sorted(picked)]
 
 
-def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition], closure: str) -> Figure:
+def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition]) -> Figure:
     """Force and phase over the frequency of the coast."""
     figure, ((size, phase),) = style.canvas(1, 2, (11.0, 4.4))
     corner, run = vehicle.corner(damper), plate_motion(Setting().plate, DT)
     for state, colour in zip(spread(states), PALETTE, strict=False):
-        found = measured_cycles(run, on_plate(state.applied(damper, closure), corner, run).wheel_load)
+        found = measured_cycles(run, on_plate(state.applied(damper), corner, run).wheel_load)
         label = f"{state.oil_level:.0%} oil, {'with' if state.gas_preload else 'no'} preload"
         size.plot(found.frequency, np.abs(found.answer) / corner.c_tyre, ".-", ms=3, lw=1, color=colour, label=label)
         phase.plot(found.frequency, found.phase, ".-", ms=3, lw=1, color=colour)
@@ -81,16 +83,24 @@ def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition], closure:
     return figure
 
 
+def spanned(several: Sequence[Detection]) -> tuple[float, float]:
+    """The band of a share over the closures: the lowest and the highest end of theirs."""
+    bands = [d.band for d in several]
+    return min(low for low, _ in bands), max(high for _, high in bands)
+
+
 def shares(found: Sequence[Detection], methods: Sequence[Method]) -> Figure:
     """Detected share over the oil level with its band, for model and scalar factor."""
     figure, pairs = grid(methods)
     for method, ax in pairs:
         for scalar, colour, label in ((False, style.INK, "model"), (True, style.BLUE, "oil level as scalar factor")):
-            here = [d for d in found if d.method.name == method.name and d.condition.scalar == scalar]
-            oil = [100 * d.condition.oil_level for d in here]
-            ax.plot(oil, [100 * d.share for d in here], "o-", ms=4, color=colour, label=label)
-            low, high = ([100 * d.band[i] for d in here] for i in (0, 1))
-            ax.fill_between(oil, low, high, color=colour, alpha=0.15, lw=0)
+            here: dict[float, list[Detection]] = {}
+            for d in found:
+                if d.method.name == method.name and d.condition.scalar == scalar:
+                    here.setdefault(100 * d.condition.oil_level, []).append(d)
+            ax.plot(list(here), [100 * several[0].share for several in here.values()], "o-", ms=4, color=colour, label=label)
+            low, high = zip(*(spanned(several) for several in here.values()), strict=True) if here else ((), ())
+            ax.fill_between(list(here), 100 * np.array(low), 100 * np.array(high), color=colour, alpha=0.15, lw=0)
         ax.axhline(100 * FALSE_ALARMS, color=style.GREY, lw=1, ls="--", label="false alarms")
         ax.set_ylim(-2, 102)
         ax.invert_xaxis()
@@ -104,7 +114,8 @@ def roc_curves(found: Sequence[Detection], methods: Sequence[Method]) -> Figure:
     """Detected share over false alarms, for every limit."""
     figure, pairs = grid(methods)
     for method, ax in pairs:
-        here = [d for d in found if d.method.name == method.name and not d.condition.scalar]
+        own = [d for d in found if d.method.name == method.name and not d.condition.scalar]
+        here = [d for d in own if d.condition.closure == own[0].condition.closure]
         for state, colour in zip(spread([d.condition for d in here]), PALETTE, strict=False):
             item = next(d for d in here if d.condition == state)
             false_alarms, detected = item.roc

@@ -10,7 +10,7 @@ import numpy as np
 from tqdm import tqdm
 
 from twintube.dampers import Damper
-from twintube.dampers.closures import DEFAULT, SCALAR, condition
+from twintube.dampers.closures import DEFAULT, READINGS, SCALAR, condition
 from twintube.engine.simulate import InputError
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.full import maneuvers as driven
@@ -21,8 +21,6 @@ from twintube.vehicle.full.run import FullCar, full_car
 
 WORN = {"all": (0, 1, 2, 3), "front": (0, 1), "rear": (2, 3)} | {name: (i,) for i, name in enumerate(WHEELS)}
 RIDE_SECONDS = 30.0
-# Of the closures for freed gas the default and the furthest to either side: the band of the full model spans them.
-READINGS = (DEFAULT, "letter", "exhausted", "displaced")
 FULL = "full model"
 SCATTER = 0.25  # of thresholds and rates of the slip control, from seed to seed: assumed
 # The figure of each manoeuvre that is compared, its name and unit.
