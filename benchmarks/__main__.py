@@ -1,4 +1,4 @@
-"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, car, identify, diagnosis and its relatives."""
+"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, car, identify, inspect, diagnosis and others."""
 
 import json
 import os
@@ -15,15 +15,17 @@ from benchmarks.challenge import bench_challenge
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.identify import bench_identify
+from benchmarks.inspect import bench_inspect
 from benchmarks.kernel import bench_kernel
 from twintube.engine import compiled
 
-BENCHMARKS = {
+BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "kernel": bench_kernel,
     "fmu_step": bench_fmu_step,
     "quarter_car": bench_quarter_car,
     "car": bench_car,
     "identify": bench_identify,
+    "inspect": bench_inspect,
 }
 SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,

@@ -163,7 +163,7 @@ def study(
     rows = []
     with ExitStack() as stack:
         workers = min(processes or os.cpu_count() or 1, len(jobs))
-        mapped = map(work, jobs) if workers == 1 else stack.enter_context(pool(workers)).map(work, jobs, chunksize=4)
+        mapped = map(work, jobs) if workers == 1 else stack.enter_context(pool(workers)).map(work, jobs)
         for row in mapped:
             rows.append(row)
             progress()
