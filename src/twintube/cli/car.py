@@ -8,12 +8,17 @@ import typer
 
 from twintube import dampers
 from twintube.cli.base import app
+from twintube.engine.simulate import InputError
 from twintube.files import write_bytes, write_text
+from twintube.words import counted
 
 
 @app.command(epilog="Example: twintube car --maneuver braking --speed 80 --worn all --oil-level 0.5 --output car")
 def car(
-    maneuver: Annotated[list[str] | None, typer.Option(help="ride, braking or cornering; repeat for several.")] = None,
+    maneuver: Annotated[
+        list[str] | None,
+        typer.Option(help="ride, braking, cornering, or table3 for the ten drives of the paper; repeat for several."),
+    ] = None,
     front: Annotated[str, typer.Option(help="Damper of the front axle: a name or a parameter file.")] = "SA7",
     rear: Annotated[str, typer.Option(help="Damper of the rear axle.")] = "SA8",
     worn: Annotated[str, typer.Option(help="Worn dampers: all, front, rear, or a wheel such as rear_left.")] = "all",
@@ -33,12 +38,12 @@ def car(
     from twintube.report.conclusion import read_inspection
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.maneuvers import CLASSES, checked_speed
-    from twintube.vehicle.full.study import FULL, HEADLINES, cases, compared, dampers_of, drive_all
+    from twintube.vehicle.full.study import FULL, HEADLINES, USUAL, cases, compared, dampers_of, drive_all
 
     seen = read_inspection(inspection) if inspection is not None else None
     loaded = load_car(car_file)
     both = dampers.load(front), dampers.load(rear)
-    names, levels = maneuver or list(HEADLINES), oil_level or [0.7, 0.5, 0.3]
+    names, levels = maneuver or list(USUAL), oil_level or [0.7, 0.5, 0.3]
     roads, speeds = road_class or ["smooth", "C", "D"], speed or [50.0, 80.0]
     for name in names:
         known("maneuver", name, HEADLINES)
@@ -50,6 +55,8 @@ def car(
     for case in wanted[:2]:
         dampers_of(*both, worn, case)
     entries = drive_all(loaded, *both, worn, wanted)
+    if all("failed" in entry for entry in entries):
+        raise InputError(entries[0]["failed"])
     rows = compared(entries)
     conditions = {
         "car": loaded.name, "front": both[0].name, "rear": both[1].name, "worn": worn, "seeds": seeds,
@@ -59,29 +66,29 @@ def car(
         write_text(json_file, json.dumps({**conditions, "compared": rows, "drives": entries}, indent=1) + "\n")
     if output is not None:
         output.mkdir(exist_ok=True)
-        write_text(output / "car.html", page(loaded, conditions, rows, seen))
-        write_bytes(output / "car.png", picture(rows))
+        write_text(output / "car.html", page(loaded, conditions, rows, entries, seen))
+        if shown := picture(rows):
+            write_bytes(output / "car.png", shown)
         typer.echo(f"{output / 'car.html'}")
     for row in rows:
+        drive = f"{row['maneuver']:10}{row['road']:7}{row['speed_kmh']:4.0f} km/h"
         if row["change"] is None:
-            typer.echo(
-                f"{row['maneuver']:10}{row['road']:7}{row['speed_kmh']:4.0f} km/h {row['oil_level']:5.0%} oil: not driven"
-            )
+            typer.echo(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}not driven")
             continue
         low, high = row["change_band"]
         others = " and all closures" if row["model"] == FULL else ""
         typer.echo(
-            f"{row['maneuver']:10}{row['road']:7}{row['speed_kmh']:4.0f} km/h {row['oil_level']:5.0%} oil, {row['model']:14}"
+            f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}"
             f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g} {row['unit']} ({row['change']:+.0%}, "
-            f"{low:+.0%} to {high:+.0%} over {row['seeds']} seeds{others})"
+            f"{low:+.0%} to {high:+.0%} over {counted(row['seeds'], 'seed')}{others})"
         )
+    for reason in dict.fromkeys(entry["failed"] for entry in entries if "failed" in entry):
+        typer.echo(f"not driven: {reason}", err=True)
 
 
 def known(what: str, value: str, allowed: object) -> None:
     """Raise InputError for a value that is not among the allowed ones."""
     from collections.abc import Iterable
-
-    from twintube.engine.simulate import InputError
 
     assert isinstance(allowed, Iterable)
     if value not in allowed:

@@ -5,17 +5,22 @@ from typing import Any
 
 from twintube.dampers.closures import SCALAR
 from twintube.report import conclusion
+from twintube.report.car_figures import tables
 from twintube.report.page import Headline, Picture, Section, Table, html
-from twintube.report.style import BLUE, GREY, RED, canvas, legend_above, png, title
+from twintube.report.style import BLUE, GREEN, GREY, ORANGE, RED, VIOLET, canvas, legend_above, png, title
 from twintube.vehicle.cars import CarSet
+from twintube.words import counted
 
-COLOURS = {"smooth": GREY, "A": BLUE, "B": BLUE, "C": BLUE, "D": RED, "E": RED}
-TITLES = {"ride": "Ride", "braking": "Braking", "cornering": "Cornering"}
+COLOURS = {"smooth": GREY, "A": VIOLET, "B": GREEN, "C": BLUE, "D": RED, "E": ORANGE}
+TITLES = {"ride": "Ride", "braking": "Braking", "cornering": "Cornering", "table3": "Drives of Table 3"}
 
 
 def picture(rows: Sequence[Mapping[str, Any]]) -> bytes:
     """PNG: change of the headline figures over the oil level, by manoeuvre and speed; bars span the seeds."""
-    shown = list(dict.fromkeys((row["maneuver"], row["speed_kmh"]) for row in rows))
+    # The drives of Table 3, each on a road of its own, are in the tables only.
+    shown = list(dict.fromkeys((row["maneuver"], row["speed_kmh"]) for row in rows if row["maneuver"] != "table3"))
+    if not shown:
+        return b""
     columns = min(3, len(shown))
     lines = -(-len(shown) // columns)
     figure, axes = canvas(lines, columns, (4.2 * columns, 3.4 * lines))
@@ -44,15 +49,25 @@ def picture(rows: Sequence[Mapping[str, Any]]) -> bytes:
 
 
 def page(
-    car: CarSet, conditions: Mapping[str, Any], rows: Sequence[Mapping[str, Any]], seen: Mapping[str, Any] | None = None
+    car: CarSet,
+    conditions: Mapping[str, Any],
+    rows: Sequence[Mapping[str, Any]],
+    entries: Sequence[Mapping[str, Any]],
+    seen: Mapping[str, Any] | None = None,
 ) -> str:
-    """The page as HTML; `seen` holds the figures of an inspection study."""
+    """The page as HTML; `rows` compare the `entries` of the drives, `seen` holds the figures of an inspection study."""
     sections = [conclusion.section(seen, rows)] if seen is not None else []
-    sections += [
-        Section(name, TITLES[name], tables=[table([row for row in rows if row["maneuver"] == name])])
-        for name in TITLES
-        if any(row["maneuver"] == name for row in rows)
-    ]
+    for name, words in TITLES.items():
+        own = [entry for entry in entries if entry["maneuver"] == name]
+        if own:
+            sections.append(
+                Section(name, words, tables=[table([row for row in rows if row["maneuver"] == name]), *tables(own)])
+            )
+    failed = [(f"seed {entry['seed']}, {entry['model']}", entry["failed"]) for entry in entries if "failed" in entry]
+    if failed:
+        sections.append(
+            Section("failed", "Not driven", text=[f"{counted(len(failed), 'drive')} ended early:"], notes=failed)
+        )
     said = [conclusion.seen_first(seen)] if seen is not None else []
     assumed = [(name, text) for name, text in car.assumed.items()]
     sections.append(Section("assumed", "Assumed values of the car", text=["No source gives these:"], notes=assumed))
@@ -62,12 +77,13 @@ def page(
         [
             f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
             "without gas preload. Each figure is that of the worn car over that of the intact car on the same road; the "
-            f"band is that of {conditions['seeds']} seeds: other roads of the class, and a slip control whose thresholds "
-            "and rates scatter by a quarter; of the full model also that of four closures for the gas that cavitation "
-            "frees. F-v curves are stand-ins (assumed)."
+            f"band is that of {counted(conditions['seeds'], 'seed')}: other roads of the class, and a slip control whose "
+            "thresholds and rates scatter by a quarter; of the full model also that of four closures for the gas that "
+            "cavitation frees. F-v curves are stand-ins (assumed)."
         ],
         sections,
-        headline=Headline(" ".join([statement(rows), *said]), picture=Picture(picture(rows), "changes over the oil level")),
+        headline=Headline(" ".join([statement(rows), *said]),
+                          picture=Picture(shown, "changes over the oil level") if (shown := picture(rows)) else None),
     )  # fmt: skip
 
 
@@ -85,11 +101,13 @@ def statement(rows: Sequence[Mapping[str, Any]]) -> str:
         level = max(r["oil_level"] for r in clear)
         first = max((r for r in clear if r["oil_level"] == level), key=lambda r: abs(r["change"]))
         low, high = first["change_band"]
-        road = "a smooth road" if first["road"] == "smooth" else f"class {first['road']}"
+        road = {"smooth": "a smooth road"}.get(first["road"], f"class {first['road']}")
+        if name == "table3":
+            road = first["road"]
         parts.append(
             f"{words.lower()} from {level:.0%} oil ({first['figure']} {first['change']:+.0%} at "
             f"{first['speed_kmh']:.0f} km/h on {road}, {low:+.0%} to {high:+.0%} over "
-            f"{first['seeds']} seeds and all closures)"
+            f"{counted(first['seeds'], 'seed')} and all closures)"
         )
     return "Felt first, of the levels tried: " + "; ".join(parts) + "."
 
@@ -98,14 +116,12 @@ def table(rows: Sequence[Mapping[str, Any]]) -> Table:
     """One manoeuvre's rows."""
     cells = []
     for row in rows:
-        number = "{:.3g}".format
         band = row["change_band"]
+        over = counted(row["seeds"], "seed") + ("" if row["model"] == SCALAR else " and the closures")
         cells.append([
             f"{row['speed_kmh']:.0f}", row["road"], f"{row['oil_level']:.0%}", row["model"],
-            "-" if row["intact"] is None else number(row["intact"]), "-" if row["worn"] is None else number(row["worn"]),
             "not driven" if band is None else f"{row['change']:+.1%}",
-            "" if band is None else f"{band[0]:+.1%} to {band[1]:+.1%}", str(row["failed"] or ""),
+            "" if band is None else f"{band[0]:+.1%} to {band[1]:+.1%}", over, str(row["failed"] or ""),
         ])  # fmt: skip
-    first = rows[0]
-    head = ("km/h", "road", "oil", "model", f"intact [{first['unit']}]", "worn", "change", "band over seeds", "left out")
-    return Table(head, cells, first["figure"], numeric=(0, 2, 4, 5, 6))
+    head = ("km/h", "road", "oil", "model", "change", "band", "over", "left out")
+    return Table(head, cells, f"{rows[0]['figure']}, worn against intact", numeric=(0, 2, 4, 5))

@@ -32,10 +32,10 @@ def comfort_filter(dt: float) -> Array:
     return np.vstack(rows)
 
 
-def comfort(acceleration: Array, dt: float) -> float:
-    """Weighted vertical acceleration [m/s2], root mean square after SETTLED."""
+def comfort(acceleration: Array, dt: float, settled: float = SETTLED) -> float:
+    """Weighted vertical acceleration [m/s2], root mean square after `settled` [s]."""
     weighted = signal.sosfilt(comfort_filter(dt), acceleration)
-    return float(np.sqrt(np.mean(weighted[round(SETTLED / dt) :] ** 2)))
+    return float(np.sqrt(np.mean(weighted[round(settled / dt) :] ** 2)))
 
 
 def by_wheel(values: Array) -> dict[str, float]:
@@ -53,13 +53,13 @@ def loads(car: FullCar, load: Array) -> dict[str, Any]:
     }
 
 
-def ride_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
-    """Of a ride, after SETTLED: loads, comfort [m/s2], angles [deg], work of the dampers [J]."""
+def ride_figures(car: FullCar, run: CarRun, settled: float = SETTLED) -> dict[str, Any]:
+    """Of a ride, after `settled` [s]: loads, comfort [m/s2], angles [deg], work of the dampers [J]."""
     dt = float(run.time[1] - run.time[0])
-    on = run.time >= SETTLED
+    on = run.time >= settled
     return {
         **loads(car, run.load[on]),
-        "comfort_m_s2": comfort(run.a_z, dt),
+        "comfort_m_s2": comfort(run.a_z, dt, settled),
         "roll_rms_deg": float(np.degrees(run.roll[on].std())),
         "pitch_rms_deg": float(np.degrees(run.pitch[on].std())),
         "damping_work_J": by_wheel(run.damper_work[-1] - run.damper_work[on][0]),
@@ -67,7 +67,7 @@ def ride_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
 
 
 def braking_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
-    """Of a stop: distance [m] from the brakes' application to standstill, deceleration [m/s2], loads while braking."""
+    """Of a stop: distance [m] from the brakes' application to standstill, deceleration [m/s2], loads, work [J]."""
     begin = int(np.searchsorted(run.time, APPROACH))
     standing = np.flatnonzero(run.v_x[begin:] < STANDING)
     end = begin + int(standing[0]) if len(standing) else len(run.time) - 1
@@ -78,25 +78,29 @@ def braking_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
         "pitch_max_deg": float(np.degrees(run.pitch[begin:end].max())),
         "stopping_time_s": float(run.time[end] - run.time[begin]),
         **loads(car, run.load[begin:end]),
+        "damping_work_J": by_wheel(run.damper_work[end] - run.damper_work[begin]),
     }
 
 
 def cornering_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
-    """Of growing steering: largest lateral acceleration [m/s2], gradients of steer [deg/g] and roll angle [deg/g], loads."""
+    """Of growing steering: largest lateral acceleration [m/s2], gradients of steer and roll angle [deg/g], loads, work."""
     dt = float(run.time[1] - run.time[0])
     count = max(1, round(SMOOTHING / dt))
     mean = np.ones(count) / count
     lateral = np.convolve(run.a_y, mean, mode="same")[:-count]
     most = int(np.argmax(lateral))
-    steer = steer_needed(run)[: len(lateral)]
-    linear = (lateral > LINEAR[0]) & (lateral < LINEAR[1]) & (np.arange(len(lateral)) < most)
-    straight = np.degrees(steer - car.body.wheelbase * lateral / np.maximum(run.v_x[: len(lateral)], 1.0) ** 2)
-    g = lateral[linear] / 9.80665
+    # The averaged acceleration would bend where it grows from nothing within the time of averaging.
+    linear = (run.a_y > LINEAR[0]) & (run.a_y < LINEAR[1]) & (np.arange(len(run.a_y)) < most)
+    straight = np.degrees(steer_needed(run) - car.body.wheelbase * run.a_y / np.maximum(run.v_x, 1.0) ** 2)
+    g = run.a_y[linear] / 9.80665
+    on = (run.time > APPROACH) & (run.time <= run.time[most])
     return {
         "lateral_acceleration_max_m_s2": float(lateral[most]),
         "understeer_deg_per_g": float(np.polyfit(g, straight[linear], 1)[0]),
-        "roll_deg_per_g": float(np.polyfit(g, np.degrees(run.roll[: len(lateral)][linear]), 1)[0]),
-        **loads(car, run.load[(run.time > APPROACH) & (run.time <= run.time[most])]),
+        "roll_deg_per_g": float(np.polyfit(g, np.degrees(run.roll[linear]), 1)[0]),
+        "roll_max_deg": float(np.degrees(np.abs(run.roll[on]).max())),
+        **loads(car, run.load[on]),
+        "damping_work_J": by_wheel(run.damper_work[on][-1] - run.damper_work[on][0]),
     }
 
 

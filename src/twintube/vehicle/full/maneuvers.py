@@ -15,7 +15,8 @@ FADE = 30.0  # [m] over which an uneven road begins
 APPROACH = 5.0  # [s] at constant speed before braking or steering, for oil and body to settle on the road
 PRESSURE = 1.5e7  # [Pa] that the driver wants in an emergency stop
 STEER_RATE = 0.5  # [deg/s] at the wheel
-MOST_STEER = 9.0  # [deg] at the wheel
+MOST_STEER = 40.0  # [deg] at the wheel
+MOST_LATERAL, MOST_SLIP = 11.0, 6.5  # [m/s2], [deg] beyond which no tyre's largest force lies: where the steering ends
 SMOOTH = "smooth"
 CLASSES = (SMOOTH, *GD_N0)
 
@@ -75,7 +76,8 @@ def braking(car: FullCar, speed_kmh: float, road: Road, *, grip: float = 1.0, dt
 def cornering(car: FullCar, speed_kmh: float, road: Road, *, grip: float = 1.0, dt: float = DT) -> CarRun:
     """Constant speed with evenly growing steer angle, to the left, from APPROACH on (ISO 13674-like); raises InputError."""
     speed = checked_speed(speed_kmh)
-    seconds = APPROACH + MOST_STEER / STEER_RATE
+    most = np.degrees(car.body.wheelbase * MOST_LATERAL / speed**2) + MOST_SLIP
+    seconds = APPROACH + float(min(most, MOST_STEER)) / STEER_RATE
     time = np.arange(round(seconds / dt)) * dt
     inputs = np.zeros((len(time), 3))
     inputs[:, 0] = np.radians(STEER_RATE) * np.clip(time - APPROACH, 0.0, None)

@@ -12,6 +12,7 @@ from tqdm import tqdm
 from twintube.dampers import Damper
 from twintube.dampers.closures import DEFAULT, READINGS, SCALAR, condition
 from twintube.engine.simulate import InputError
+from twintube.vehicle import maneuvers as table3
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.full import maneuvers as driven
 from twintube.vehicle.full.brakes import Brakes
@@ -28,7 +29,10 @@ HEADLINES = {
     "ride": ("dlc_worst", "largest DLC of a wheel", "1"),
     "braking": ("stopping_distance_m", "stopping distance", "m"),
     "cornering": ("lateral_acceleration_max_m_s2", "largest lateral acceleration", "m/s2"),
+    "table3": ("dlc_worst", "largest DLC of a wheel", "1"),
 }
+USUAL = ("ride", "braking", "cornering")
+TABLE_3 = {drive.name: drive for drive in table3.MANEUVERS}
 
 
 @dataclass(frozen=True)
@@ -37,7 +41,7 @@ class Case:
 
     maneuver: str
     speed_kmh: float
-    road: str
+    road: str  # of the drives of Table 3 their name
     seed: int
     oil_level: float = 1.0
     model: str = DEFAULT  # a closure, or SCALAR
@@ -76,56 +80,76 @@ def varied(brakes: Brakes, seed: int) -> Brakes:
 
 def figures_of(car: FullCar, case: Case) -> dict[str, Any]:
     """The figures of a case; raises InputError where a piston leaves its tube."""
-    road = driven.Road(case.road, case.seed)
     car = replace(car, brakes=varied(car.brakes, case.seed))
     match case.maneuver:
         case "ride":
-            figures = ride_figures(car, driven.ride(car, case.speed_kmh, RIDE_SECONDS, road))
-            figures["dlc_worst"] = max(figures["dlc"].values())
+            figures = ride_figures(car, driven.ride(car, case.speed_kmh, RIDE_SECONDS, driven.Road(case.road, case.seed)))
         case "braking":
-            figures = braking_figures(car, driven.braking(car, case.speed_kmh, road))
+            figures = braking_figures(car, driven.braking(car, case.speed_kmh, driven.Road(case.road, case.seed)))
         case "cornering":
-            figures = cornering_figures(car, driven.cornering(car, case.speed_kmh, road))
+            run = driven.cornering(car, case.speed_kmh, driven.Road(case.road, case.seed))
+            figures = cornering_figures(car, run)
             if case.road != driven.SMOOTH:  # a few seconds of an uneven road give no gradient
                 figures = {name: value for name, value in figures.items() if not name.endswith("per_g")}
+        case "table3":
+            figures = ride_figures(car, driven.table3_drive(car, TABLE_3[case.road], case.seed), settled=0.0)
         case _:
             raise InputError(f"maneuver {case.maneuver}: must be one of {', '.join(HEADLINES)}")
-    return figures
+    return figures | {"dlc_worst": max(figures["dlc"].values())}
 
 
 def cases(
     maneuvers: Iterable[str], speeds: Sequence[float], roads: Sequence[str], levels: Sequence[float], seeds: int
 ) -> list[Case]:
-    """All cases, the intact ones included. On a smooth road seeds differ in the slip control alone."""
-    return [
-        Case(maneuver, speed, road, seed, level, model)
-        for maneuver in maneuvers
-        for speed in speeds
-        for road in roads
-        if not (maneuver == "ride" and road == driven.SMOOTH)
-        for seed in range(1, (1 if road == driven.SMOOTH and maneuver != "braking" else seeds) + 1)
-        for level in (1.0, *(x for x in levels if x != 1.0))
-        for model in ((DEFAULT,) if level == 1.0 else (*READINGS, SCALAR))
-    ]
+    """All cases, the intact ones included; the drives of Table 3 have roads and speeds of their own.
+
+    On a smooth road seeds differ in the slip control alone; where neither differs there is one.
+    """
+    wanted = []
+    for maneuver in maneuvers:
+        if maneuver == "table3":
+            places = [(drive.speed_kmh, name, drive.profile is table3.uneven) for name, drive in TABLE_3.items()]
+        else:
+            places = [
+                (speed, road, road != driven.SMOOTH or maneuver == "braking")
+                for speed in speeds
+                for road in roads
+                if not (maneuver == "ride" and road == driven.SMOOTH)
+            ]
+        wanted += [
+            Case(maneuver, speed, road, seed, level, model)
+            for speed, road, differs in places
+            for seed in range(1, (seeds if differs else 1) + 1)
+            for level in (1.0, *(x for x in levels if x != 1.0))
+            for model in ((DEFAULT,) if level == 1.0 else (*READINGS, SCALAR))
+        ]
+    return wanted
 
 
 def drive_all(
     car: CarSet, front: Damper, rear: Damper, worn: str, wanted: Sequence[Case], progress: bool = True
 ) -> list[dict[str, Any]]:
     """The entries of all cases, in their order; one whose piston leaves its tube says so in `failed`."""
+    return driven_all([(car, dampers_of(front, rear, worn, case), case) for case in wanted], progress)
 
-    def entry(case: Case) -> dict[str, Any]:
-        row: dict[str, Any] = {name: getattr(case, name) for name in Case.__dataclass_fields__}
-        try:
-            return row | figures_of(full_car(car, dampers_of(front, rear, worn, case)), case)
-        except InputError as error:
-            return row | {"failed": str(error)}
 
+def driven_all(jobs: Sequence[tuple[CarSet, Sequence[Damper], Case]], progress: bool = True) -> list[dict[str, Any]]:
+    """The entries of cars with four dampers and what they drive, on all cores; else as `drive_all`."""
     with ThreadPoolExecutor(os.cpu_count()) as threads:
-        bar = tqdm(
-            threads.map(entry, wanted), total=len(wanted), unit="drive", leave=False, disable=None if progress else True
-        )
+        bar = tqdm(threads.map(entry, jobs), total=len(jobs), unit="drive", leave=False, disable=None if progress else True)
         return list(bar)
+
+
+def entry(job: tuple[CarSet, Sequence[Damper], Case]) -> dict[str, Any]:
+    """One drive: what `Case` says and its figures."""
+    car, dampers, case = job
+    row: dict[str, Any] = {name: getattr(case, name) for name in Case.__dataclass_fields__}
+    try:
+        return row | figures_of(full_car(car, dampers), case)
+    except InputError as error:
+        return row | {
+            "failed": f"{case.maneuver} at {case.speed_kmh:g} km/h on {case.road}, {case.oil_level:.0%} oil: {error}"
+        }
 
 
 def compared(entries: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
