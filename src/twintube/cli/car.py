@@ -12,6 +12,12 @@ from twintube.engine.simulate import InputError
 from twintube.files import write_bytes, write_text
 from twintube.words import counted
 
+FRONT = Annotated[str, typer.Option(help="Damper of the front axle: a name or a parameter file.")]
+REAR = Annotated[str, typer.Option(help="Damper of the rear axle.")]
+WORN_AT = Annotated[str, typer.Option(help="Worn dampers: all, front, rear, or a wheel such as rear_left.")]
+CAR_FILE = Annotated[str, typer.Option("--car", help="A named car or a car's file.")]
+JSON_FILE = Annotated[Path | None, typer.Option("--json", help="Write all figures to this file.")]
+
 
 @app.command(epilog="Example: twintube car --maneuver braking --speed 80 --worn all --oil-level 0.5 --output car")
 def car(
@@ -19,18 +25,18 @@ def car(
         list[str] | None,
         typer.Option(help="ride, braking, cornering, or table3 for the ten drives of the paper; repeat for several."),
     ] = None,
-    front: Annotated[str, typer.Option(help="Damper of the front axle: a name or a parameter file.")] = "SA7",
-    rear: Annotated[str, typer.Option(help="Damper of the rear axle.")] = "SA8",
-    worn: Annotated[str, typer.Option(help="Worn dampers: all, front, rear, or a wheel such as rear_left.")] = "all",
+    front: FRONT = "SA7",
+    rear: REAR = "SA8",
+    worn: WORN_AT = "all",
     oil_level: Annotated[list[float] | None, typer.Option(help="Oil of the worn dampers; repeat for several.")] = None,
     speed: Annotated[list[float] | None, typer.Option(help="Speed [km/h]; repeat for several.")] = None,
     road_class: Annotated[list[str] | None, typer.Option(help="smooth, or a class of ISO 8608; repeat for several.")] = None,
     seeds: Annotated[int, typer.Option(help="Roads of each class.", min=1, max=1000)] = 5,
-    car_file: Annotated[str, typer.Option("--car", help="A named car or a car's file.")] = "passat_b8",
+    car_file: CAR_FILE = "passat_b8",
     inspection: Annotated[
         Path | None, typer.Option(help="A file of `twintube inspect --json`: what it sees stands beside on the page.")
     ] = None,
-    json_file: Annotated[Path | None, typer.Option("--json", help="Write all figures to this file.")] = None,
+    json_file: JSON_FILE = None,
     output: Annotated[Path | None, typer.Option(help="Write a page and pictures to this folder.")] = None,
 ) -> None:
     """Drive the whole car with worn dampers and compare it with the intact car, and with a scalar factor in their place."""
@@ -84,6 +90,42 @@ def car(
         )
     for reason in dict.fromkeys(entry["failed"] for entry in entries if "failed" in entry):
         typer.echo(f"not driven: {reason}", err=True)
+
+
+@app.command(epilog="Example: twintube car-sensitivity --oil-level 0.5 --seeds 4 --draws 48 --output car_sensitivity")
+def car_sensitivity(
+    front: FRONT = "SA7",
+    rear: REAR = "SA8",
+    worn: WORN_AT = "all",
+    oil_level: Annotated[float, typer.Option(help="Oil of the worn dampers.")] = 0.5,
+    seeds: Annotated[int, typer.Option(help="Roads and slip controls for each value.", min=1, max=1000)] = 4,
+    draws: Annotated[int, typer.Option(help="Draws of all values at once; 0 for none.", min=0, max=10_000)] = 48,
+    seed: Annotated[int, typer.Option(help="Seed of the draws.", min=0)] = 1,
+    car_file: CAR_FILE = "passat_b8",
+    json_file: JSON_FILE = None,
+    output: Annotated[Path | None, typer.Option(help="Write a page and a picture to this folder.")] = None,
+) -> None:
+    """Vary every assumed value of the car and its brakes, and see how the effect of the worn dampers moves."""
+    from twintube.report.car_sensitivity import as_json, page, text, tornado
+    from twintube.vehicle.cars import load_car
+    from twintube.vehicle.full.run import full_car
+    from twintube.vehicle.full.sensitivity import Variant, sensitivity
+    from twintube.vehicle.full.study import Case, dampers_of
+
+    if oil_level >= 1.0:
+        raise InputError(f"oil_level = {oil_level:g}: must be below 1 for a worn damper")
+    variant = Variant(load_car(car_file), dampers.load(front), dampers.load(rear))
+    full_car(variant.car, dampers_of(variant.front, variant.rear, worn, Case("ride", 80.0, "D", 1, oil_level)))
+    result = sensitivity(variant, worn, oil_level, seeds=seeds, draws=draws, seed=seed)
+    conditions = {"car": variant.car.name, "front": variant.front.name, "rear": variant.rear.name, "worn": worn}
+    if json_file is not None:
+        write_text(json_file, json.dumps(conditions | as_json(result), indent=1) + "\n")
+    typer.echo(text(result), nl=False)
+    if output is not None:
+        output.mkdir(exist_ok=True)
+        write_text(output / "sensitivity.html", page(result, conditions))
+        write_bytes(output / "sensitivity.png", tornado(result))
+        typer.echo(f"{output / 'sensitivity.html'}")
 
 
 def known(what: str, value: str, allowed: object) -> None:

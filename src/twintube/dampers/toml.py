@@ -256,6 +256,14 @@ def line_of(text: str, group: str, name: str) -> str:
     return ""
 
 
+def line_of_table(text: str, group: str) -> str:
+    """`line 12: ` where the table begins in a TOML text, or an empty string."""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if re.match(rf"\s*\[{re.escape(group)}\]", line):
+            return f"line {number}: "
+    return ""
+
+
 def located(text: str, message: str) -> str:
     """The message with the line of the parameter it starts with."""
     group, _, name = message.split(" ", 1)[0].rstrip(":").rpartition(".")

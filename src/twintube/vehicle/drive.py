@@ -77,5 +77,8 @@ def drive(
     inputs = [np.array(values, dtype=float) for values in (heights, rates, push)]
     steps: int = module.run_drive(p, d, s, f, *rows([car, blank(Motion)]), *inputs, dt, limit, out)
     if steps < len(heights):
-        raise InputError(f"time {steps * dt:g} s: stroke must be from {-limit:g} to {limit:g} m")
+        stroke = float(out[steps, 0] + out[steps, 1] * dt)
+        raise InputError(
+            f"{damper.name}, time {steps * dt:g} s: stroke = {stroke:.4g} m: must be from {-limit:g} to {limit:g} m"
+        )
     return Drive(np.arange(len(heights)) * dt, *np.ascontiguousarray(out.T))

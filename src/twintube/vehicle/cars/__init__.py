@@ -9,7 +9,16 @@ from twintube.core.checks import outside
 from twintube.dampers import Damper
 from twintube.dampers.damper import refuse, suggestion
 from twintube.dampers.quantity import quantity
-from twintube.dampers.toml import as_table, line_of, read_named, read_text, read_texts, unknown_keys, wrong_tables
+from twintube.dampers.toml import (
+    as_table,
+    line_of,
+    line_of_table,
+    read_named,
+    read_text,
+    read_texts,
+    unknown_keys,
+    wrong_tables,
+)
 from twintube.vehicle.full.brakes import Brakes
 from twintube.vehicle.full.car import Layout, Suspension, Tyre
 from twintube.vehicle.quarter_car import Car
@@ -75,11 +84,36 @@ def load_car(car: str | Path = DEFAULT) -> CarSet:
     axles = {name: read_table(content.get(name), name, text, messages) for name in AXLES}
     some = any(name in content for name in WHOLE)
     whole = {name: read_table(content.get(name), name, text, messages) for name in WHOLE} if some else {}
+    if whole and not messages:
+        messages += [f"{line_of(text, table, name)}{message}" for table, name, message in contradictions(whole)]
     band = read_band(as_table(content.get("band", {})), text, messages)
     name, title = (read_text(content, key, text, messages) for key in ("name", "title"))
     sources, assumed = (read_texts(content, key, text, messages) for key in ("sources", "assumed"))
     refuse(file, messages)
     return CarSet(name or Path(file).stem, title or Path(file).stem, axles, whole, band, sources, assumed)
+
+
+def contradictions(whole: Mapping[str, dict[str, float]]) -> list[tuple[str, str, str]]:
+    """Values, each within its range, that contradict one another: table, name and message."""
+    found = []
+    brakes, axles = whole["brakes"], [whole["front_axle"], whole["rear_axle"]]
+    if brakes["slip_build"] >= brakes["slip_release"]:
+        message = f"{brakes['slip_build']:g}: must be below slip_release = {brakes['slip_release']:g}"
+        found.append(("brakes", "slip_build", f"brakes.slip_build = {message}"))
+    for place in ("front_tyre", "rear_tyre"):
+        tyre = whole[place]
+        for end in ("x", "x2", "y", "y2"):
+            for name, below, other in ((f"s_slide_{end}", False, f"s_most_{end}"), (f"slide_{end}", True, f"most_{end}")):
+                if (tyre[name] > tyre[other]) if below else (tyre[name] < tyre[other]):
+                    rule = f"must not be {'above' if below else 'below'} {other} = {tyre[other]:g}"
+                    found.append((place, name, f"{place}.{name} = {tyre[name]:g}: {rule}"))
+    if abs(sum(axle["drive"] for axle in axles) - 1.0) > 1e-6:
+        shares = " + ".join(f"{axle['drive']:g}" for axle in axles)
+        found.append(("rear_axle", "drive", f"rear_axle.drive: the shares of both axles, {shares}, must add up to 1"))
+    for name in ("steers", "brake"):
+        if not any(axle[name] for axle in axles):
+            found.append(("front_axle", name, f"front_axle.{name} = 0: must be above 0 at one axle at least"))
+    return found
 
 
 def read_value(value: Any, name: str, group: str, text: str, messages: list[str]) -> float:
@@ -103,7 +137,12 @@ def read_table(table: Any, name: str, text: str, messages: list[str]) -> dict[st
         messages.append(f"the table {name} is missing")
     if not isinstance(table, dict):
         return {}
-    messages += [f"{name}.{key} is missing" for key in metas if key not in table]
+    messages += [
+        f"{line_of_table(text, name)}{name}.{key} is missing: must be from {meta['lower']:g} to {meta['upper']:g}"
+        f"{' ' + meta['unit'] if meta['unit'] != '1' else ''}"
+        for key, meta in metas.items()
+        if key not in table
+    ]
     return {key: read_value(value, key, name, text, messages) for key, value in table.items() if key in metas}
 
 

@@ -58,7 +58,8 @@ def ride(car: FullCar, speed_kmh: float, seconds: float, road: Road, dt: float =
     speed = checked_speed(speed_kmh)
     inputs = np.zeros((round(seconds / dt), 3))
     inputs[:, 2] = speed
-    return drive_car(car, road.heights(car, speed * seconds), SPACING, inputs, speed, dt=dt)
+    # On a rough road the speed that is held swings, and the road must not end before the time.
+    return drive_car(car, road.heights(car, 1.1 * speed * seconds), SPACING, inputs, speed, dt=dt)
 
 
 def braking(car: FullCar, speed_kmh: float, road: Road, *, grip: float = 1.0, dt: float = DT) -> CarRun:

@@ -1,0 +1,164 @@
+"""What the assumed values of a car do to its headlines, as tables and a picture."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from twintube.inspection.tables import markdown
+from twintube.readable import unit_of
+from twintube.report.page import Headline, Picture, Section, Table, html
+from twintube.report.style import BLUE, FAINT, INK, RED, canvas, legend_above, png, title
+from twintube.vehicle.full.sensitivity import ASSUMED, DRIVES, SPEED, Assumed, Sensitivity, mean
+from twintube.vehicle.full.study import HEADLINES
+from twintube.words import counted
+
+SHORT = {"ride": "DLC", "braking": "stop", "cornering": "bend"}
+SHARES = (5, 95)  # [%] of the draws between which the band lies
+MOST_BARS = 10
+
+
+def name_of(drive: tuple[str, str]) -> str:
+    """A drive's headline in a few words."""
+    return f"{SHORT[drive[0]]}, {'smooth' if drive[1] == 'smooth' else 'class ' + drive[1]}"
+
+
+def percent(value: float) -> str:
+    """A growth."""
+    return "not driven" if math.isnan(value) else f"{100 * value:+.0f}%"
+
+
+def range_of(item: Assumed) -> str:
+    """From where to where a value is varied."""
+    if not item.adds:
+        return f"times {item.low:g} to {item.high:g}"
+    unit, factor = unit_of(item.unit, item.high) if item.unit else ("", 1.0)
+    return f"{item.low * factor:+g} to {item.high * factor:+g}{' ' + unit if unit else ''}"
+
+
+def error_of(values: Sequence[float]) -> float:
+    """Standard error of the mean over the seeds; 0 of a single one."""
+    return float(np.nanstd(values, ddof=1) / math.sqrt(len(values))) if len(values) > 1 else 0.0
+
+
+def band_of(values: Iterable[float]) -> tuple[float, float]:
+    """The band of the draws, of those that were driven."""
+    low, high = np.nanpercentile(list(values), SHARES)
+    return float(low), float(high)
+
+
+def same_sign(result: Sensitivity, drive: tuple[str, str]) -> float:
+    """Share of the draws whose growth has the sign of that of the car as it is."""
+    sign = math.copysign(1.0, mean(result.nominal[drive]))
+    driven = [x for x in result.draws[drive] if not math.isnan(x)]
+    return sum(x * sign > 0 for x in driven) / len(driven)
+
+
+def above_scalar(result: Sensitivity, drive: tuple[str, str]) -> float:
+    """Share of the draws in which the model's change is larger than the scalar factor's."""
+    sign = -1.0 if drive[0] == "cornering" else 1.0
+    both = [(a, b) for a, b in zip(result.draws[drive], result.scalar[drive], strict=True) if not math.isnan(a + b)]
+    return sum(sign * a > sign * b for a, b in both) / len(both)
+
+
+def head_and_rows(result: Sensitivity) -> tuple[list[str], list[list[str]]]:
+    """The table: how each headline grows, as the car is and with each value at both ends."""
+    head = ["assumed", "varied", *map(name_of, DRIVES)]
+    rows = [["as the car is", f"mean of {counted(result.seeds, 'seed')}, standard error"]]
+    rows[0] += [f"{percent(mean(result.nominal[d]))} ± {100 * error_of(result.nominal[d]):.0f}" for d in DRIVES]
+    for item in ASSUMED:
+        ends = result.ends[item.title]
+        rows.append([item.title, range_of(item), *(f"{percent(ends[d][0])} / {percent(ends[d][1])}" for d in DRIVES)])
+    if result.draws[DRIVES[0]]:
+        count, bands = len(result.draws[DRIVES[0]]), [band_of(result.draws[d]) for d in DRIVES]
+        rows.append(["all at once", f"{count} draws, {SHARES[0]} to {SHARES[1]} %"])
+        rows[-1] += [f"{percent(low)} to {percent(high)}" for low, high in bands]
+        rows.append(["", "of the draws with the sign of the car as it is", *(f"{same_sign(result, d):.0%}" for d in DRIVES)])
+        rows.append(
+            ["", "of the draws with more change than a scalar factor", *(f"{above_scalar(result, d):.0%}" for d in DRIVES)]
+        )
+    return head, rows
+
+
+def text(result: Sensitivity) -> str:
+    """The table in Markdown."""
+    return markdown(*head_and_rows(result))
+
+
+def tornado(result: Sensitivity) -> bytes:
+    """PNG: for each headline the values that move it most, from end to end."""
+    figure, axes = canvas(2, 3, (14.0, 8.4))
+    for drive, ax in zip(DRIVES, axes.flat, strict=True):
+        centre = 100 * mean(result.nominal[drive])
+        reach = 100 * error_of(result.nominal[drive])
+        ax.axvspan(centre - reach, centre + reach, color=FAINT, alpha=0.6, lw=0, label="standard error over the seeds")
+        ends = {
+            name: [100 * x for x in by[drive]] for name, by in result.ends.items() if not any(map(math.isnan, by[drive]))
+        }
+        largest = sorted(ends, key=lambda name: max(abs(x - centre) for x in ends[name]))[-MOST_BARS:]
+        for i, name in enumerate(largest):
+            low, high = ends[name]
+            ax.barh(i, low - centre, left=centre, height=0.38, align="edge", color=BLUE, label="low end")
+            ax.barh(i, high - centre, left=centre, height=-0.38, align="edge", color=RED, label="high end")
+        names = list(largest)
+        if result.draws[drive]:
+            low, high = (100 * x for x in band_of(result.draws[drive]))
+            ax.plot(
+                [low, high],
+                [-1.0, -1.0],
+                color=INK,
+                lw=4,
+                solid_capstyle="butt",
+                label="all at once, 5 to 95 % of the draws",
+            )
+            names.insert(0, "all at once")
+        ax.set_yticks(range(len(largest) - len(names), len(largest)), names, fontsize=8)
+        ax.axvline(centre, color=INK, lw=0.8)
+        ax.axvline(0.0, color=INK, lw=0.8, ls=":")
+        title(ax, name_of(drive))
+        ax.set_xlabel(f"{HEADLINES[drive[0]][1]} against intact [%]", fontsize=8.5)
+    legend_above(figure, *axes.flat)
+    return png(figure)
+
+
+def page(result: Sensitivity, conditions: Mapping[str, Any]) -> str:
+    """The page as HTML."""
+    head, rows = head_and_rows(result)
+    lead = [
+        f"Worn dampers: {conditions['worn']}, {result.level:.0%} oil without gas preload, {SPEED:g} km/h, against the "
+        f"intact car. One at a time: mean over {counted(result.seeds, 'seed')}, other roads and slip controls, the same at "
+        "both ends; what moves less than the standard error says nothing. All at once: each draw has a road, a slip control "
+        "and a closure for the gas that cavitation frees of its own."
+    ]
+    held = ", ".join(f"{name_of(d)} {same_sign(result, d):.0%}" for d in DRIVES) if result.draws[DRIVES[0]] else ""
+    sentence = f"Of the draws, with the sign of the car as it is: {held}." if held else "No draws."
+    reasons = [(f"{item.title}, {range_of(item)}", item.reason) for item in ASSUMED]
+    return html(
+        f"Whole car: what the assumed values do, {conditions['car']}", lead,
+        [Section("table", "All assumed values", tables=[Table(head, rows)]), Section("ranges", "Ranges", notes=reasons)],
+        headline=Headline(sentence, picture=Picture(tornado(result), "headlines over the assumed values")),
+    )  # fmt: skip
+
+
+def as_json(result: Sensitivity) -> dict[str, Any]:
+    """All figures."""
+    return {
+        "oil_level": result.level, "seeds": result.seeds, "speed_kmh": SPEED,
+        "assumed": [
+            {"name": item.title, "tables": item.tables, "keys": item.names, "low": item.low, "high": item.high,
+             "adds": item.adds, "unit": item.unit, "reason": item.reason}
+            for item in ASSUMED
+        ],
+        "headlines": [
+            {"maneuver": d[0], "road": d[1], "nominal": none(result.nominal[d]), "draws": none(result.draws[d]),
+             "draws_scalar_factor": none(result.scalar[d]),
+             "ends": {name: none(by[d]) for name, by in result.ends.items()}}
+            for d in DRIVES
+        ],
+    }  # fmt: skip
+
+
+def none(values: Iterable[float]) -> list[float | None]:
+    """For JSON, which has no NaN."""
+    return [None if math.isnan(x) else x for x in values]
