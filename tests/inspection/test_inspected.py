@@ -14,6 +14,7 @@ from twintube.inspection.figures import WINDOWS, phase_shift
 from twintube.inspection.methods import eusama_class
 from twintube.inspection.plate import Cycles
 from twintube.vehicle.cars import load_car
+from twintube.vehicle.drive import drive
 
 NAMES = tuple(METHODS)
 
@@ -114,6 +115,13 @@ def test_limits_and_classes():
     assert METHODS["eusama"].passed(40.0) and not METHODS["eusama"].passed(39.9)
     assert METHODS["bump"].passed(2.0) and not METHODS["bump"].passed(2.1)
     assert [eusama_class(x) for x in (0.0, 20.0, 20.1, 40.1, 60.1)] == ["poor", "poor", "weak", "fair", "good"]
+
+
+def test_a_piston_that_leaves_its_tube_is_named_with_stroke_and_range():
+    damper = load("SA8")
+    car = load_car().corner(damper, c_stop=0.0)
+    with pytest.raises(InputError, match=r"^SA8, time [\d.]+ s: stroke = -0\.12\d* m: must be from -0\.125499 to 0\.125499 m$"):
+        drive(damper, car, np.linspace(0.0, 1.0, 100), 1e-3)
 
 
 def test_bad_input_names_quantity_value_and_range():

@@ -7,7 +7,10 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
+from twintube.dampers.closures import DEFAULT
 from twintube.report.conclusion import read_inspection, section
+from twintube.vehicle.cars import FOLDER
+from twintube.vehicle.maneuvers import MANEUVERS
 
 QUICK = ["car", "--maneuver", "braking", "--speed", "50", "--road-class", "smooth", "--oil-level", "0.5", "--seeds", "2"]
 
@@ -28,17 +31,103 @@ def test_figures_page_and_table_of_an_inspection(tmp_path: Path) -> None:
     row = content["compared"][0]
     assert row["change_band"][0] <= row["change"] <= row["change_band"][1]
     page = (out / "car.html").read_text()
+    for name in (
+        "stopping distance [m]",
+        "DLC, rear left",
+        "share of the time without contact, front right",
+        "work of the damper",
+    ):
+        assert name in page, name
+    assert "mean (range over 2 seeds and the closures)" in page
     assert "Seen in an inspection, felt on the road" in page and "stopping distance" in page
     assert (out / "car.png").read_bytes().startswith(b"\x89PNG")
     (table,) = section(read_inspection(inspection), content["compared"]).tables
     assert [cells[:3] for cells in table.rows] == [["50%", "full model", "20%"], ["50%", "scalar factor", "60%"]]
 
 
+def test_the_ten_drives_of_table_3(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("twintube.vehicle.full.study.READINGS", (DEFAULT,))
+    file = tmp_path / "car.json"
+    run = CliRunner().invoke(
+        app,
+        [
+            "car",
+            "--maneuver",
+            "table3",
+            "--oil-level",
+            "0.5",
+            "--seeds",
+            "1",
+            "--json",
+            str(file),
+            "--output",
+            str(tmp_path),
+        ],
+    )
+    assert run.exit_code == 0, run.output
+    drives = json.loads(file.read_text())["drives"]
+    assert len({entry["road"] for entry in drives}) == 10
+    wanted = {
+        "dlc",
+        "min_load_share",
+        "contact_loss_share",
+        "comfort_m_s2",
+        "roll_rms_deg",
+        "pitch_rms_deg",
+        "damping_work_J",
+    }
+    assert all(wanted <= set(entry) for entry in drives)
+    page = (tmp_path / "car.html").read_text()
+    assert all(drive.name in page for drive in MANEUVERS)
+
+
+def test_a_car_that_nothing_holds_on_the_road_is_a_line(tmp_path: Path) -> None:
+    """A piston that leaves its tube in every drive: the road of class E at 200 km/h with stops that hold nothing."""
+    file = tmp_path / "car.toml"
+    file.write_text((FOLDER / "passat_b8.toml").read_text().replace("c_stop = 1e9", "c_stop = 0"))
+    run = CliRunner().invoke(
+        app, ["car", "--car", str(file), "--maneuver", "ride", "--speed", "200", "--road-class", "E", "--seeds", "1"]
+    )
+    assert run.exit_code == 2
+    assert run.output.startswith("error: ride at 200 km/h on E, 100% oil: time ") and run.output.count("\n") == 1
+    assert "stroke must stay within" in run.output
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('m_body = "405 kg"', 'm_body = "-5 kg"', r"line 6: front.m_body = -5 kg: must be a number from 20 to 5000 kg"),
+        ('c_bar = "16 N/mm"\n', "", r"line 38: front_axle.c_bar is missing: must be from 0 to 1e+06 N/m"),
+        (
+            "slip_release = 0.10",
+            "slip_release = nan",
+            "line 117: brakes.slip_release = nan: must be a number from 0.01 to 1",
+        ),
+        ("slip_build = 0.05", "slip_build = 0.5", "line 118: brakes.slip_build = 0.5: must be below slip_release = 0.1"),
+        ("s_slide_x = 0.95", "s_slide_x = 0.05", "line 68: front_tyre.s_slide_x = 0.05: must not be below s_most_x = 0.106"),
+        ("drive = 1.0", "drive = 0.5", "line 55: rear_axle.drive: the shares of both axles, 0.5 + 0, must add up to 1"),
+        ("steers = 1.0", "steers = 0.0", "line 44: front_axle.steers = 0: must be above 0 at one axle at least"),
+        ("[brakes]", "[breaks]", "unknown breaks, did you mean brakes?"),
+    ],
+)
+def test_a_car_file_is_refused_with_quantity_value_range_and_line(tmp_path: Path, old: str, new: str, message: str) -> None:
+    text = (FOLDER / "passat_b8.toml").read_text()
+    assert old in text
+    file = tmp_path / "car.toml"
+    file.write_text(text.replace(old, new))
+    for command in ("car", "inspect", "car-sensitivity"):
+        run = CliRunner().invoke(app, [command, "--car", str(file)])
+        assert run.exit_code == 2
+        assert run.output.startswith("error: ") and "car.toml: " in run.output and message in run.output
+        assert run.output.count("\n") == 1
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--maneuver", "drift"], "maneuver drift: must be one of ride, braking, cornering"),
+        (["--maneuver", "drift"], "maneuver drift: must be one of ride, braking, cornering, table3"),
         (["--road-class", "Z"], "road class Z: must be one of smooth, A"),
+        (["--speed", "nan"], "speed nan km/h: must be from 1 to 250 km/h"),
         (["--speed", "0"], "speed 0 km/h: must be from 1 to 250 km/h"),
         (["--worn", "left"], "worn left: must be one of all, front, rear, front_left"),
         (["--oil-level", "1.5"], "oil_level = 1.5: must be"),

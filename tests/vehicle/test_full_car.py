@@ -193,6 +193,16 @@ def test_a_stop_from_80_and_the_limit_in_a_bend_lie_within_published_tests(passa
     assert 3.0 <= bend["roll_deg_per_g"] <= 7.0
 
 
+def test_steering_goes_beyond_the_largest_lateral_force_at_any_speed(passat: FullCar) -> None:
+    gradients = []
+    for speed in (40.0, 80.0, 130.0):
+        run = cornering(passat, speed, Road("smooth"))
+        bend = cornering_figures(passat, run)
+        assert run.a_y[run.time > run.time[-1] - 1.0].mean() < bend["lateral_acceleration_max_m_s2"]
+        gradients.append(bend["understeer_deg_per_g"])
+    assert max(gradients) - min(gradients) < 0.2, "of the car, not of the speed [deg/g]"
+
+
 def test_worn_dampers_lengthen_the_stop_on_an_uneven_road_and_lower_the_limit_in_a_bend() -> None:
     wanted = cases(("braking", "cornering"), (80.0,), ("D",), (0.4,), seeds=2)
     rows = compared(drive_all(load_car(), load("SA7"), load("SA8"), "all", wanted, progress=False))

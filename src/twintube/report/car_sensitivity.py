@@ -88,8 +88,10 @@ def text(result: Sensitivity) -> str:
 
 def tornado(result: Sensitivity) -> bytes:
     """PNG: for each headline the values that move it most, from end to end."""
-    figure, axes = canvas(2, 3, (14.0, 8.4))
-    for drive, ax in zip(DRIVES, axes.flat, strict=True):
+    columns = min(3, len(DRIVES))
+    lines = -(-len(DRIVES) // columns)
+    figure, axes = canvas(lines, columns, (4.7 * columns, 4.2 * lines))
+    for drive, ax in zip(DRIVES, axes.flat, strict=False):
         centre = 100 * mean(result.nominal[drive])
         reach = 100 * error_of(result.nominal[drive])
         ax.axvspan(centre - reach, centre + reach, color=FAINT, alpha=0.6, lw=0, label="standard error over the seeds")
