@@ -120,7 +120,9 @@ def test_limits_and_classes():
 def test_a_piston_that_leaves_its_tube_is_named_with_stroke_and_range():
     damper = load("SA8")
     car = load_car().corner(damper, c_stop=0.0)
-    with pytest.raises(InputError, match=r"^SA8, time [\d.]+ s: stroke = -0\.12\d* m: must be from -0\.125499 to 0\.125499 m$"):
+    with pytest.raises(
+        InputError, match=r"^SA8, time [\d.]+ s: stroke = -0\.12\d* m: must be from -0\.125499 to 0\.125499 m$"
+    ):
         drive(damper, car, np.linspace(0.0, 1.0, 100), 1e-3)
 
 

@@ -1,9 +1,11 @@
 """What the page knows beside the module: dampers, corners of the car, closures, effects, a road; as JSON."""
 
 import base64
+import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, fields
 from functools import lru_cache
+from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -24,16 +26,10 @@ from twintube.vehicle.drive import CONDITIONING_STEP
 ROAD_LENGTH = 300.0  # [m]; the drive ends where it ends
 ROAD_SEED = 1
 RAMPS = (0.001, 0.01, 0.05, 0.1, 0.25, 0.5, 1.0)  # [m/s]
-# Strengths of effects beyond the paper for a first look, all assumed: a parameter file of one's own says better.
-STRENGTHS: Mapping[str, Mapping[str, float]] = {
-    "oil_temperature": {"fade_heat": 2e-5},  # as in docs/effects.md: 2 % less force per 1000 J
-    "foam_decay": {"foam_decay_rate": 0.1},  # half of the foam in 7 s
-    "smooth_transition": {"build_up": 5e-3},  # a few millimetres, as measured loops round their edges
-    "fluid_lag": {"C_fluid": 1.9e-7, "C_fluid_co": 7.7e-6},  # docs/effects.md: oil of 1 GPa in SA2
-    "mount_compliance": {"C_mount": 1e-6},  # a soft top mount, 1 kN/mm
-    "valve_wear": {"wear_re": -0.2, "wear_co": -0.2},  # valves that lost a fifth of their force
-    "seal_leak": {"leak_film": 1e-6},  # 1 mL/s at 1 m/s: far gone
-}
+# Of effects beyond the paper for a first look: a parameter file of one's own says better.
+STRENGTHS: Mapping[str, Mapping[str, float]] = tomllib.loads(
+    files("twintube.explorer").joinpath("strengths.toml").read_text(encoding="utf-8")
+)
 NAMES = {item.name: fmi_name(item) for item in fields(Parameters)}
 UNITS = {item.name: item.metadata["unit"] for item in fields(Parameters)}
 

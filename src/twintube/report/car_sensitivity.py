@@ -133,8 +133,9 @@ def page(result: Sensitivity, conditions: Mapping[str, Any]) -> str:
         "both ends; what moves less than the standard error says nothing. All at once: each draw has a road, a slip control "
         "and a closure for the gas that cavitation frees of its own."
     ]
-    held = ", ".join(f"{name_of(d)} {same_sign(result, d):.0%}" for d in DRIVES) if result.draws[DRIVES[0]] else ""
-    sentence = f"Of the draws, with the sign of the car as it is: {held}." if held else "No draws."
+    count = len(result.draws[DRIVES[0]])
+    held = "; ".join(f"{name_of(d)}, in {same_sign(result, d):.0%}" for d in DRIVES) if count else "no draws"
+    sentence = f"How many of {count} draws of all assumed values keep the sign of the change: {held}."
     reasons = [(f"{item.title}, {range_of(item)}", item.reason) for item in ASSUMED]
     return html(
         f"Whole car: what the assumed values do, {conditions['car']}", lead,
