@@ -16,7 +16,7 @@ APPROACH = 5.0  # [s] at constant speed before braking or steering, for oil and 
 PRESSURE = 1.5e7  # [Pa] that the driver wants in an emergency stop
 STEER_RATE = 0.5  # [deg/s] at the wheel
 MOST_STEER = 40.0  # [deg] at the wheel
-MOST_LATERAL, MOST_SLIP = 11.0, 6.5  # [m/s2], [deg] beyond which no tyre's largest force lies: where the steering ends
+MOST_LATERAL, MOST_SLIP = 11.0, 6.0  # [m/s2], [deg] of the front tyres: where the steering ends, beyond the largest force
 SMOOTH = "smooth"
 CLASSES = (SMOOTH, *GD_N0)
 
