@@ -9,7 +9,6 @@ sys.path.insert(0, str(HERE / "_ext"))
 from twintube import __version__
 
 project, author = "twintube", "the twintube authors"
-project_copyright = "MIT licence"
 version = release = __version__
 extensions = [
     "myst_parser",
@@ -57,6 +56,7 @@ html_title = f"twintube {version}"
 html_static_path = ["_static"]
 html_css_files = ["style.css"]
 html_math_renderer = "mathml"
+html_show_copyright = False
 html_show_sphinx = False
 html_copy_source = False
 html_show_sourcelink = False

@@ -1,7 +1,7 @@
 """Directives about the command `twintube`: its options, and the explorer page where the command exists.
 
-    :::{command-options}        a section per command: what it does, arguments, options, an example
-    :::{explorer}               a link to the page that `twintube explore` writes while the documentation is built
+`command-options` is a section per command: what it does, arguments, options, an example. `explorer` is a link to the
+page that `twintube explore` writes while the documentation is built.
 """
 
 import shutil

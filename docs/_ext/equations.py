@@ -1,8 +1,7 @@
 """Directives of the pages about the model: an equation with the code that carries it out, and the code as a page.
 
-    :::{equation} 6, 8, 11      the paper's numbers; the body is the formula
-    :::{equation-table}         every equation, where it is shown, and its lines
-    :::{kernel-source}          the files of the kernel, each line with an anchor
+`equation` has the paper's numbers, as `6, 8, 11`, and the formula as its body; `equation-table` lists every equation with
+links to its formula and its lines; `kernel-source` shows the files of the kernel, each line with an anchor.
 """
 
 import re

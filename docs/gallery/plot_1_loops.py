@@ -2,8 +2,8 @@
 Loops of worn dampers
 =====================
 
-Force over stroke and over velocity of SA8 with all oil, and without gas preload at 80 to 30 % of it: the last of 19 oscillations
-of 0.524 m/s. The block begins with six slow oscillations, as on the paper's rig.
+Force over stroke and over velocity of SA8 with all oil, and without gas preload at 80 to 30 % of it: the last of
+19 oscillations of 0.524 m/s. The block begins with six slow oscillations, as on the paper's rig.
 """
 
 import matplotlib.pyplot as plt
@@ -25,6 +25,6 @@ over_velocity.set(xlabel="velocity [m/s]", title="F-v")
 figure.legend(loc="outside upper center", ncols=6)
 
 # %%
-# Rebound is up: stroke, velocity and force are positive when the rod goes out. Where a chamber holds gas the force collapses until the
-# gas is driven out; with less oil that takes a longer way. At 80 and 60 % the oil still fills both working chambers at this velocity:
-# their loops differ from the intact one by the lost preload and by friction.
+# Rebound is up: stroke, velocity and force are positive when the rod goes out. Where a chamber holds gas the force
+# collapses until the gas is driven out; with less oil that takes a longer way. At 80 % the oil fills both working
+# chambers all the time: that loop differs from the intact one by the lost preload and by friction only.

@@ -2,8 +2,8 @@
 A block of 19 oscillations
 ==========================
 
-Above the velocity of cavitation the work falls from oscillation to oscillation, as freed gas collects in the chambers. SA8 with 60 %
-of its oil, without gas preload, at 1.048 m/s, by the paper's equations alone.
+Above the velocity of cavitation the work falls from oscillation to oscillation, as freed gas collects in the
+chambers. SA8 with 60 % of its oil, without gas preload, at 1.048 m/s, by the paper's equations alone.
 """
 
 import matplotlib.pyplot as plt
@@ -30,6 +30,7 @@ bars.bar(np.arange(1, 20), work / intact_work, color="tab:red")
 bars.set(xlabel="oscillation", ylabel="work over intact [1]", xticks=range(1, 20))
 
 # %%
-# ``k_degr`` is the force of the fluid over that of the intact damper at the same velocity. A scalar factor, the usual shortcut, is one
-# number for all of the picture.
-print(f"work over intact: {work[0] / intact_work[0]:.2f} in the first oscillation, {work[-1] / intact_work[-1]:.2f} in the last")
+# ``k_degr`` is the force of the fluid over that of the intact damper at the same velocity. A scalar factor, the usual
+# shortcut, is one number for all of the picture.
+first, last = work[[0, -1]] / intact_work[[0, -1]]
+print(f"work over intact: {first:.2f} in the first oscillation, {last:.2f} in the last")

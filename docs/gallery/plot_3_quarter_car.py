@@ -2,8 +2,8 @@
 A ride of the quarter car
 =========================
 
-The rear corner of a car of the Passat class on a class D road at 50 km/h, with SA8 intact, with half of its oil, and with the oil
-level as a scalar factor on the force of the intact damper. The car's values are partly *assumed*.
+The rear corner of a car of the Passat class on a class D road at 50 km/h, with SA8 intact, with half of its oil,
+and with the oil level as a scalar factor on the force of the intact damper. The car's values are partly *assumed*.
 """
 
 import matplotlib.pyplot as plt
@@ -35,5 +35,5 @@ shares.set(xlabel="wheel load over static load [1]", ylabel="share of the time b
 figure.legend(loc="outside upper center", ncols=3)
 
 # %%
-# The DLC is the standard deviation of the wheel load over the static load, from second 5 on. What becomes of the gas that cavitation
-# frees is *assumed* (closure ``return``, see :doc:`/effects`).
+# The DLC is the standard deviation of the wheel load over the static load, from second 5 on. What becomes of the
+# gas that cavitation frees is *assumed* (closure ``return``, see :doc:`/effects`).

@@ -2,7 +2,8 @@
 Build an FMU and run it
 =======================
 
-SA8 as a native FMI 2.0 FMU, driven by fmpy through a sweep of the stroke; the same FMU with two sets of start values.
+SA8 as a native FMI 2.0 FMU, driven by fmpy through slow oscillations and then faster ones, with two sets of start
+values.
 """
 
 import tempfile
@@ -15,28 +16,32 @@ import numpy as np
 from twintube import build_fmu, load
 
 # %%
-# The build translates nothing and downloads nothing: C sources and compiler come with the package. Here it compiles for the present
-# platform only; by default it does for all.
+# The build translates nothing and downloads nothing: C sources and compiler come with the package. Here it
+# compiles for the present platform only; by default it does for all.
 folder = Path(tempfile.mkdtemp())
 fmu = build_fmu(load("SA8"), folder, platforms=[fmpy.platform])
 
 # %%
-# Inputs are stroke and velocity at the start of a communication step. Six slow oscillations come first: a degraded damper must be
-# preconditioned before its force means anything.
+# Inputs are stroke and velocity at the start of a communication step. Six slow oscillations come first: a degraded
+# damper must be preconditioned before its force means anything.
 AMPLITUDE, STEP = 0.03, 1e-3  # [m], [s]
 time = np.arange(0, 30, STEP)
 frequency = np.where(time < 24, 0.25, 3.0)  # [Hz]
 angle = np.concatenate([[0.0], np.cumsum(2 * np.pi * frequency[:-1] * STEP)])
 stroke = AMPLITUDE * np.sin(angle)
 velocity = np.gradient(stroke, STEP)
-given = np.array(
-    list(zip(time, stroke, velocity, strict=True)), dtype=[(n, float) for n in ("time", "stroke", "velocity")]
-)
+given = np.array(list(zip(time, stroke, velocity, strict=True)), dtype=[(n, float) for n in ("time", "stroke", "velocity")])
 
 
 def run(**start_values: float) -> np.ndarray:
+    """Force and degradation factor over time, from these start values."""
     return fmpy.simulate_fmu(
-        str(fmu), input=given, output=["force", "k_degr"], start_values=start_values, output_interval=STEP, stop_time=time[-1]
+        str(fmu),
+        input=given,
+        output=["force", "k_degr"],
+        start_values=start_values,
+        output_interval=STEP,
+        stop_time=time[-1],
     )
 
 

@@ -2,8 +2,9 @@
 Diagnose the example dataset
 ============================
 
-The package brings seven records of an SA8 on a simulated bench with something in them that the model leaves out. The diagnosis names
-it, and predicts the records that it was not fitted to. This takes about half a minute of processor time.
+The package brings seven records of an SA8 on a simulated bench with something in them that the model leaves out.
+The diagnosis names it, and predicts the records that it was not fitted to. This takes about half a minute of
+processor time.
 """
 
 import tempfile
@@ -12,26 +13,18 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 from twintube import diagnose
-from twintube.diagnosis import Diagnosis
 from twintube.lab.example import write
 
 folder = Path(tempfile.mkdtemp())
 write(folder)  # as `twintube example my_example` does
 
-
-# %%
-# Worker processes import this program again where they are spawned, so a script of one's own calls ``diagnose`` from ``main``.
-def main() -> Diagnosis:
-    return diagnose(folder)
-
-
-answer = main()
+answer = diagnose(folder)
 print(answer.sentence)
 for name, probability in list(answer.probabilities.items())[:3]:
     print(f"{probability:5.0%}  {name}")
 
 # %%
-# The error of every record, before and after; squares are records that were not fitted.
+# The error of every record, before and after; squares are held-out records.
 figure, axes = plt.subplots(figsize=(9, 4))
 for i, result in enumerate(answer.records):
     marker = "s" if result.split == "heldout" else "o"

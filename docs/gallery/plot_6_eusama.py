@@ -2,7 +2,9 @@
 A EUSAMA plate bench
 ====================
 
-The rear corner on a plate that shakes it with 6 mm from 25 Hz down: the smallest wheel load over the static one is the EUSAMA figure.
+The rear corner on a plate that shakes it with 6 mm from 25 Hz down: the smallest force on the plate, while it
+coasts to rest, over the static one is the EUSAMA figure. Beside it stands that of a damper whose force is scaled
+by the oil level.
 """
 
 import matplotlib.pyplot as plt
@@ -23,11 +25,9 @@ for state, label, colour in ((INTACT, "intact", "0.35"), (Condition(0.5, 0), "50
     run = on_plate(state.applied(damper), corner, motion)
     shaken.plot(run.time, 100 * run.wheel_load / static_load(corner), color=colour, label=label, lw=0.5)
 shaken.set(xlabel="time on the plate [s]", ylabel="wheel load over static load [%]")
-for line in shaken.legend(loc="lower left").get_lines():
+for line in shaken.legend(loc="upper left", bbox_to_anchor=(0.2, 1.0)).get_lines():
     line.set_linewidth(2)
 
-# %%
-# The figure over the oil level, beside that of the oil level as a scalar factor.
 levels = np.array([1.0, 0.8, 0.6, 0.5, 0.4, 0.3])
 states = [Condition(level, int(level == 1.0)) for level in levels]
 entries = inspected(damper, car, states, ("eusama",))
@@ -38,4 +38,5 @@ verdicts.set(xlabel="oil [%]", ylabel="EUSAMA [%]")
 verdicts.legend()
 
 # %%
-# The bench sees nothing before the force collapses on it, see :doc:`/inspection`. Limits differ between sources; 40 % is used here.
+# The bench sees nothing before the force collapses on it, see :doc:`/inspection`. Limits differ between sources;
+# 40 % is used here.

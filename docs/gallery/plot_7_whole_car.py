@@ -2,8 +2,8 @@
 A ride of the whole car
 =======================
 
-Four dampers, each with its own state, on two road tracks of class D at 80 km/h: the rear dampers have half of their oil. Inertias,
-roll centres, anti-roll bars and tyres are those of other cars or *assumed*, see :doc:`/car`.
+Four dampers, each with its own state, on two road tracks of class D at 80 km/h: the rear dampers have half of
+their oil. Inertias, roll centres, anti-roll bars and tyres are those of other cars or *assumed*, see :doc:`/car`.
 """
 
 import matplotlib.pyplot as plt

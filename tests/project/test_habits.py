@@ -40,7 +40,7 @@ def test_citation_names_the_paper() -> None:
 
 def test_the_workflow_is_valid() -> None:
     workflow = load(".github/workflows/ci.yml")
-    assert set(workflow["jobs"]) == {"test", "platforms", "fmu", "translation", "release", "nightly"}
+    assert set(workflow["jobs"]) == {"test", "platforms", "fmu", "docs", "translation", "release", "nightly"}
     for name, job in workflow["jobs"].items():
         assert job["runs-on"], name
         for step in job["steps"]:
