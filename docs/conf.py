@@ -22,7 +22,7 @@ extensions = [
     "mathml",
     "records",
 ]
-exclude_patterns = ["_ext", "gallery"]
+exclude_patterns = ["_ext", "_templates", "gallery"]
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 4
@@ -46,10 +46,13 @@ sphinx_gallery_conf = {
     "plot_gallery": True,
     "remove_config_comments": True,
     "reset_modules": ("matplotlib", "gallery_style.reset"),
+    "notebook_extensions": {},
     "show_memory": False,
     "show_signature": False,
     "write_computation_times": False,
 }
+
+templates_path = ["_templates"]
 
 html_theme = "furo"
 html_title = f"twintube {version}"

@@ -7,7 +7,7 @@ from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.application import Sphinx
 
-WORD = re.compile(r"_\{(\w{2,})\}")  # indices of several letters are upright
+WORD = re.compile(r"_\{([\w,]{2,})\}")  # indices of several letters are upright
 
 
 def mathml(latex: str, *, block: bool = False) -> str:

@@ -10,7 +10,7 @@ from pathlib import Path
 KERNEL = Path(__file__).parents[2] / "src" / "twintube" / "core" / "kernel"
 FILES = ("forces", "prepare", "rebound", "compression", "step")
 TAG = re.compile(r"Eq\. (\d+(?:-\d+)?(?:(?:, | and )\d+(?:-\d+)?)*)")
-LONGEST = 8  # lines of an excerpt
+LONGEST = 12  # lines of an excerpt
 
 
 @dataclass(frozen=True)

@@ -33,20 +33,6 @@ def test_equations_1_to_41_are_tagged_in_the_kernel() -> None:
     assert set(tags()) == set(range(1, 42))
 
 
-def test_readme_names_the_files_of_every_equation() -> None:
-    tagged = tags()
-    named: dict[int, set[str]] = {}
-    for line in (ROOT / "README.md").read_text(encoding="utf-8").splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) == 3 and re.fullmatch(r"[\d, –-]+", cells[0]):
-            for number in expanded(cells[0].replace("–", "-")):
-                named.setdefault(number, set()).update(re.findall(r"`(?:kernel/)?(\w+\.py)`", cells[2]))
-    assert set(named) == set(range(1, 42))
-    for number, files in named.items():
-        assert files <= tagged[number], number
-        assert files, number
-
-
 def test_table_of_variables_is_current() -> None:
     table = CliRunner().invoke(app, ["variables"]).output
     assert table in (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
