@@ -5,14 +5,25 @@ import re
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
+from numpy.typing import ArrayLike
 from sphinx.application import Sphinx
+from sphinx.util.typing import stringify_annotation
 
-ANY_ARRAY = re.compile(  # as Python writes out `twintube.arrays.Array`
-    r"(?:numpy\.)?ndarray\[tuple\[(?:typing\.)?Any, \.\.\.\], "
-    r"(?:numpy\.)?dtype\[(?:numpy\.)?floating(?:\[(?:typing\.)?Any\])?\]\]"
-)
+from twintube.arrays import Array
+
+MODES = ("fully-qualified-except-typing", "fully-qualified", "smart")
+NAMED = {"Array": Array, "ArrayLike": ArrayLike}
+# Types as autodoc writes them out, and the names that the code uses.
+WRITTEN = {stringify_annotation(kind, mode): name for name, kind in NAMED.items() for mode in MODES}
 PREFIX = re.compile(r"\b(?:typing|collections\.abc|twintube(?:\.\w+)*)\.(?=[A-Z])")
 COMMENT = re.compile(r"^    (\w+):[^#\n]*(?:#\s*(.*))?$", re.MULTILINE)
+
+
+def named(text: str) -> str:
+    """The types of arrays by their names."""
+    for written, name in WRITTEN.items():
+        text = text.replace(written, name)
+    return text
 
 
 def add_fields(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
@@ -24,8 +35,7 @@ def add_fields(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines:
     for item in fields(obj):
         value = "" if item.default is MISSING else f", default ``{item.default!r}``"
         comment = item.metadata.get("description") or comments.get(item.name, "")
-        kind = item.type.__name__ if isinstance(item.type, type) else ANY_ARRAY.sub("Array", str(item.type))
-        kind = PREFIX.sub("", kind)
+        kind = PREFIX.sub("", named(item.type if isinstance(item.type, str) else stringify_annotation(item.type)))
         lines.append(f"* ``{item.name}`` (``{kind}``{value}){': ' + comment if comment else ''}")
     lines.append("")
 
@@ -36,7 +46,7 @@ def shorten(
     """Write arrays as `Array`; a record says its fields in a list of their own."""
     if what == "class" and is_dataclass(obj):
         return "", returns
-    return tuple(text and ANY_ARRAY.sub("Array", text) for text in (signature, returns))  # type: ignore[return-value]
+    return signature and named(signature), returns and named(returns)
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -190,5 +190,6 @@ def test_the_site_is_built_without_warning_and_its_links_lead_somewhere(tmp_path
                 continue
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             assert target.exists(), f"{path.name}: {link}"
-            if parts.fragment and target in read:
+            # From the code of a name that another package passes on, viewcode leads to the page of the name only.
+            if parts.fragment and target in read and "_modules" not in path.parts:
                 assert unquote(parts.fragment) in read[target].anchors, f"{path.name}: {link}"
