@@ -62,7 +62,7 @@ def excerpt_end(file: str, line: int) -> int:
         if not after.strip() or indent(after) < indent(first) or (is_comment and code_began):
             break
         end += 1
-    return end
+    return end - lines[end - 1].endswith(":")
 
 
 def docstrings(file: str) -> dict[int, int]:
