@@ -15,7 +15,7 @@ from twintube.core.effects import EFFECTS, Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper, load, names
 from twintube.dampers.closures import CLOSURES, DEFAULT, LETTER, has_own
-from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
+from twintube.dampers.variants import NO_CAVITATION, NO_FOAM, scalar_factor
 from twintube.fmu.table import variables
 from twintube.rig.plan import BLOCKS_17, amplitude
 from twintube.rig.signals import AMPLITUDE, OSCILLATIONS, PRECONDITIONING, V_PRECONDITIONING
@@ -81,7 +81,7 @@ def common() -> dict[str, Any]:
         "return": DEFAULT,
         "noFoam": named(NO_FOAM),
         "noCavitation": named(NO_CAVITATION),
-        "wear": [NAMES["wear_re"], NAMES["wear_co"]],
+        "wear": [NAMES[name] for name in scalar_factor(1.0) if name != "oil_level"],
         "effects": {name: effect_data(name) for name in STRENGTHS},
         "rig": {
             "velocities": BLOCKS_17,
