@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations e10ecb5c1199774f, body 8054a67ab87f4f2d; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 0b330ecdcbe4bb3e, body f427161af96be272; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -1433,6 +1433,10 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
     }
     /* V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13). */
     kept = d->A_1 + freed - piston;
+    if ((s->V1_gas <= 0.0) && (kept < 0.0))
+    {
+        kept = 0.0;
+    }
     foamable = gas + p->cavitation_foams * freed;
     if ((foaming > 0.0) && (p->S_PV > 0.0) && (foamable > 0.0) && ((s->V1_oil > 0.0) || (oil > 0.0)))
     {
@@ -1451,10 +1455,6 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
         kept -= frothed;
         f->V1_foam += frothed + drawn;
         f->V1_foam_oil += drawn;
-    }
-    if ((s->V1_gas <= 0.0) && (kept < 0.0))
-    {
-        kept = 0.0;
     }
     f->V1_oil = oil;
     f->V1_gas = kept;

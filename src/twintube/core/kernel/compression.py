@@ -63,6 +63,8 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
 
     # V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13).
     kept = d.A_1 + freed - piston
+    if s.V1_gas <= 0.0 and kept < 0.0:
+        kept = 0.0  # rounding of a sliding flow
     foamable = gas + p.cavitation_foams * freed
     if foaming > 0.0 and p.S_PV > 0.0 and foamable > 0.0 and (s.V1_oil > 0.0 or oil > 0.0):
         frothed = foaming * p.S_PV * foamable
@@ -76,8 +78,6 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
         kept -= frothed
         f.V1_foam += frothed + drawn
         f.V1_foam_oil += drawn
-    if s.V1_gas <= 0.0 and kept < 0.0:
-        kept = 0.0  # rounding of a sliding flow
     f.V1_oil = oil
     f.V1_gas = kept
 
