@@ -90,7 +90,7 @@ def test_a_car_that_nothing_holds_on_the_road_is_a_line(tmp_path: Path) -> None:
     )
     assert run.exit_code == 2
     assert run.output.startswith("error: ride at 200 km/h on E, 100% oil: time ") and run.output.count("\n") == 1
-    assert "stroke must stay within" in run.output
+    assert "damper: must stay within" in run.output
 
 
 @pytest.mark.parametrize(

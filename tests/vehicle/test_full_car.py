@@ -248,8 +248,10 @@ def test_bad_input_is_named(passat: FullCar, tmp_path: Path) -> None:
         ride(passat, 0.0, 10.0, Road("C"))
     with pytest.raises(InputError, match="worn middle: must be one of all, front"):
         dampers_of(load("SA7"), load("SA8"), "middle", Case("ride", 50.0, "C", 1))
-    with pytest.raises(InputError, match=r"time .* s: a damper's stroke must stay within"):
-        drive_car(passat, np.vstack([np.linspace(0, 3.0, 2000)] * 2), SPACING, np.zeros((2000, 3)), 20.0)
+    with pytest.raises(InputError, match=r"time .* s: stroke -?0.* m of the front left damper: must stay within 0.115 m"):
+        drive_car(passat, np.tile(np.repeat([0.0, 2.0], 1000), (2, 1)), SPACING, np.zeros((2000, 3)), 20.0)
+    with pytest.raises(InputError, match=r"time .* s: the road ends: the car must stay on its .* m"):
+        drive_car(passat, np.zeros((2, 500)), SPACING, np.zeros((20000, 3)), 20.0)
     text = (FOLDER / "passat_b8.toml").read_text()
     broken = tmp_path / "car.toml"
     broken.write_text(text.replace('wheelbase = "2.79 m"', 'wheelbase = "2790 m"').replace("support = 0.05\n", ""))

@@ -77,7 +77,9 @@ def braking(car: FullCar, speed_kmh: float, road: Road, *, grip: float = 1.0, dt
 def cornering(car: FullCar, speed_kmh: float, road: Road, *, grip: float = 1.0, dt: float = DT) -> CarRun:
     """Constant speed with evenly growing steer angle, to the left, from APPROACH on (ISO 13674-like); raises InputError."""
     speed = checked_speed(speed_kmh)
-    most = np.degrees(car.body.wheelbase * MOST_LATERAL / speed**2) + MOST_SLIP
+    # What the steering gives way by: the outer wheel carries at most twice its load.
+    gives = max(2.0 * wheel.steer_compliance * wheel.weight for wheel in car.wheels)
+    most = np.degrees(car.body.wheelbase * MOST_LATERAL / speed**2 + gives) + MOST_SLIP
     seconds = APPROACH + float(min(most, MOST_STEER)) / STEER_RATE
     time = np.arange(round(seconds / dt)) * dt
     inputs = np.zeros((len(time), 3))

@@ -130,17 +130,27 @@ def drive_car(
     before = s["work"].copy()
     body, wheels = started(car, speed)
     out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
+    moved = together(wheels)
     done = module.run_car(
-        p, d, s, f, compiled.as_row(car.body)[0], compiled.as_row(body)[0], together(car.wheels), together(wheels),
+        p, d, s, f, compiled.as_row(car.body)[0], compiled.as_row(body)[0], together(car.wheels), moved,
         compiled.as_row(car.brakes)[0], np.array(road, dtype=float), spacing, np.array(inputs, dtype=float), grip, dt, out,
     )  # fmt: skip
     if done < len(inputs):
-        limits = ", ".join(f"{stroke_limit(row[1]):.3g}" for row in each)
+        strokes = moved["stroke"] + moved["velocity"] * dt
         raise InputError(
-            f"time {done * dt:g} s: a damper's stroke must stay within {limits} m ({', '.join(WHEELS)}) and the car on the "
-            f"{(road.shape[1] - 1) * spacing:g} m of road"
+            f"time {done * dt:g} s: {why_stopped(strokes, [stroke_limit(row[1]) for row in each], road, spacing)}"
         )
     return as_run(out, dt, before)
+
+
+def why_stopped(strokes: Array, limits: Sequence[float], road: Array, spacing: float) -> str:
+    """Why a drive ended early: a damper's stroke (4,) [m] outside its limit [m], else the end of the road."""
+    outside = [
+        f"stroke {stroke:.3g} m of the {wheel.replace('_', ' ')} damper: must stay within {limit:.3g} m"
+        for wheel, stroke, limit in zip(WHEELS, strokes, limits, strict=True)
+        if not abs(stroke) <= limit
+    ]
+    return ", ".join(outside) or f"the road ends: the car must stay on its {(road.shape[1] - 1) * spacing:g} m"
 
 
 def as_run(out: Array, dt: float, before: Array) -> CarRun:
