@@ -58,6 +58,7 @@ html_theme = "furo"
 html_title = f"twintube {version}"
 html_static_path = ["_static"]
 html_css_files = ["style.css"]
+html_js_files = ["access.js"]
 html_math_renderer = "mathml"
 html_show_copyright = False
 html_show_sphinx = False

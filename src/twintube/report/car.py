@@ -44,7 +44,7 @@ def picture(rows: Sequence[Mapping[str, Any]]) -> bytes:
         ax.set_ylabel(f"{unit}\nagainst intact [%]", fontsize=8.5)
     for ax in axes.flat[len(shown) :]:
         ax.set_visible(False)
-    legend_above(figure, *axes.flat[: len(shown)])
+    legend_above(figure, *axes.flat[: len(shown)], columns=2 * columns)
     return png(figure)
 
 

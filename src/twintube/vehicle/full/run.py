@@ -130,27 +130,28 @@ def drive_car(
     before = s["work"].copy()
     body, wheels = started(car, speed)
     out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
-    moved = together(wheels)
+    moving, turning = compiled.as_row(body), together(wheels)
     done = module.run_car(
-        p, d, s, f, compiled.as_row(car.body)[0], compiled.as_row(body)[0], together(car.wheels), moved,
+        p, d, s, f, compiled.as_row(car.body)[0], moving[0], together(car.wheels), turning,
         compiled.as_row(car.brakes)[0], np.array(road, dtype=float), spacing, np.array(inputs, dtype=float), grip, dt, out,
     )  # fmt: skip
     if done < len(inputs):
-        strokes = moved["stroke"] + moved["velocity"] * dt
-        raise InputError(
-            f"time {done * dt:g} s: {why_stopped(strokes, [stroke_limit(row[1]) for row in each], road, spacing)}"
-        )
+        strokes, limits = turning["stroke"] + turning["velocity"] * dt, [stroke_limit(row[1]) for row in each]
+        axles = moving["way"][0] + np.array([wheel.x for wheel in car.wheels]) + car.body.x_rear
+        raise InputError(f"time {done * dt:g} s: {why_stopped(strokes, limits, axles, (road.shape[1] - 1) * spacing)}")
     return as_run(out, dt, before)
 
 
-def why_stopped(strokes: Array, limits: Sequence[float], road: Array, spacing: float) -> str:
-    """Why a drive ended early: a damper's stroke (4,) [m] outside its limit [m], else the end of the road."""
+def why_stopped(strokes: Array, limits: Sequence[float], axles: Array, length: float) -> str:
+    """Why a drive ended early, by the dampers' strokes (4,) [m] and limits, and the wheels' places (4,) [m] on the road."""
+    if not (axles.min() >= 0.0 and axles.max() < length):
+        return f"the road ends: the car must stay on its {length:g} m"
     outside = [
         f"stroke {stroke:.3g} m of the {wheel.replace('_', ' ')} damper: must stay within {limit:.3g} m"
         for wheel, stroke, limit in zip(WHEELS, strokes, limits, strict=True)
         if not abs(stroke) <= limit
     ]
-    return ", ".join(outside) or f"the road ends: the car must stay on its {(road.shape[1] - 1) * spacing:g} m"
+    return ", ".join(outside) or "a damper's step could not be finished"
 
 
 def as_run(out: Array, dt: float, before: Array) -> CarRun:

@@ -1,0 +1,7 @@
+// What the theme leaves out for keyboards and screen readers (axe: aria-required-attr, scrollable-region-focusable).
+addEventListener("load", () => {
+  document.querySelectorAll("[role=heading]:not([aria-level])").forEach(part => part.setAttribute("aria-level", "2"));
+  document.querySelectorAll("pre, table, div.math, .table-wrapper").forEach(part => {
+    if (part.scrollWidth > part.clientWidth) part.tabIndex = 0;
+  });
+});
