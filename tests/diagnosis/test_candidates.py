@@ -58,3 +58,21 @@ def test_a_strength_that_does_not_help_stays_neutral() -> None:
     assert "wear_re" in {f.name for f in wear.joined(point)}
     both = small.problem(small.records(lambda r: r.force - 0.1 * r.fluid))
     assert {"wear_re", "wear_co"} <= set(best_start([both], wear, [{}])[1])
+
+
+def test_the_fill_of_a_single_state_may_be_wrong() -> None:
+    """At 70 % by the records stands a damper with 66 %; the other fill is as stated."""
+    runs = [(level, small.run(v, level, slow=2)) for level in (0.56, 0.66) for v in (0.3, 0.6, 1.0)]
+    records = [
+        replace(small.record(r, seed=i), oil_level=0.70 if level == 0.66 else level) for i, (level, r) in enumerate(runs)
+    ]
+    problem = small.problem([*small.records(), *records])
+    fill = named(problem, "oil_level_error")
+    _, point = best_start([problem], fill, [{}])
+    assert set(point) == {"fill_of_state_70"}, "a single strength acts"
+    free = [replace(f, start=point.get(f.name, f.start)) for f in fill.joined(point)]
+    best = problem.fit([*nuisances(problem), *free])
+    assert best.values["fill_of_state_70"] == pytest.approx(-0.04, abs=0.002)
+    assert float(np.mean(best.misfit)) < 1.5
+    shared = small.problem([*small.records(), *(r for r in records if r.oil_level == 0.56)])
+    assert [f.name for f in named(shared, "oil_level_error").free] == ["level_error"], "a single degraded state has no other"

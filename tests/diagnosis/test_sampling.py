@@ -12,8 +12,9 @@ from twintube.core import effects
 from twintube.data import Record
 from twintube.diagnosis.candidates import period
 from twintube.diagnosis.edges import with_edges, with_noise
-from twintube.diagnosis.fit import SAMPLING, Problem
+from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.sampling import with_sampling
+from twintube.diagnosis.seen import SAMPLING
 
 SPEEDS = (0.3, 0.6, 1.0)
 COARSE = 40  # samples per oscillation

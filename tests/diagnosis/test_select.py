@@ -83,7 +83,7 @@ def test_a_cause_and_its_start_are_those_of_the_truth(selector: Selector) -> Non
     assert {name: np.sign(x) for name, x in point.items() if x} == {"wear_re": -1.0, "wear_co": -1.0}
     worn = selector.extended(selector.start, "valve_wear", point)
     assert selector.acts(worn) and selector.worth(selector.start, worn)
-    values = selector.refitted(worn).values
+    values = selector.refitted(worn, thorough=True).values
     assert (values["wear_re"], values["wear_co"]) == (pytest.approx(-0.1, abs=0.01), pytest.approx(-0.05, abs=0.01))
     late = selector.extended(selector.start, "channel_delay")
     assert not (selector.acts(late) and selector.worth(selector.start, late))

@@ -5,8 +5,10 @@ import pytest
 
 from twintube.arrays import Array
 from twintube.core import effects
+from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import load
 from twintube.data.condition import is_intact
+from twintube.engine import compiled
 from twintube.fitting.intervals import impulse, means
 from twintube.fitting.least_squares import STEP, bounded, derivatives, pulls, sandwich
 from twintube.fitting.parameters import DEGRADATION, FASTER, ranges
@@ -89,3 +91,24 @@ def test_the_gas_force_goes_with_the_gauge_pressure_and_its_stiffness_with_the_a
     assert stiffness == pytest.approx(3.0)
     assert force > 3.0
     assert gas_factors(damper, 0.0) == pytest.approx((0.0, P_ATM / (given + P_ATM)))
+
+
+def test_a_record_does_not_depend_on_what_stands_before_it() -> None:
+    """It begins at rest, with the scratch values of the last step before it, which may be next to nothing."""
+    damper = load("SA8").with_(tau_build=5e-4, gas_preload=0, oil_level=0.5)
+    time = np.linspace(0.0, 1.0, 41)
+    stroke, velocity = -0.04 * np.cos(6.0 * time), 0.24 * np.sin(6.0 * time)
+    states, starts, samples = np.array([[0.5, 0.0, 1.0, 1.0]]), np.array([0, 41]), np.ones(41, dtype=np.int64)
+    forces = []
+    for left in (1.0, 1e-310):
+        rows = [
+            compiled.as_row(record)[0] for record in (damper.parameters, blank(Derived), blank(effects.State), blank(Flow))
+        ]
+        rows[3]["k_degr"] = left
+        force, point, work = np.empty(41), np.empty(41), np.empty(41)
+        compiled.module().run_means(
+            *rows, states, time, stroke, velocity, np.zeros(41), starts, 4, samples, force, point, work
+        )
+        forces.append(np.concatenate([force, point, work]))
+    assert np.isfinite(forces[0]).all()
+    assert np.array_equal(*forces)

@@ -31,7 +31,8 @@ def answer(
 ) -> Diagnosis:
     """The diagnosis from the selection, the signatures `seen` in the records and the faults that were put right."""
     options = (selection.start, selection.recalibrated, selection.final)
-    refitted = [selector.refitted(option) for option in options]
+    # What is not chosen is only shown beside it.
+    refitted = [selector.refitted(option, thorough=option is selection.final) for option in options]
     extended = refitted[-1]
     fitted = simulated(selector.whole, "fit", [fit.values for fit in refitted])
     held = predictions(selector, options)
@@ -42,7 +43,9 @@ def answer(
     known = selector.candidates
     shares = gains(fitted), gains(held)
     gain = Gain(whole(shares[0]), whole(shares[1]), bootstrap(shares[1]), worst(shares[1]))
-    estimates = {name: estimated(selector.whole, known[name], extended) for name in selection.chosen if name != RECALIBRATE}
+    halves = selection.final.fits
+    causes = [name for name in selection.chosen if name != RECALIBRATE]
+    estimates = {name: estimated(selector.whole, known[name], extended, halves) for name in causes}
     judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults))
     residuals = maps(records)
     attempts = tried(selector, selection)
@@ -116,12 +119,19 @@ def joined(first: RecordResult, second: RecordResult) -> RecordResult:
     return replace(first, record=replace(first.record, judged=first.record.judged | own), **arrays)
 
 
-def estimated(problem: Problem, candidate: Candidate, fit: Fit) -> dict[str, Estimate]:
-    """The parameters of a chosen cause with their intervals."""
+def estimated(problem: Problem, candidate: Candidate, fit: Fit, halves: Sequence[Fit] = ()) -> dict[str, Estimate]:
+    """The parameters of a chosen cause with their intervals.
+
+    Where a law is not quite that of the damper, records of other velocities ask for another value: an interval is not
+    narrower than the scatter of the fits of the `halves` of the records makes it.
+    """
     values = {}
     for f in candidate.joined(fit.values):
         at = [g.name for g in fit.free].index(f.name)
-        spread = RULES.interval * float(np.sqrt(max(0.0, fit.covariance[at, at])))
+        scattered = float(np.sqrt(max(0.0, fit.covariance[at, at])))
+        several = [half.values[f.name] for half in halves if f.name in half.values]
+        between = float(np.std(several, ddof=1) / np.sqrt(len(several))) if len(several) > 1 else 0.0
+        spread = RULES.interval * max(scattered, between)
         value = fit.values[f.name]
         low, high = max(f.low, value - spread), min(f.high, value + spread)
         if f.neutral is not None and low <= f.neutral <= high:
@@ -153,10 +163,14 @@ def faulty(fault: Fault, gain: Gain) -> Cause:
 def damper_of(damper: Damper, fit: Fit, names: Sequence[str], known: Mapping[str, Candidate]) -> Damper:
     """The parameter set with recalibrated parameters and the effects that are named, not the faults of the measurement."""
     changes = {name: fit.values[name] for name in DEGRADATION if RECALIBRATE in names and name in fit.values}
+    acting = []
     for name in names:
         if name in known and not known[name].fault:
-            changes |= {f.name: fit.values[f.name] for f in known[name].joined(fit.values)}
-    origin = {name: "added by diagnosis" for name in names if name != RECALIBRATE and name in effects.EFFECTS}
+            # The true fill of a single state belongs to its records.
+            own = {f.name: fit.values[f.name] for f in known[name].joined(fit.values) if hasattr(damper.parameters, f.name)}
+            changes |= own
+            acting += [name] if own else []
+    origin = {name: "added by diagnosis" for name in acting if name in effects.EFFECTS}
     origin |= {group: "recalibrated by diagnosis" for group in ("degradation", "foam", "cavitation") if RECALIBRATE in names}
     changed = damper.with_(**changes) if changes else damper
     return replace(changed, sources=dict(damper.sources) | origin)

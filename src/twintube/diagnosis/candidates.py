@@ -3,14 +3,15 @@
 import itertools
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from twintube.core import effects
 from twintube.core.hooks import Effect, sources
-from twintube.diagnosis.fit import BENDS, CLOCK, DELAY, STROKE_GAIN, Free, Problem
+from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.seen import BENDS, CLOCK, DELAY, STROKE_GAIN
 from twintube.fitting.parameters import DEGRADATION, ranges
 
 FAULT_TITLES = {
@@ -23,12 +24,13 @@ FAULT_TITLES = {
 }
 
 
-# All of them make the force late.
-LATE = (
-    *(name for name, text in sources().items() if re.search(rf"^def {name}_(force|transition)\(", text, re.M)),
-    DELAY,
-    CLOCK,
-)
+def hooked(hooks: str) -> tuple[str, ...]:
+    """The effects that have one of some hooks, joined by |."""
+    return tuple(name for name, text in sources().items() if re.search(rf"^def {name}_({hooks})\(", text, re.M))
+
+
+LATE = (*hooked("force|transition"), DELAY, CLOCK)  # all of them make the force late
+FILLED = hooked("level")  # another fill than the recorded one, in all states alike or in one
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
 ALIKE = (LATE, FRICTION)  # of each a second only mends the formulation of the first
 
@@ -47,6 +49,7 @@ class Candidate:
     decides: str  # the measurement that tells it from its look-alikes
     least: Mapping[str, float]  # strengths up to which every measurement has it
     laws: tuple[str, ...] = ()  # parameters whose lowest value is a law of its own
+    single: bool = False  # its strengths exclude each other
 
     def joined(self, values: Mapping[str, float]) -> tuple[Free, ...]:
         """Its free parameters in a model that has `values`: strengths that are not among them stay neutral."""
@@ -111,10 +114,25 @@ def candidates(problem: Problem) -> list[Candidate]:
                 usual = {"s": time, "N": RULES.small_force * peak}
                 least[item.name] = usual.get(meta["unit"], RULES.acts * (high - low))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}
+        fills = problem.fills() if effect.name in FILLED else {}
+        for name in fills if len(fills) > 1 else ():
+            like = free[0]
+            free.append(replace(like, name=name))
+            least[name], units[name] = least[like.name], units[like.name]
         laws = tuple(item.name for item in effect.parameters if item.metadata["role"] == "law" and item.name not in unknown)
         several.append(
             Candidate(
-                effect.name, effect.title, effect.cause, tuple(free), tuple(least), units, False, effect.decides, least, laws
+                effect.name,
+                effect.title,
+                effect.cause,
+                tuple(free),
+                tuple(least),
+                units,
+                False,
+                effect.decides,
+                least,
+                laws,
+                single=bool(fills),
             )
         )
     return [*several, *faults(problem)]
@@ -232,4 +250,6 @@ def best_start(
         point, low = points[int(np.argmin(scores))], min(scores)
         left = [name for name in left if point[name] == best[name]]
         best = point
+        if candidate.single:
+            break
     return float(low), {name: x for name, x in best.items() if name not in left}

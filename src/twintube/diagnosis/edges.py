@@ -13,9 +13,10 @@ from scipy.interpolate import PPoly, make_interp_spline
 
 from twintube.arrays import Array
 from twintube.diagnosis.candidates import period
-from twintube.diagnosis.fit import DELAY, SAMPLING, STROKE_GAIN, Problem
+from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.prepare import SCATTER, PreparedRecord, noise
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.seen import DELAY, SAMPLING, STROKE_GAIN
 from twintube.fitting.simulation import MARGIN
 
 

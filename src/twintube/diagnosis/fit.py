@@ -1,34 +1,18 @@
 """The model against all records at once: residuals for any parameters of damper and measurement, and their least squares."""
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, fields
-from functools import lru_cache
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import lsq_linear
 
 from twintube.arrays import Array
-from twintube.core import effects
 from twintube.dampers import Damper
 from twintube.diagnosis.prepare import PreparedRecord
 from twintube.diagnosis.rules import RULES
-from twintube.fitting.averaging import averaged_means
+from twintube.diagnosis.seen import ADDED, DELAY, MEASUREMENT, REMEMBERED, SeenRecords
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
-from twintube.fitting.simulation import SimulatedRecords
-
-# What a sample holds beside the force at its time: of the mean over its interval, and of the bends of the force a sample
-# ahead, about it and before, as a filter gives them. None of them is late: the delay is a parameter of its own.
-BENDS = {"bend_ahead": 1, "bend_about": 0, "bend_before": -1}
-SAMPLING = ("sample_mean", *BENDS)
-LINEAR = ("force_offset", *SAMPLING)  # the force is linear in them, and every measurement has them
-# What the measurement adds to the force.
-ADDED = ("force_offset", "force_gain", "zero_drift", *SAMPLING)
-# What it changes of the motion under which the force is seen; a simulation of its own for each value.
-STROKE_GAIN, DELAY, CLOCK = "stroke_gain", "channel_delay", "clock_error"
-MOTION = (STROKE_GAIN, DELAY, CLOCK)
-MEASUREMENT = (*ADDED, *MOTION)
-REMEMBERED = 32  # latest simulations
 
 
 @dataclass(frozen=True)
@@ -64,7 +48,7 @@ class Fit:
     covariance: Array  # (k, k), robust against errors that the samples of a record share
 
 
-class Problem(SimulatedRecords):
+class Problem(SeenRecords):
     """All records laid end to end; `drift` [N] is how far the zero of the load cell differs from record to record.
 
     Unlike the objective of an identification it weights each interval by its noise and knows the measuring channels. Its
@@ -79,25 +63,15 @@ class Problem(SimulatedRecords):
         tolerance: float = 0.0,
         usual: Mapping[str, float] | None = None,
     ) -> None:
-        super().__init__(damper, records, parts=RULES.steps_per_interval, failed=RULES.failed_force)
-        self.records = list(records)
+        super().__init__(damper, records, usual)
         self.drift, self.tolerance = drift, tolerance
-        self.usual = dict(usual or {})  # values of the measurement where no others are given, see sampling.py
         self.measured = np.concatenate([r.force for r in records])
-        lengths = np.diff(self.starts)
-        first, last = np.repeat(self.starts[:-1], lengths), np.repeat(self.starts[1:] - 1, lengths)
-        self.shifted = {by: np.clip(np.arange(len(self.z)) + by, first, last) for by in range(-2, 3)}
-        self.elapsed = np.concatenate([r.time - r.begin for r in records])
         model = max(RULES.model_error, tolerance)
         self.sigma = np.concatenate([np.sqrt(r.noise**2 + r.edges**2 + (model * r.peak) ** 2) for r in records])
-        used = np.concatenate([r.judged for r in records])
-        self.weight = np.where(used, 1 / self.sigma, 0.0)
+        self.weight = np.where(self.used, 1 / self.sigma, 0.0)
         self.power = np.add.reduceat(self.weight**2, self.starts[:-1])  # (r,) [1/N2], of a record's zero
         self.share: Array = np.ones(len(self.z))
-        self.counts = np.add.reduceat(used.astype(np.int64), self.starts[:-1])
-        self.known = {item.name for item in fields(effects.Parameters)}
-        # The measurement's parameters need no simulation of their own.
-        self.simulated: Callable[[tuple[tuple[str, float], ...]], tuple[Array, Array]] = lru_cache(REMEMBERED)(self.simulate)
+        self.counts = np.add.reduceat(self.used.astype(np.int64), self.starts[:-1])
 
     def with_records(self, records: Sequence[PreparedRecord]) -> "Problem":
         """The damper with other records."""
@@ -129,58 +103,6 @@ class Problem(SimulatedRecords):
         other = copy(self)
         other.share = self.spread(1 / np.sqrt(np.maximum(1.0, misfit)))
         return other
-
-    def damping(self, values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
-        """The values that need a simulation: those of the damper's parameters and of the motion that it sees."""
-        values = {**self.usual, **values}
-        named = {n: x for n, x in values.items() if n in self.known}
-        named |= {
-            n: values[n]
-            for n, neutral in ((STROKE_GAIN, 1.0), (DELAY, 0.0), (CLOCK, 0.0))
-            if values.get(n, neutral) != neutral
-        }
-        return tuple(sorted(named.items()))
-
-    def simulate(self, changes: Sequence[tuple[str, float]]) -> tuple[Array, Array]:
-        """Mean forces over the intervals and those of the samples alone, both (n,) [N], with values changed."""
-        values = dict(changes)
-        gain, delay, clock = (values.pop(name, x) for name, x in ((STROKE_GAIN, 1.0), (DELAY, 0.0), (CLOCK, 0.0)))
-        z, v = self.z, self.v
-        if delay or clock:
-            z, v = (np.concatenate(some) for some in zip(*(r.moved(delay, clock) for r in self.records), strict=True))
-        force, point, _ = self.sampled(self.rows(), values.items(), (z / gain, v / gain))
-        force = self.averaged_samples(force)
-        for record, a, b in zip(self.records, self.starts[:-1], self.starts[1:], strict=True):
-            for some in (force, point) if record.averaged else ():
-                some[a:b] = averaged_means(record.time, some[a:b], record.averaged)
-        return force, point
-
-    def averaged_samples(self, force: Array) -> Array:
-        """Mean forces (n,) [N] of samples that are means about their times: they reach half a sample beyond an interval."""
-        before, after = np.roll(force, 1), np.roll(force, -1)
-        inside = (self.weight > 0) & (np.roll(self.weight, 1) > 0) & (np.roll(self.weight, -1) > 0)
-        wider = (before - 2.0 * force + after) / (4.0 * np.maximum(self.samples, 1))
-        return np.asarray(force + np.where(inside, wider, 0.0))
-
-    def forces(self, values: Mapping[str, float]) -> Array:
-        """Predicted mean forces (n,) [N], measurement included."""
-        force, point = self.simulated(self.damping(values))
-        values = {**self.usual, **values}
-        seen = point + sum(values[name] * part for name, part in self.parts_of_samples(force, point, values).items())
-        zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * self.elapsed
-        return np.asarray(values.get("force_gain", 1.0) * seen + zero)
-
-    def parts_of_samples(self, force: Array, point: Array, names: Container[str] = SAMPLING) -> dict[str, Array]:
-        """What each of SAMPLING that is among `names` adds to the forces of samples that are points (n,) [N].
-
-        An anti-alias filter near the sampling rate reaches over some samples; of an interval of many it changes little.
-        """
-        parts: dict[str, Array] = {"sample_mean": force - point} if "sample_mean" in names else {}
-        for name, by in BENDS.items():
-            if name in names:
-                after, about, before = (force[self.shifted[by + side]] for side in (1, 0, -1))
-                parts[name] = (after - 2.0 * about + before) / np.maximum(self.samples, 1) ** 2
-        return parts
 
     def errors(self, values: Mapping[str, float]) -> Array:
         """Simulated less measured force (n,) [N]."""
@@ -263,8 +185,8 @@ class Problem(SimulatedRecords):
         """Mean squared weighted error (r,) per record."""
         return np.asarray(np.add.reduceat(residual**2, self.starts[:-1]) / self.counts)
 
-    def fit(self, free: Sequence[Free]) -> Fit:
-        """Least squares for the free parameters, from their starts."""
+    def fit(self, free: Sequence[Free], *, thorough: bool = True) -> Fit:
+        """Least squares for the free parameters, from their starts; `thorough` seeks a better optimum where forces step."""
         free = tuple(free)
         start, width, low = (np.array([getattr(f, name) for f in free]) for name in ("start", "width", "low"))
 
@@ -283,7 +205,7 @@ class Problem(SimulatedRecords):
 
         if free:
             u, cost = bounded(errors, slopes, u0, RULES.evaluations, RULES.fit_ends)
-            better, less = self.polished(free, values, u, cost)
+            better, less = self.polished(free, values, u, cost) if thorough else (u, cost)
             if less < cost * (1.0 - RULES.fit_ends):
                 u, _ = bounded(errors, slopes, better, RULES.evaluations, RULES.fit_ends)
             covariance = self.robust(slopes(u), errors(u)) * np.outer(width, width)

@@ -6,8 +6,9 @@ import numpy as np
 
 from twintube.diagnosis.candidates import faults
 from twintube.diagnosis.faults import Fault, unit_error
-from twintube.diagnosis.fit import STROKE_GAIN, Problem
+from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.seen import STROKE_GAIN
 
 STRANGER = "odd_record"
 

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from twintube.diagnosis.candidates import nuisances
-from twintube.diagnosis.fit import DELAY, Free, Problem
+from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.seen import DELAY
 
 
 def with_sampling(problem: Problem) -> Problem:

@@ -13,9 +13,10 @@ from scipy.stats import norm
 
 from twintube.arrays import Array
 from twintube.diagnosis.candidates import ALIKE, LATE, Candidate, base, best_start, nuisances
-from twintube.diagnosis.fit import DELAY, LINEAR, MEASUREMENT, Fit, Free, Problem
+from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, removed
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.seen import DELAY, LINEAR, MEASUREMENT
 from twintube.diagnosis.zeros import differ, step
 
 RECALIBRATE = "recalibrate"
@@ -142,11 +143,11 @@ class Selector:
         frees = [self.free(names, {**fit.values, **point}) for fit in current.fits]
         return self.option(names, frees)
 
-    def refitted(self, option: Option) -> Fit:
+    def refitted(self, option: Option, *, thorough: bool) -> Fit:
         """The model of an option fitted to the whole, from the better of the folds' optima."""
         starts = [self.free(option.names, fit.values) for fit in option.fits]
         costs = [float(np.sum(self.whole.shared(fit.values) ** 2)) for fit in option.fits]
-        return self.whole.fit(starts[int(np.argmin(costs))])
+        return self.whole.fit(starts[int(np.argmin(costs))], thorough=thorough)
 
     def worth(self, before: Option, after: Option) -> bool:
         """Whether an improvement of the held-out misfit is more than noise, numerics and formulation give."""

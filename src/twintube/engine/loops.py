@@ -14,6 +14,7 @@ from twintube.core.outputs import reserve_gas, total_force
 # A longer step [s] that goes less than this share of the way its velocities say is a rest, where a cubic would swing.
 REST = 0.3
 UNMOVED = 0.05
+NOTHING = 1e-30  # k_degr of no force, by which none is divided
 
 # Columns that `run_record` writes, in this order; all but the shares and `z` are in SI units of the state's fields.
 COLUMNS = (
@@ -131,6 +132,9 @@ def run_means(
         d.c_gas *= states[r, 3]
         first = starts[r]
         start(p, d, s, z[first])
+        # A step without a way and velocity keeps them: those of the record before must not reach this one.
+        f.k_degr = 1.0
+        f.k_mean = 1.0
         before = v[first]
         time = t[first]
         at = z[first]
@@ -178,7 +182,7 @@ def run_means(
                     if d.extended > 0:
                         rebound = speed > 0.0 or (speed == 0.0 and way > 0.0)
                         ended = (s.k_re if rebound else s.k_co) * effects_scale_valve(p, speed)
-                    if memory == 0 and s.k_degr > 0.0:
+                    if memory == 0 and s.k_degr > NOTHING:
                         # k_degr is the mean over the step, a sample sees the end.
                         now += (ended / s.k_degr - 1.0) * s.F_fluid
                     last = now

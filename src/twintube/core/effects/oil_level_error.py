@@ -11,9 +11,10 @@ from twintube.core.kernel.prepare import cavitate
 from twintube.core.variables import Derived, var
 
 TITLE = "The recorded fill is wrong"
-CAUSE = "The oil that was drained or filled in is not what the record says, by the same share of the volume in every state."
+CAUSE = "The oil drained or filled in is not what the records say, in every state by the same share, or in a single state."
 ABSENCE = (
-    "In every degraded state the model's force rises at another stroke than the measured one, from the first oscillation."
+    "In the degraded states, or in one, the model's force rises at another stroke than the measured one, from the first "
+    "oscillation."
 )
 DECIDES = "the oil weighed"
 NEEDS_TIME = False

@@ -1,0 +1,121 @@
+"""The forces as the measuring channels see them: what they add to a simulated force, and what they change of its motion."""
+
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import fields
+from functools import lru_cache
+
+import numpy as np
+
+from twintube.arrays import Array
+from twintube.core import effects
+from twintube.dampers import Damper
+from twintube.diagnosis.prepare import PreparedRecord
+from twintube.diagnosis.rules import RULES
+from twintube.fitting.averaging import averaged_means
+from twintube.fitting.simulation import SimulatedRecords
+
+# What a sample holds beside the force at its time: of the mean over its interval, and of the bends of the force a sample
+# ahead, about it and before, as a filter gives them. None of them is late: the delay is a parameter of its own.
+BENDS = {"bend_ahead": 1, "bend_about": 0, "bend_before": -1}
+SAMPLING = ("sample_mean", *BENDS)
+LINEAR = ("force_offset", *SAMPLING)  # the force is linear in them, and every measurement has them
+# What the measurement adds to the force.
+ADDED = ("force_offset", "force_gain", "zero_drift", *SAMPLING)
+# What it changes of the motion under which the force is seen; a simulation of its own for each value.
+STROKE_GAIN, DELAY, CLOCK = "stroke_gain", "channel_delay", "clock_error"
+MOTION = (STROKE_GAIN, DELAY, CLOCK)
+FILL = "fill_of_state_"  # with the per cent of a state: its true oil level beyond the recorded one
+MEASUREMENT = (*ADDED, *MOTION)
+REMEMBERED = 32  # latest simulations
+MOVED = 4  # latest delays and clocks: that of the sampling is in every model
+
+
+class SeenRecords(SimulatedRecords):
+    """Records laid end to end, and their simulated forces as they are recorded.
+
+    `usual` holds values of the measurement where no others are given, see sampling.py; `used` (n,) what is compared.
+    """
+
+    def __init__(self, damper: Damper, records: Sequence[PreparedRecord], usual: Mapping[str, float] | None = None) -> None:
+        super().__init__(damper, records, parts=RULES.steps_per_interval, failed=RULES.failed_force)
+        self.records = list(records)
+        self.usual = dict(usual or {})
+        lengths = np.diff(self.starts)
+        first, last = np.repeat(self.starts[:-1], lengths), np.repeat(self.starts[1:] - 1, lengths)
+        self.shifted = {by: np.clip(np.arange(len(self.z)) + by, first, last) for by in range(-2, 3)}
+        self.elapsed = np.concatenate([r.time - r.begin for r in records])
+        self.used = np.concatenate([r.judged for r in records])
+        self.known = {item.name for item in fields(effects.Parameters)}
+        # The measurement's parameters need no simulation of their own.
+        self.simulated: Callable[[tuple[tuple[str, float], ...]], tuple[Array, Array]] = lru_cache(REMEMBERED)(self.simulate)
+        self.moved: Callable[[float, float], tuple[Array, Array]] = lru_cache(MOVED)(self.motion_moved)
+
+    def damping(self, values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
+        """The values that need a simulation: those of the damper's parameters and of the motion that it sees."""
+        values = {**self.usual, **values}
+        named = {n: x for n, x in values.items() if n in self.known}
+        named |= {
+            n: values[n]
+            for n, neutral in ((STROKE_GAIN, 1.0), (DELAY, 0.0), (CLOCK, 0.0))
+            if values.get(n, neutral) != neutral
+        }
+        named |= {n: x for n, x in values.items() if n.startswith(FILL) and x != 0.0}
+        return tuple(sorted(named.items()))
+
+    def fills(self) -> dict[str, Array]:
+        """By the name of its error, which records (r,) have a degraded fill."""
+        levels, degraded = self.states[:, 0], self.states[:, 1] == 0
+        return {f"{FILL}{100 * x:.4g}": degraded & (levels == x) for x in np.unique(levels[degraded])}
+
+    def refilled(self, errors: Mapping[str, float]) -> Array:
+        """States (r, 4) with the errors [1] of single fills."""
+        states = self.states.copy()
+        for name, of in self.fills().items():
+            states[of, 0] = np.clip(states[of, 0] + errors.get(name, 0.0), 0.0, 1.0)
+        return states
+
+    def simulate(self, changes: Sequence[tuple[str, float]]) -> tuple[Array, Array]:
+        """Mean forces over the intervals and those of the samples alone, both (n,) [N], with values changed."""
+        values = dict(changes)
+        gain, delay, clock = (values.pop(name, x) for name, x in ((STROKE_GAIN, 1.0), (DELAY, 0.0), (CLOCK, 0.0)))
+        z, v = self.moved(delay, clock) if delay or clock else (self.z, self.v)
+        fills = {name: values.pop(name) for name in list(values) if name.startswith(FILL)}
+        states = self.refilled(fills) if fills else self.states
+        force, point, _ = self.sampled(self.rows(), values.items(), (z / gain, v / gain), states)
+        force = self.averaged_samples(force)
+        for record, a, b in zip(self.records, self.starts[:-1], self.starts[1:], strict=True):
+            for some in (force, point) if record.averaged else ():
+                some[a:b] = averaged_means(record.time, some[a:b], record.averaged)
+        return force, point
+
+    def motion_moved(self, delay: float, clock: float) -> tuple[Array, Array]:
+        """Strokes [m] and velocities [m/s] (n,) at the moments when the forces were measured."""
+        strokes, speeds = zip(*(record.moved(delay, clock) for record in self.records), strict=True)
+        return np.concatenate(strokes), np.concatenate(speeds)
+
+    def averaged_samples(self, force: Array) -> Array:
+        """Mean forces (n,) [N] of samples that are means about their times: they reach half a sample beyond an interval."""
+        before, after = np.roll(force, 1), np.roll(force, -1)
+        inside = self.used & np.roll(self.used, 1) & np.roll(self.used, -1)
+        wider = (before - 2.0 * force + after) / (4.0 * np.maximum(self.samples, 1))
+        return np.asarray(force + np.where(inside, wider, 0.0))
+
+    def forces(self, values: Mapping[str, float]) -> Array:
+        """Predicted mean forces (n,) [N], measurement included."""
+        force, point = self.simulated(self.damping(values))
+        values = {**self.usual, **values}
+        seen = point + sum(values[name] * part for name, part in self.parts_of_samples(force, point, values).items())
+        zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * self.elapsed
+        return np.asarray(values.get("force_gain", 1.0) * seen + zero)
+
+    def parts_of_samples(self, force: Array, point: Array, names: Container[str] = SAMPLING) -> dict[str, Array]:
+        """What each of SAMPLING that is among `names` adds to the forces of samples that are points (n,) [N].
+
+        An anti-alias filter near the sampling rate reaches over some samples; of an interval of many it changes little.
+        """
+        parts: dict[str, Array] = {"sample_mean": force - point} if "sample_mean" in names else {}
+        for name, by in BENDS.items():
+            if name in names:
+                after, about, before = (force[self.shifted[by + side]] for side in (1, 0, -1))
+                parts[name] = (after - 2.0 * about + before) / np.maximum(self.samples, 1) ** 2
+        return parts
