@@ -80,3 +80,12 @@ def test_a_record_of_something_else_is_named(good: list[Record], stranger: str) 
 
 def test_what_is_wrong_in_most_records_makes_none_of_them_odd(good: list[Record]) -> None:
     assert judged([replace(r, force=1.3 * r.force) for r in good])[0] is None
+
+
+def test_a_zero_of_a_good_load_cell_makes_no_slow_record_odd(good: list[Record]) -> None:
+    """3 % of a slow record's own force are less than 0.5 % of the campaign's largest."""
+    largest = max(abs(r.force).max() for r in good)
+    slow = small.record(small.run(0.02), noise=0.001, seed=9)
+    shifted = replace(slow, force=slow.force + 0.004 * largest)
+    assert 0.004 * largest > 0.02 * abs(slow.force).max()
+    assert judged([*good, shifted])[0] is None

@@ -159,6 +159,16 @@ def test_a_signature_decides_where_it_is_a_good_part_of_the_error() -> None:
     assert judged(selection(final), seen=[play], forces=(100.0, 10.5, 10.0)).verdict == "cause"
 
 
+def test_what_repeats_in_every_oscillation_is_no_cause_where_the_model_is_right_within_noise() -> None:
+    """A ring after a step of the model's own force; a line of the mains does not repeat, and counts as noise."""
+    nothing = selection(option(score=0.0), start=0.0)
+    ring = Signature("ringing", "the force rings at about 20 Hz", 20.0, repeats=True)
+    good, bad = (10.5, 10.5, 10.0), (30.0, 30.0, 10.0)
+    assert judged(nothing, seen=[ring], forces=good).verdict == "none"
+    assert judged(nothing, seen=[ring], forces=bad).verdict == "unexplained"
+    assert judged(nothing, seen=[replace(ring, repeats=False)], forces=good).verdict == "unexplained"
+
+
 def test_forces_that_were_cut_do_not_hide_a_cause_and_nothing_cut_off_is_called_good() -> None:
     cut = Signature("saturation", "the force is clipped at 1800 N", np.inf)
     assert judged(selection(option("valve_wear", score=0.0)), seen=[cut]).verdict == "cause"

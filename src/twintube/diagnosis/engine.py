@@ -20,6 +20,7 @@ from twintube.diagnosis.prepare import PreparedRecord, prepare
 from twintube.diagnosis.result import Diagnosis, Gain
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.sampling import with_sampling
+from twintube.diagnosis.saturation import saturated
 from twintube.diagnosis.select import Fold, Selector
 from twintube.diagnosis.signature import signatures
 from twintube.diagnosis.zeros import zero_change, zero_drift
@@ -52,11 +53,14 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     stepped, problem = zero_change(with_edges(with_noise(problem)))
     problem, drift = zero_drift(problem)
     problem, bare = with_history(problem)
-    problem = without_outliers(problem)
+    cut, problem = saturated(without_outliers(problem))
     remarks += [*notes, *drift, *([history_remark(bare)] if bare else [])]
     if turned is not None:
         factors = (1.0, turned.factor) if turned.channel == "stroke" else (turned.factor, 1.0)
         recorded = recorded.with_records([scaled(r, *factors) if r.name in turned.records else r for r in recorded.records])
+
+    seen = signatures(dataset.records)
+    seen += [cut] if cut is not None and all(signature.name != cut.name for signature in seen) else []
 
     def concluded(judged: Problem, odd: Fault | None = None) -> Diagnosis:
         folds, split_remarks = split(dataset.title, judged.records)
@@ -66,7 +70,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
         faults = put_right(before, recorded, judged)
         if odd is not None:
             faults[odd] = excluded_gain(recorded, judged)
-        answered = answer(dataset, judged, selector, selection, signatures(dataset.records), faults)
+        answered = answer(dataset, judged, selector, selection, seen, faults)
         return replace(answered, remarks=[*split_remarks, *remarks, *answered.remarks])
 
     before = [fault for fault in (turned, wrong, smoothed, stepped) if fault is not None]

@@ -1,6 +1,6 @@
 """Records that do not belong to the others: of another damper, setting or fill than stated, or with a fault of their own."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -15,7 +15,7 @@ STRANGER = "odd_record"
 
 def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     """The few records that the model contradicts while it explains all others, and the problem without them."""
-    odd, sure, usual = contradicting(problem)
+    odd, sure, usual, beyond = contradicting(problem)
     if not odd:
         return None, problem
     part = problem.with_records([problem.records[i] for i in odd])
@@ -24,17 +24,19 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     if not sure:  # a cause may act in some records alone, but makes none of another unit
         fault = own_unit(part, names, usual)
         return (fault, others) if fault is not None else (None, problem)
-    fault = own_fault(part, names)
+    fault = own_fault(part, names, {c.name: c.least[c.name] for c in faults(problem)})
     # A single record of another setting looks as if its gain were wrong.
     if fault is None or (len(names) == 1 and fault.effect in ("force_gain", STROKE_GAIN)):
-        fault = stranger(part, names) or fault
+        zero = RULES.small_zero * max(record.peak for record in problem.records)
+        fault = stranger(part, names, RULES.odd_little if beyond >= RULES.odd_clear else RULES.odd_force, zero) or fault
     return (fault, others) if fault is not None else (None, problem)
 
 
-def contradicting(problem: Problem) -> tuple[Sequence[int], bool, float]:
+def contradicting(problem: Problem) -> tuple[Sequence[int], bool, float, float]:
     """The numbers of the fewest records without which the model is right; none where it is right or that does not help.
 
-    Also whether that is sure, and the largest misfit of all others. What is far beyond them needs no right model.
+    Also whether that is sure, the largest misfit of all others, and how many times that these have. What is far beyond them
+    needs no right model.
     """
     misfit = problem.misfits(problem.residual({}))
     logs = problem.counts * np.log(np.maximum(RULES.least_misfit, misfit))
@@ -47,8 +49,8 @@ def contradicting(problem: Problem) -> tuple[Sequence[int], bool, float]:
         # The noise of a record that does not belong is overestimated: its error's share of the force tells, too.
         apart = share[odd].min() >= RULES.odd_apart * share[rest].max()
         if beyond >= (RULES.odd if right or apart else RULES.odd_unit):
-            return sorted(odd.tolist()), bool(right or apart or beyond >= RULES.odd_far), usual
-    return [], False, 1.0
+            return sorted(odd.tolist()), bool(right or apart or beyond >= RULES.odd_far), usual, float(beyond)
+    return [], False, 1.0, 0.0
 
 
 def shares(problem: Problem) -> list[float]:
@@ -69,8 +71,8 @@ def own_unit(part: Problem, names: tuple[str, ...], usual: float = 1.0) -> Fault
     return Fault(wrong.effect, wrong.title, of, wrong.factor, records=names)
 
 
-def own_fault(part: Problem, names: tuple[str, ...]) -> Fault | None:
-    """The fault of the measurement that explains these records, if any does."""
+def own_fault(part: Problem, names: tuple[str, ...], least: Mapping[str, float]) -> Fault | None:
+    """The fault of the measurement that explains these records, if any does that is larger than every measurement has."""
     unit = own_unit(part, names)
     if unit is not None:
         return unit
@@ -80,8 +82,10 @@ def own_fault(part: Problem, names: tuple[str, ...]) -> Fault | None:
         grid = [f.start + share * side for share in RULES.shares for side in (f.high - f.start, f.low - f.start)]
         start = min(grid, key=lambda x: float(np.sum(part.residual({f.name: x}) ** 2)))
         fit = part.fit([type(f)(f.name, start, f.low, f.high)])
-        if right(part, fit.values) and (best is None or fit.misfit.sum() < best[0]):
-            best = (fit.misfit.sum(), candidate, fit.values[f.name])
+        value = fit.values[f.name]
+        acts = abs(value - f.start) > least[f.name]
+        if acts and right(part, fit.values) and (best is None or fit.misfit.sum() < best[0]):
+            best = (fit.misfit.sum(), candidate, value)
     if best is None:
         return None
     _, candidate, value = best
@@ -96,12 +100,15 @@ def right(part: Problem, values: dict[str, float], usual: float = 1.0) -> bool:
     return bool(np.all(misfit <= RULES.odd_right * usual))
 
 
-def stranger(part: Problem, names: tuple[str, ...]) -> Fault | None:
-    """Records of something else; None where they differ by no more than a model does where the filling changes."""
+def stranger(part: Problem, names: tuple[str, ...], least: float, zero: float) -> Fault | None:
+    """Records of something else; None where they differ by less than shares `least` of their peaks, or by a `zero` [N].
+
+    So much does a model differ where the filling changes, or the zero of a good load cell.
+    """
     sizes = shares(part)
-    if min(sizes) < RULES.odd_force:
-        return None
     size = max(share * record.peak for share, record in zip(sizes, part.records, strict=True))
+    if min(sizes) < least or size < zero:
+        return None
     kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
     text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."
     return Fault(STRANGER, f"The {kind} {', '.join(names)}", text, size, "force_rmse_N", "N", names)

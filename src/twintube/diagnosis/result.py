@@ -14,11 +14,15 @@ VERDICTS = ("cause", "none", "recalibrate", "ambiguous", "unexplained", "measure
 
 @dataclass(frozen=True)
 class Signature:
-    """What the records show of a cause outside the catalogue: name, a sentence, and the force RMS [N] that it explains."""
+    """What the records show of a cause outside the catalogue: name, a sentence, and the force RMS [N] that it explains.
+
+    What repeats in every oscillation is an error of the base model, what does not counts as noise.
+    """
 
     name: str
     text: str
     size: float
+    repeats: bool = False
 
 
 @dataclass(frozen=True)

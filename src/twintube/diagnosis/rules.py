@@ -94,7 +94,16 @@ class Rules:
     odd_force: float = records(
         0.03, "1", "of the largest force by which a record of something else differs at least", DEVELOPMENT
     )
+    odd_little: float = records(0.01, "1", "the like of a record whose misfit is far beyond all others ...", DEVELOPMENT)
+    odd_clear: float = records(50.0, "1", "... so many times", DEVELOPMENT)
     odd_right: float = records(2.0, "1", "misfit up to which a fault of their own explains such records", JUDGEMENT)
+
+    limit_least: int = records(8, "", "intervals beyond the largest measured force, for a limit of the channel", JUDGEMENT)
+    limit_follows: float = records(0.1, "1", "of the model's rise beyond a limit, that the force follows at most", JUDGEMENT)
+    limit_flat: float = records(3.0, "1", "times its noise, that the force scatters on a limit at most", JUDGEMENT)
+    limit_far: float = records(0.02, "1", "of the peak, by which the model is beyond a limit on average", JUDGEMENT)
+    limit_share: float = records(0.9, "1", "of a record's squared error that lies beyond its limit", JUDGEMENT)
+    limit_alike: float = records(0.02, "1", "of a limit, within which those of several records are equal", JUDGEMENT)
 
     small_zero: float = measurement(0.005, "1", "of the largest force: zero of a good load cell", JUDGEMENT)
     small_delay: float = measurement(3e-4, "s", "delay that sampling leaves open; a shorter lag is not a cause", JUDGEMENT)

@@ -90,7 +90,7 @@ def ringing(blocks: Sequence[Harmonic], lines: Sequence[float] = ()) -> Signatur
         f"the force rings at about {frequency:.0f} Hz in {count} records, at all velocities alike "
         f"({size:.0f} N RMS): the rig or the mounting of the load cell has a resonance"
     )
-    return Signature("ringing", text, size)
+    return Signature("ringing", text, size, repeats=True)
 
 
 def resonance(spectra: Sequence[tuple[Array, Array, Array]], middle: float) -> tuple[float, int, float]:
@@ -171,4 +171,4 @@ def backlash(blocks: Sequence[tuple[Record, Harmonic]]) -> Signature | None:
         f"after each reversal the force stays constant over {1e3 * length:.2f} mm of stroke and then jumps, in {len(alike)} "
         f"of {len(intact)} records of the intact damper: the joint of the rod or of the housing has play"
     )
-    return Signature("backlash", text, size)
+    return Signature("backlash", text, size, repeats=True)

@@ -45,13 +45,16 @@ def judge(
     """
     base, extended, floor = (errors[name].force_rmse_N for name in ("base", "extended", "noise_floor"))
     right = selection.final.score <= RULES.right * selection.count
-    outside = [signature for signature in seen if RULES.shows * base < signature.size < np.inf]
+    quiet = base <= RULES.quiet * floor
+    # What the model has in its own force, as a ring after a step, is no cause where its error is noise.
+    real = [signature for signature in seen if not (signature.repeats and quiet)]
+    outside = [signature for signature in real if RULES.shows * base < signature.size < np.inf]
     unlimited = [signature for signature in seen if signature.size == np.inf]
     causes = [name for name in selection.chosen if name != RECALIBRATE]
     doubts = {name: doubt for name in causes if (doubt := doubtful(candidates[name], estimates[name]))}
     proven = gain.heldout > 0.0 and gain.heldout_interval[0] > 0.0 and extended < base and base > floor
     enough = gain.heldout >= RULES.explained or right
-    if base <= RULES.quiet * floor:
+    if quiet:
         # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained.
         enough = selection.final.score <= (1 - RULES.half) * selection.start.score
     close = rivals(selection, extended > RULES.quiet * floor)
@@ -59,10 +62,10 @@ def judge(
     if outside and not (solved and extended <= RULES.quiet * floor):
         remaining = "unexplained"
     elif not solved:
-        remaining = "none" if base <= RULES.quiet * floor else "unexplained"
+        remaining = "none" if quiet else "unexplained"
     elif not causes:
         # So many parameters take something away of any error.
-        remaining = "none" if base <= RULES.quiet * floor else "recalibrate"
+        remaining = "none" if quiet else "recalibrate"
     elif close:
         remaining = "ambiguous"
     else:

@@ -1,0 +1,76 @@
+"""Forces that stay at a limit while the model's rise: a load cell or amplifier at its limit, with noise on what it gives.
+
+A limit without noise is seen in the samples (data/defects.py) before any model is asked.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.prepare import PreparedRecord
+from twintube.diagnosis.result import Signature
+from twintube.diagnosis.rules import RULES
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A limit [N] of a record's force, and the intervals (n,) in which the model is beyond it."""
+
+    record: str
+    force: float
+    beyond: NDArray[np.bool_]
+
+
+def saturated(problem: Problem) -> tuple[Signature | None, Problem]:
+    """The limit that the forces of some records do not pass, and the problem without the intervals beyond it."""
+    forces = problem.forces({})
+    limits: list[Limit] = []
+    for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
+        for sign in (1.0, -1.0):
+            found = limit(record, sign * forces[a:b], sign * record.force)
+            if found is not None:
+                limits.append(replace(found, force=sign * found.force))
+    sides = [[item for item in limits if item.force * sign > 0.0] for sign in (1.0, -1.0)]
+    if not limits or any(
+        np.ptp([item.force for item in side]) > RULES.limit_alike * abs(side[0].force) for side in sides if side
+    ):
+        return None, problem
+    values = " and ".join(f"{np.mean([item.force for item in side]):.0f} N" for side in sides if side)
+    names = list(dict.fromkeys(item.record for item in limits))
+    text = (
+        f"the force stays at about {values} in {', '.join(names)} while the model's rises on (left out here): the load "
+        "cell or its amplifier is at its limit"
+    )
+    records = []
+    for record in problem.records:
+        beyond = [item.beyond for item in limits if item.record == record.name]
+        records.append(replace(record, judged=record.judged & ~np.logical_or.reduce(beyond)) if beyond else record)
+    return Signature("saturation", text, np.inf), problem.with_records(records)
+
+
+def limit(record: PreparedRecord, model: np.ndarray, force: np.ndarray) -> Limit | None:
+    """The upper limit of a record's `force` (n,) [N] where that of the `model` (n,) passes it by far; None without any."""
+    judged = record.judged
+    if not judged.any():
+        return None
+    top = float(force[judged].max())
+    beyond = judged & (model > top)
+    if beyond.sum() < RULES.limit_least or top <= 0.0:
+        return None
+    # On the plateau the force does not follow the model's.
+    away = model[beyond] - model[beyond].mean()
+    follows = float(away @ force[beyond]) / max(float(away @ away), 1e-12)
+    usual = float(np.sqrt(np.mean(np.broadcast_to(record.noise, force.shape)[beyond] ** 2)))
+    level = float(force[beyond].mean())
+    flat = abs(follows) < RULES.limit_follows and float(force[beyond].std()) < RULES.limit_flat * usual
+    far = (
+        float(np.mean(model[beyond] - level)) > RULES.limit_far * record.peak
+        and float(model[beyond].std()) > RULES.limit_flat * usual
+    )
+    squares = (model - force) ** 2
+    whole = float(squares[judged].sum())
+    around = beyond | np.roll(beyond, 1) | np.roll(beyond, -1)
+    explained = float(squares[judged & around].sum()) > RULES.limit_share * whole
+    return Limit(record.name, level, around) if flat and far and explained else None
