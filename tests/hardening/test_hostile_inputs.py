@@ -104,7 +104,7 @@ def test_in_a_process_of_its_own(name: str, tmp_path: Path) -> None:
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30))
 
-    command = [sys.executable, "-m", "twintube.cli", *arguments]
+    command = [sys.executable, "-m", "twintube", *arguments]
     run = subprocess.run(
         command, capture_output=True, text=True, timeout=HANGING, check=False, cwd=tmp_path, preexec_fn=limit
     )

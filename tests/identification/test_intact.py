@@ -47,6 +47,22 @@ def test_curve_friction_and_gas_spring_come_back(name: str) -> None:
             assert np.interp(v, [0, *speeds], [0, *forces]) == pytest.approx(expected, rel=0.02, abs=5.0)
 
 
+def test_a_single_slow_oscillation_from_the_middle_is_enough() -> None:
+    """Upwards it has no stroke from end to end, but two halves."""
+    truth = load("SA8")
+    angle = np.linspace(0.0, 2 * np.pi, 2001)
+    stroke = 0.045 * np.sin(angle)
+    time = angle * 0.045 / 1e-4  # so slow that the valves hardly act
+    force = simulate(truth, stroke, 1e-4 * np.cos(angle), time).force
+    seen = quasi_static(stroke, force + np.random.default_rng(3).normal(0.0, 0.5, len(force)))
+    for name in ("F_FrS", "F_0", "c_gas", "sigma_0"):
+        expected, (spread, freedom) = getattr(truth.parameters, name), seen.errors[name]
+        assert getattr(seen, name) == pytest.approx(expected, rel=0.15 if name == "sigma_0" else 0.03)
+        assert freedom >= 1 and 0.0 < spread < 0.2 * expected
+    with pytest.raises(InputError, match="no full stroke in both directions"):
+        quasi_static(stroke[:1200], force[:1200])
+
+
 def test_intact_identification_predicts_a_held_out_block() -> None:
     truth = load("SA7")
     records = intact_records(truth, noise=0.01)

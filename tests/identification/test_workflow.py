@@ -143,7 +143,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def command(bench: Path, output: Path) -> list[str]:
-    return [sys.executable, "-m", "twintube.cli", "identify", str(bench), "--output", str(output), "--quick"]
+    return [sys.executable, "-m", "twintube", "identify", str(bench), "--output", str(output), "--quick"]
 
 
 class BrokenOffError(Exception):

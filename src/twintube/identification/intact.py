@@ -21,6 +21,8 @@ from twintube.identification.uncertainty import Estimate
 # The middle of the stroke, in which friction is saturated and no stop is near [share of the largest stroke].
 MIDDLE = 0.6
 NOISE = 0.01  # of the stroke's range: a reversal is more than that
+POINTS = 10  # samples of a line
+ACROSS = 0.5  # of that middle, which the parts of a line reach to both sides
 MEDIAN = 1.25  # standard error of a median over that of a mean
 V_SLOW = 1e-3  # velocity of the quasi-static measurement [m/s]
 
@@ -36,11 +38,35 @@ class QuasiStatic:
     errors: dict[str, tuple[float, int]]  # standard errors from the scatter of the strokes, with degrees of freedom
 
 
-def branches(stroke: Array) -> list[slice]:
-    """The strokes of one direction between reversals, those that cross the middle only."""
-    strokes = [slice(a, b + 1) for a, b in itertools.pairwise(turns(stroke, NOISE * float(np.ptp(stroke)))) if b > a]
+def ways(stroke: Array) -> list[slice]:
+    """The strokes of one direction between reversals."""
+    return [slice(a, b + 1) for a, b in itertools.pairwise(turns(stroke, NOISE * float(np.ptp(stroke)))) if b > a]
+
+
+def lines(stroke: Array, force: Array, rising: bool) -> tuple[list[NDArray[np.floating]], NDArray[np.floating], int]:
+    """Slope [N/m] and height [N] of every full stroke of a direction in the middle of the range.
+
+    Also the squared standard errors of a single line from the scatter about it, and their degrees of freedom. A record of
+    a single oscillation that begins in the middle has a direction in two parts: they are a single line.
+    """
     reach = MIDDLE * np.abs(stroke).max()
-    return [s for s in strokes if np.abs(stroke[s]).max() >= reach and stroke[s].min() < 0 < stroke[s].max()]
+    full, parts = [], [np.zeros(0, dtype=np.int64)]
+    for way in ways(stroke):
+        z = stroke[way]
+        if (z[-1] > z[0]) != rising:
+            continue
+        # After a start or reversal friction needs a way to be whole.
+        inner = np.flatnonzero((np.abs(z) <= reach) & (np.abs(z - z[0]) >= NOISE * np.ptp(stroke))) + way.start
+        if np.abs(z).max() >= reach and z.min() < 0 < z.max() and len(inner) >= POINTS:
+            full.append(inner)
+        parts.append(inner)
+    rows = np.concatenate(parts)
+    across = len(rows) >= POINTS and stroke[rows].max() >= ACROSS * reach and stroke[rows].min() <= -ACROSS * reach
+    several = full or ([rows] if across else [])
+    if not several:
+        return [], np.zeros(2), 0
+    variances = np.diag(np.polyfit(stroke[several[0]], force[several[0]], 1, cov=True)[1])
+    return [np.polyfit(stroke[some], force[some], 1) for some in several], variances, len(several[0]) - 2
 
 
 def quasi_static(stroke: Array, force: Array) -> QuasiStatic:
@@ -48,25 +74,22 @@ def quasi_static(stroke: Array, force: Array) -> QuasiStatic:
 
     Raises InputError where the record has no full stroke in either direction.
     """
-    reach = MIDDLE * np.abs(stroke).max()
-    lines: dict[bool, list[NDArray[np.floating]]] = {True: [], False: []}
-    for part in branches(stroke):
-        z, F = stroke[part], force[part]
-        inner = np.abs(z) <= reach
-        if inner.sum() >= 10:
-            lines[bool(z[-1] > z[0])].append(np.polyfit(z[inner], F[inner], 1))
-    if not lines[True] or not lines[False]:
+    (rising, scatter_up, many), (falling, scatter_down, others) = (lines(stroke, force, way) for way in (True, False))
+    if not rising or not falling:
         raise InputError("quasi-static record: no full stroke in both directions")
-    up, down = (np.mean(lines[way], axis=0) for way in (True, False))
+    up, down = (np.mean(some, axis=0) for some in (rising, falling))
     F_FrS = float(up[1] - down[1]) / 2
     if F_FrS <= 0:
         raise InputError(f"quasi-static record: half the hysteresis is {F_FrS:g} N, it must be above 0; check the signs")
     middle = (up + down) / 2
-    counts = [len(lines[way]) for way in (True, False)]
+    counts = [len(some) for some in (rising, falling)]
     free = sum(counts) - 2
     # Pooled over both ways, as each may have few strokes.
-    squares = sum(np.sum((np.array(lines[way]) - np.mean(lines[way], axis=0)) ** 2, axis=0) for way in (True, False))
+    squares = sum(np.sum((np.array(some) - np.mean(some, axis=0)) ** 2, axis=0) for some in (rising, falling))
     slope, height = np.sqrt(squares / max(1, free) * sum(1 / n for n in counts)) / 2
+    if free == 0:  # a single line each way
+        slope, height = np.sqrt(scatter_up + scatter_down) / 2
+        free = many + others
     sigma_0, spread, reversals = reversal_slope(stroke, force, middle, F_FrS)
     errors = {
         "c_gas": (float(slope), free), "F_0": (float(height), free), "F_FrS": (float(height), free),
@@ -83,7 +106,7 @@ def reversal_slope(stroke: Array, force: Array, line: Array, F_FrS: float) -> tu
     After a reversal F = F_FrS (1 - 2 exp(-sigma_0 x / F_FrS)), which is zero at x = F_FrS ln 2 / sigma_0.
     """
     lengths = []
-    for part in branches(stroke)[1:]:
+    for part in ways(stroke)[1:]:  # each begins with a reversal
         z = stroke[part]
         friction = (force[part] - np.polyval(line, z)) * (1.0 if z[-1] > z[0] else -1.0)
         crossed = np.flatnonzero((friction[:-1] < 0) & (friction[1:] >= 0))

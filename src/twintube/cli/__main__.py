@@ -1,5 +1,0 @@
-"""`python -m twintube.cli`."""
-
-from twintube.cli import app
-
-app()
