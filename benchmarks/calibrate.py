@@ -16,9 +16,9 @@ from scipy.special import logsumexp
 from twintube.arrays import Array
 from twintube.diagnosis.confidence import WEIGHTS, Evidence, evidence, features, probabilities
 from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.options import RECALIBRATE
 from twintube.diagnosis.result import Tried
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.select import RECALIBRATE
 from twintube.lab.challenge.score import wanted
 
 PRIOR = 4.0  # standard deviation of a weight: a feature that seldom occurs does not run away

@@ -6,8 +6,8 @@ import pytest
 from benchmarks.calibrate import fitted_weights
 from twintube.diagnosis.confidence import WEIGHTS, evidence, features, probabilities
 from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.options import RECALIBRATE
 from twintube.diagnosis.result import Tried
-from twintube.diagnosis.select import RECALIBRATE
 
 KNOWN = ("valve_wear", "fluid_lag", "force_gain")
 

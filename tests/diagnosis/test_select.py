@@ -8,8 +8,9 @@ import pytest
 from tests.diagnosis import small
 from twintube.diagnosis.candidates import candidates
 from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.options import Fold, Option
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.select import Fold, Option, Selector
+from twintube.diagnosis.select import Selector
 
 
 @pytest.fixture(scope="module")

@@ -8,9 +8,9 @@ import pytest
 
 from twintube.diagnosis.candidates import Candidate
 from twintube.diagnosis.faults import Fault
+from twintube.diagnosis.options import RECALIBRATE, Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.select import RECALIBRATE, Option, Selection
 from twintube.diagnosis.verdict import Judgement, judge, sentence
 
 COUNT = 1000  # held-out samples

@@ -13,9 +13,10 @@ from twintube.diagnosis.confidence import evidence, probabilities
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, errors, gains, removed, whole, worst
+from twintube.diagnosis.options import RECALIBRATE, Option, Selection
 from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, Gain, RecordResult, Signature, Tried
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.select import RECALIBRATE, Option, Selection, Selector
+from twintube.diagnosis.select import Selector
 from twintube.diagnosis.verdict import judge, sentence
 from twintube.diagnosis.where import describe, maps, structured
 from twintube.fitting.parameters import DEGRADATION

@@ -11,9 +11,9 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.options import RECALIBRATE
 from twintube.diagnosis.result import Tried
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.select import RECALIBRATE
 
 WEIGHTS = (
     "logit_share",

@@ -16,12 +16,13 @@ from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.history import settled, with_history
 from twintube.diagnosis.odd import STRANGER, odd_records
+from twintube.diagnosis.options import Fold
 from twintube.diagnosis.prepare import PreparedRecord, prepare
 from twintube.diagnosis.result import Diagnosis, Gain
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.sampling import with_sampling
 from twintube.diagnosis.saturation import saturated
-from twintube.diagnosis.select import Fold, Selector
+from twintube.diagnosis.select import Selector
 from twintube.diagnosis.signature import signatures
 from twintube.diagnosis.zeros import zero_change, zero_drift
 from twintube.engine.simulate import InputError

@@ -7,9 +7,9 @@ import numpy as np
 
 from twintube.diagnosis.candidates import Candidate
 from twintube.diagnosis.faults import Fault
+from twintube.diagnosis.options import RECALIBRATE, Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.select import RECALIBRATE, Option, Selection
 
 NUMBERS = {2: "Two", 3: "Three"}
 

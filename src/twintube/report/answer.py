@@ -2,8 +2,8 @@
 
 from twintube.core.effects import EFFECTS
 from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.options import RECALIBRATE
 from twintube.diagnosis.result import Cause, Diagnosis
-from twintube.diagnosis.select import RECALIBRATE
 from twintube.diagnosis.verdict import lower, share
 from twintube.readable import amount
 from twintube.report.engineering import title_of

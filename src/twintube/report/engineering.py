@@ -4,7 +4,7 @@ from dataclasses import fields
 
 from twintube.core.effects import EFFECTS, Parameters
 from twintube.diagnosis.candidates import FAULT_TITLES
-from twintube.diagnosis.select import RECALIBRATE
+from twintube.diagnosis.options import RECALIBRATE
 from twintube.diagnosis.verdict import lower
 
 
