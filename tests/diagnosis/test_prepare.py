@@ -9,7 +9,7 @@ from tests.diagnosis import small
 from twintube.arrays import Array
 from twintube.data import Record
 from twintube.diagnosis.edges import alone, with_edges, with_noise, without_outliers
-from twintube.diagnosis.prepare import PreparedRecord, kicks, prepared
+from twintube.diagnosis.prepare import PreparedRecord, colour, kicks, neighbour_noise, prepared
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.thinning import thin
 from twintube.fitting.intervals import impulse
@@ -133,3 +133,28 @@ def test_what_a_fill_leaves_open_at_a_jump_is_no_misfit() -> None:
     misfits = [p.misfits(p.residual({})) for p in (bare, known)]
     assert np.all(misfits[1] < misfits[0] / 2)
     assert misfits[1].max() < 1.5
+
+
+def coloured(alike: float, seed: int, count: int = 1500) -> Array:
+    """Noise of standard deviation 1 whose neighbours have a correlation."""
+    fresh = np.random.default_rng(seed).standard_normal(count)
+    noise = fresh.copy()
+    for i in range(1, count):
+        noise[i] = alike * noise[i - 1] + np.sqrt(1.0 - alike**2) * fresh[i]
+    return noise
+
+
+@pytest.mark.parametrize("alike", [0.0, 0.5, 0.8])
+def test_noise_whose_neighbours_are_alike_is_not_taken_too_small(alike: float) -> None:
+    """Of a random motion no oscillation repeats; its noise is seen from neighbours alone."""
+    held = np.full(1500, 1000)
+    sizes = [neighbour_noise(coloured(alike, seed) * np.sqrt(999.5) / 1000, held) for seed in range(12)]
+    # By second differences alone it would be 0.6 at a correlation of 0.5, and 0.33 at 0.8.
+    assert 0.75 < float(np.median(sizes)) < 1.25
+
+
+@pytest.mark.parametrize("period", [20, 50, 100])
+def test_an_error_of_the_model_is_not_taken_for_coloured_noise(period: int) -> None:
+    error = 2.0 * np.sin(2 * np.pi * np.arange(1500) / period)
+    assert colour(coloured(0.0, 1) + error) < 1.15
+    assert colour(error) == pytest.approx(1.0)

@@ -93,8 +93,33 @@ def averaging_noise(held: NDArray[np.int64]) -> Array:
 def neighbour_noise(force: Array, held: NDArray[np.int64]) -> float:
     """Standard deviation [N] of a sample from neighbouring intervals, for records without enough oscillations."""
     # Neighbours share a sample, so that they differ less than their noise would make them.
-    bent = np.diff(force / averaging_noise(held), 2) / np.sqrt(BEND**2 - 2.0 / (held[1:-1] - 0.5))
-    return SCATTER * float(np.median(np.abs(bent))) if len(bent) else 0.0
+    white = force / averaging_noise(held)
+    bent = np.diff(white, 2) / np.sqrt(BEND**2 - 2.0 / (held[1:-1] - 0.5))
+    return SCATTER * float(np.median(np.abs(bent))) * colour(white) if len(bent) else 0.0
+
+
+def colour(noise: Array) -> float:
+    """How many times larger noise (n,) is than its second differences say, as neighbours are alike; 1 where they are not.
+
+    Where neighbours have the correlation c, second differences have the variance 6 - 8 c + 2 c^2, at the distance k with
+    c^k. What they gain from 1 to 2 gives c, what they gain to 3 says whether it is noise: a model's error is smooth, and
+    gains more.
+    """
+    gained = [float(np.median(np.abs(bend_at(noise, k)))) for k in (1, 2, 3)]
+    if len(noise) < RULES.coloured_least or gained[0] <= 0.0:
+        return 1.0
+    alike = np.linspace(0.0, RULES.most_alike, 100)
+    variances = [6.0 - 8.0 * alike**k + 2.0 * alike ** (2 * k) for k in (1, 2, 3)]
+    at = int(np.argmin(np.abs(np.sqrt(variances[1] / variances[0]) - gained[1] / gained[0])))
+    expected = float(np.sqrt(variances[2][at] / variances[0][at]))
+    if gained[2] / gained[0] > RULES.smooth * expected:
+        return 1.0
+    return float(np.sqrt(6.0 / variances[0][at]))
+
+
+def bend_at(values: Array, k: int) -> Array:
+    """Second differences of values (n,) at the distance k."""
+    return np.asarray(values[2 * k :] - 2.0 * values[k:-k] + values[: -2 * k])
 
 
 def noise(record: "PreparedRecord", force: Array) -> Array:

@@ -55,6 +55,11 @@ class Rules:
     peak_quantile: float = records(0.999, "1", "of the measured force: its peak without outliers", JUDGEMENT)
     speed_quantile: float = records(0.99, "1", "of the speed: the top speed of a record without outliers", JUDGEMENT)
     repeats: int = records(3, "", "oscillations from which noise is what does not repeat: second differences", METHOD)
+    coloured_least: int = records(200, "", "intervals from which the colour of noise is seen", JUDGEMENT)
+    most_alike: float = records(0.9, "1", "correlation of neighbouring intervals that noise has at most", JUDGEMENT)
+    smooth: float = records(
+        1.15, "1", "times what noise gains from neighbours to those at three times the distance: an error", JUDGEMENT
+    )
     alike_turns: float = records(
         1.1, "1", "oscillations whose durations and ranges are within this factor share noise", JUDGEMENT
     )
@@ -94,7 +99,7 @@ class Rules:
     odd_force: float = records(
         0.03, "1", "of the largest force by which a record of something else differs at least", DEVELOPMENT
     )
-    odd_little: float = records(0.01, "1", "the like of a record whose misfit is far beyond all others ...", DEVELOPMENT)
+    odd_little: float = records(0.02, "1", "the like of a record whose misfit is far beyond all others ...", DEVELOPMENT)
     odd_clear: float = records(50.0, "1", "... so many times", DEVELOPMENT)
     odd_right: float = records(2.0, "1", "misfit up to which a fault of their own explains such records", JUDGEMENT)
 
