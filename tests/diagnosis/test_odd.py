@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from tests.diagnosis import small
@@ -89,3 +90,14 @@ def test_a_zero_of_a_good_load_cell_makes_no_slow_record_odd(good: list[Record])
     shifted = replace(slow, force=slow.force + 0.004 * largest)
     assert 0.004 * largest > 0.02 * abs(slow.force).max()
     assert judged([*good, shifted])[0] is None
+
+
+def test_an_error_in_few_intervals_makes_no_odd_record(good: list[Record]) -> None:
+    """A cause that moves a step may act in a single record."""
+    degraded = [small.record(small.run(speed, small.DEGRADED)) for speed in (0.6, 1.0)]
+    step = abs(degraded[0].time - degraded[0].time.mean()) < 0.02 * np.ptp(degraded[0].time)
+    moved = replace(degraded[0], force=degraded[0].force + np.where(step, 0.5 * abs(degraded[0].force).max(), 0.0))
+    assert judged([*good, moved, degraded[1]])[0] is None
+    everywhere = replace(degraded[0], force=1.15 * degraded[0].force)
+    fault, _ = judged([*good, everywhere, degraded[1]])
+    assert fault is not None

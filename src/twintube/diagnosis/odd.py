@@ -62,6 +62,15 @@ def shares(problem: Problem) -> list[float]:
     ]
 
 
+def spreads(problem: Problem) -> list[float]:
+    """Shares of the records' compared intervals in which the model is off."""
+    off = np.abs(problem.residual({})) > RULES.odd_off
+    return [
+        float(off[a:b][record.judged].mean()) if record.judged.any() else 0.0
+        for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True)
+    ]
+
+
 def own_unit(part: Problem, names: tuple[str, ...], usual: float = 1.0) -> Fault | None:
     """The other unit in which the model explains these records as well as others, whose misfits are up to `usual`."""
     wrong, put_right = unit_error(part)
@@ -103,11 +112,12 @@ def right(part: Problem, values: dict[str, float], usual: float = 1.0) -> bool:
 def stranger(part: Problem, names: tuple[str, ...], least: float, zero: float) -> Fault | None:
     """Records of something else; None where they differ by less than shares `least` of their peaks, or by a `zero` [N].
 
-    So much does a model differ where the filling changes, or the zero of a good load cell.
+    So much does a model differ where the filling changes, or the zero of a good load cell. Neither is one named whose error
+    lies in few intervals: a cause that moves a single step may act in a single record.
     """
     sizes = shares(part)
     size = max(share * record.peak for share, record in zip(sizes, part.records, strict=True))
-    if min(sizes) < least or size < zero:
+    if min(sizes) < least or size < zero or min(spreads(part)) < RULES.odd_spread:
         return None
     kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
     text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."

@@ -101,6 +101,10 @@ class Rules:
     )
     odd_little: float = records(0.02, "1", "the like of a record whose misfit is far beyond all others ...", DEVELOPMENT)
     odd_clear: float = records(50.0, "1", "... so many times", DEVELOPMENT)
+    odd_spread: float = records(
+        0.5, "1", "of its intervals in which a record of something else is off: a moved step is not one", DEVELOPMENT
+    )
+    odd_off: float = records(3.0, "1", "times its uncertainty, at which an interval is off", JUDGEMENT)
     odd_right: float = records(2.0, "1", "misfit up to which a fault of their own explains such records", JUDGEMENT)
 
     limit_least: int = records(8, "", "intervals beyond the largest measured force, for a limit of the channel", JUDGEMENT)
