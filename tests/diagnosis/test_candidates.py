@@ -7,9 +7,12 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.data import Record
-from twintube.diagnosis.candidates import Candidate, best_start, candidates, nuisances, period
+from twintube.diagnosis.candidates import Candidate, best_start, candidates, linear, nuisances, period, usual_delay
+from twintube.diagnosis.edges import with_noise
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.sampling import with_sampling
+from twintube.diagnosis.seen import DELAY
 
 KELVIN = {"fade_kelvin", "friction_kelvin", "gas_kelvin"}
 RETAINED = {"fade_heat", "cooling_time", "H_start", "gas_heat"}
@@ -76,3 +79,19 @@ def test_the_fill_of_a_single_state_may_be_wrong() -> None:
     assert float(np.mean(best.misfit)) < 1.5
     shared = small.problem([*small.records(), *(r for r in records if r.oil_level == 0.56)])
     assert [f.name for f in named(shared, "oil_level_error").free] == ["level_error"], "a single degraded state has no other"
+
+
+@pytest.mark.parametrize("compliance", [4e-7, 1e-6])  # [m/N]
+def test_an_effect_that_is_late_is_seen_behind_the_delay_that_stands_in_for_it(compliance: float) -> None:
+    """A spring in series: the rig moves by the damper's stroke and its own deflection."""
+
+    def in_series(r: small.Run) -> small.Run:
+        stroke = r.stroke + compliance * r.force
+        return replace(r, stroke=stroke, velocity=np.gradient(stroke, r.time))
+
+    records = [small.record(in_series(small.run(v, samples=60)), seed=i) for i, v in enumerate((0.3, 0.6, 1.0))]
+    problem = with_sampling(with_noise(small.problem(records)))
+    assert abs(problem.usual[DELAY]) > 0.1 * usual_delay(problem), "a delay stands in for the spring"
+    cost, point = best_start([problem], named(problem, "mount_compliance"), [problem.usual])
+    assert 0.1 * compliance < point["C_mount"] < compliance
+    assert cost < 0.8 * problem.costs([problem.usual], problem.usual, linear(problem))[0]

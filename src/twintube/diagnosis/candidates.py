@@ -11,7 +11,7 @@ from twintube.core import effects
 from twintube.core.hooks import Effect, sources
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import BENDS, CLOCK, DELAY, STROKE_GAIN
+from twintube.diagnosis.seen import BENDS, CLOCK, DELAY, LINEAR, STROKE_GAIN
 from twintube.fitting.parameters import DEGRADATION, ranges
 
 FAULT_TITLES = {
@@ -29,7 +29,8 @@ def hooked(hooks: str) -> tuple[str, ...]:
     return tuple(name for name, text in sources().items() if re.search(rf"^def {name}_({hooks})\(", text, re.M))
 
 
-LATE = (*hooked("force|transition"), DELAY, CLOCK)  # all of them make the force late
+LATENESS = hooked("force|transition")  # effects that make the force late
+LATE = (*LATENESS, DELAY, CLOCK)  # and faults that do
 FILLED = hooked("level")  # another fill than the recorded one, in all states alike or in one
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
 ALIKE = (LATE, FRICTION)  # of each a second only mends the formulation of the first
@@ -70,6 +71,11 @@ def nuisances(problem: Problem) -> tuple[Free, ...]:
         most = RULES.bends
         free += [Free(name, known.get(name, 0.0), -most, most) for name in BENDS]
     return tuple(free)
+
+
+def linear(problem: Problem) -> tuple[Free, ...]:
+    """Those of them in which forces are linear."""
+    return tuple(f for f in nuisances(problem) if f.name in LINEAR)
 
 
 def usual_delay(problem: Problem) -> float:
@@ -224,10 +230,10 @@ def best_start(
 
     A strength that does not help is not in the point: it stays neutral, as free it would follow the noise.
 
-    `fixed` holds the other values in each of the problems. The zero of the load cell is free: at that of the model without
-    the cause a residual spring would start as a loss.
+    `fixed` holds the other values in each of the problems. The measurement is free: at the zero of the model without the
+    cause a residual spring would start as a loss, and behind the delay that stands in for a late effect it would not show.
     """
-    zeros = [nuisances(problem)[0] for problem in problems]
+    free = [nuisances(problem) if candidate.name in LATENESS else linear(problem) for problem in problems]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     if CLOCK in grids:
         grids[CLOCK] = clock_starts(problems, fixed)
@@ -241,8 +247,8 @@ def best_start(
             some = [{}, *({name: x} for name in shapes for x in grids[name])]
         points = [best | {name: x} | shape for name in left for x in grids[name] for shape in some]
         costs = [
-            problem.costs([{**values, **point} for point in points], zero)
-            for problem, values, zero in zip(problems, fixed, zeros, strict=True)
+            problem.costs([{**values, **point} for point in points], values, measured)
+            for problem, values, measured in zip(problems, fixed, free, strict=True)
         ]
         scores = [sum(some) for some in zip(*costs, strict=True)]
         if min(scores) >= (1.0 - RULES.joins) * low:

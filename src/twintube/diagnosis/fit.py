@@ -143,16 +143,25 @@ class Problem(SeenRecords):
             return dict(values)
         values = {f.name: f.start for f in free} | dict(values)
         errors = self.residual(values)
-        force, point = self.simulated(self.damping(values))
-        gain = values.get("force_gain", 1.0)
-        parts: dict[str, Array] = {"force_offset": np.ones(len(point))}
-        parts |= {name: gain * part for name, part in self.parts_of_samples(force, point).items()}
         share = self.spread(1.0 / np.sqrt(np.maximum(1.0, self.misfits(errors))))
-        rows = np.column_stack([self.white(parts[f.name] * self.weight) * share for f in free])
+        rows = self.columns(values, free) * share[:, None]
         now = np.array([values[f.name] for f in free])
         low, high = (np.array([getattr(f, name) for f in free]) for name in ("low", "high"))
         more = lsq_linear(rows, -errors * share, (np.minimum(low - now, -1e-12), np.maximum(high - now, 1e-12))).x
         return values | {f.name: float(x) for f, x in zip(free, now + more, strict=True)}
+
+    def columns(self, values: Mapping[str, float], free: Sequence[Free]) -> Array:
+        """Slopes (n, k) of the weighted errors in parameters of the measurement, in which forces are linear, or late."""
+        force, point = self.simulated(self.damping(values))
+        gain = values.get("force_gain", 1.0)
+        parts: dict[str, Array] = {"force_offset": np.ones(len(point))}
+        parts |= {name: gain * part for name, part in self.parts_of_samples(force, point).items()}
+        for f in free:
+            if f.name == DELAY:
+                now, step = values.get(DELAY, self.usual.get(DELAY, 0.0)), RULES.delay_step * f.width
+                early, late = (self.forces({**values, DELAY: now + by}) for by in (-step, step))
+                parts[DELAY] = (late - early) / (2.0 * step)
+        return np.column_stack([self.white(parts[f.name] * self.weight) for f in free])
 
     def spread(self, values: Array) -> Array:
         """A value (r,) of each record for all of its samples (n,)."""
@@ -171,15 +180,16 @@ class Problem(SeenRecords):
             errors += [self.shared(values) for values in some]
         return errors
 
-    def costs(self, many: Sequence[Mapping[str, float]], zero: Free) -> list[float]:
-        """Balanced sums of squares of several parameter sets, each with the zero of the load cell that suits it best."""
-        w = self.white(self.weight) * self.share
-        sums = []
-        for values, r in zip(many, self.residuals(many), strict=True):
-            now = values.get(zero.name, zero.start)
-            step = np.clip(-float(w @ r) / float(w @ w), min(0.0, zero.low - now), max(0.0, zero.high - now))
-            sums.append(float(np.sum((r + step * w) ** 2)))
-        return sums
+    def costs(self, many: Sequence[Mapping[str, float]], now: Mapping[str, float], free: Sequence[Free]) -> list[float]:
+        """Balanced sums of squares of several parameter sets, each with the values of `free` that suit it best.
+
+        These are of the measurement. They move from `now` by their slopes, with half their ranges as standard deviations.
+        """
+        A = self.columns(now, free) * self.share[:, None]
+        half = np.array([f.width / 2.0 for f in free])
+        inverse = np.linalg.inv(A.T @ A + np.diag(half**-2.0))
+        pulls = [(r, A.T @ r) for r in self.residuals(many)]
+        return [float(r @ r - pull @ inverse @ pull) for r, pull in pulls]
 
     def misfits(self, residual: Array) -> Array:
         """Mean squared weighted error (r,) per record."""

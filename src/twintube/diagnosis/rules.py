@@ -128,6 +128,9 @@ class Rules:
     warm: float = measurement(3.0, "K", "change of temperature that shows in forces", JUDGEMENT)
     open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
     open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", DEVELOPMENT)
+    delay_step: float = measurement(
+        0.02, "1", "of the range of a delay, over which the force's slope in it is taken", JUDGEMENT
+    )
     delays_tried: int = measurement(9, "", "delays up to that at which the search for the sampling begins", JUDGEMENT)
     bends: float = measurement(
         0.5, "1", "of a bend of the force that a sample of a filtered force holds at most", DEVELOPMENT

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import ALIKE, LATE, Candidate, base, best_start, nuisances
+from twintube.diagnosis.candidates import ALIKE, LATE, Candidate, base, best_start, linear, nuisances
 from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, removed
 from twintube.diagnosis.options import RECALIBRATE, Fold, Option, Selection, counts_of, fitted, logs
@@ -215,9 +215,9 @@ class Selector:
         return sorted(options, key=lambda o: (not self.acts(o), o.score))
 
     def sketched(self, current: Option) -> float:
-        """The sum of squares of a model, its zero free, in the records that the searches for starts look at."""
+        """The sum of squares of a model, the measurement free, in the records that the searches for starts look at."""
         pairs = zip(self.sketches, current.fits, strict=True)
-        return sum(sketch.costs([fit.values], nuisances(sketch)[0])[0] for sketch, fit in pairs)
+        return sum(sketch.costs([fit.values], fit.values, linear(sketch))[0] for sketch, fit in pairs)
 
     def alike(self, name: str, names: Sequence[str]) -> bool:
         """Whether a candidate would only mend the formulation of a chosen cause."""
