@@ -105,7 +105,7 @@ def judged(truth: Damper, velocities: tuple[float, ...], budget: Budget) -> None
 
 
 def test_truth_lies_in_the_intervals_and_the_undetermined_are_named() -> None:
-    judged(load("SA7"), (*BLOCKS[::2], BLOCKS[-1]), Budget((24, 30), (32, 40), (24, 80), (32, 80)))
+    judged(load("SA7"), BLOCKS[1::2], Budget((24, 30), (32, 40), (24, 80), (32, 80)))
 
 
 @pytest.mark.slow
@@ -115,14 +115,14 @@ def test_truth_lies_in_the_intervals_with_the_paper_s_budget(name: str) -> None:
 
 
 def folder_of(path: Path, truth: Damper, start: Damper) -> Path:
-    """A small dataset folder: quasi-static, intact and one degraded level at five velocities."""
+    """A small dataset folder: quasi-static, intact and one degraded level at four velocities."""
     path.mkdir()
     (path / "start.toml").write_text(to_toml(start))
     toml = 'title = "Bench"\ndamper = "start.toml"\n'
     signal = quasi_static(truth)
     jobs = [("slow", "quasi-static", 1.0, 1, signal.time[::5], signal.stroke[::5], signal.velocity[::5])]
     for level, preload in ((1.0, 1), (truth.measured_levels[0], 0)):
-        for v in BLOCKS[:5]:
+        for v in BLOCKS[1:5]:
             block = harmonic_block(v, dt=2e-3)
             jobs.append((f"h{level:.2f}_{v}", "harmonic", level, preload, block.time, block.stroke, block.velocity))
     for name, kind, level, preload, t, z, v in jobs:
