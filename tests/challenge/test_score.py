@@ -61,6 +61,15 @@ def test_outside_refused_and_ambiguous() -> None:
     assert figures["ambiguous_truth_first"] == 1 and figures["wrong_name_share"] == 0.2
 
 
+def test_what_a_bench_hides_is_counted_apart() -> None:
+    inside, outside = (
+        outcome("seal_leak", "effect", says(word, *names)) for word, *names in (["none"], ["cause", "seal_leak"])
+    )
+    inside["truth"]["effect_beyond_bench"], outside["truth"]["effect_beyond_bench"] = 0.1, 0.8
+    figures = score([inside, outside])
+    assert figures["right_share_clear"] == 0.5 and figures["right_share_beyond_bench"] == 1.0
+
+
 def test_contradictions_are_counted() -> None:
     assert contradictions(says("cause", "end_stop", gain=-0.1)) == ["end_stop with a held-out gain of -0.1"]
     doubtful = says("cause", "end_stop", parameters={"c": {"value": 1.0, "doubt": "at its bound"}})

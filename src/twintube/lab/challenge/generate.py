@@ -12,11 +12,13 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.files import write_text
 from twintube.lab.challenge.catalogue import CAUSES, PAIRS, Formulation, label_of
+from twintube.lab.challenge.changes import effects, rms
 from twintube.lab.challenge.excitation import motion
 from twintube.lab.challenge.files import write_dataset
 from twintube.lab.challenge.plan import Bench, bench_for
 from twintube.lab.challenge.run import Run, Step, begun, copied, finished, marched
 from twintube.lab.challenge.sampling import logged, sampled
+from twintube.lab.challenge.tolerance import beyond, tolerances
 
 WEAKEST, STRONGEST = 0.2, 10.0  # effect over noise
 COARSER = 6.0  # steps of the search for the strength
@@ -64,6 +66,8 @@ def write(seed: int, folder: str | Path, cause: str | None = None) -> dict[str, 
     title = f"Bench {bench.damper.name}, campaign {seed}"
     write_dataset(folder, bench, title, [(s, r.unit) for s, r in zip(written, runs, strict=True)])
     truth = truth_of(seed, names, chosen, steps, bench, noise, trial.changes, trial.force)
+    if steps:
+        truth["effect_beyond_bench"] = rms(beyond(trial.changes, tolerances(trial.plain, bench))) / noise
     write_text(folder.with_name(folder.name + ".truth.json"), json.dumps(truth, indent=1) + "\n")
     return truth
 
@@ -74,6 +78,7 @@ class Attempt:
 
     bench: Bench
     steps: list[Step]
+    plain: list[Run]  # nothing hidden
     runs: list[Run]
     changes: list[Array]  # [N] by record
     sigmas: list[float]  # [N] noise by record
@@ -94,7 +99,7 @@ def attempt(chosen: list[Formulation | None], cut: bool | None, rng: np.random.G
     steps = [hidden(item, bench, noise, rng, len(chosen)) for item in chosen if item]
     setup = any(step.stage == "setup" for step in steps)
     runs = [finished(begun(r.record, r.motion, bench.damper) if setup else copied(r), steps) for r in plain]
-    return Attempt(bench, steps, runs, effects(runs, plain, bench), sigmas, noise, whole)
+    return Attempt(bench, steps, plain, runs, effects(runs, plain, bench), sigmas, noise, whole)
 
 
 def pick(formulations: tuple[Formulation, ...], rng: np.random.Generator) -> Formulation | None:
@@ -106,30 +111,6 @@ def runs_of(bench: Bench, scale: float) -> list[Run]:
     """The runs of all records before the march; `scale` above 1 makes coarser steps."""
     longest = min(2e-3, 0.25 / bench.fs) * min(scale, 3.0)
     return [begun(r, motion(o, longest, scale), bench.damper) for r, o in zip(bench.records, bench.orders, strict=True)]
-
-
-def rms(values: list[Array]) -> float:
-    """Of all values together."""
-    return math.sqrt(sum(float(np.sum(v**2)) for v in values) / sum(map(len, values)))
-
-
-def effects(runs: list[Run], plain: list[Run], bench: Bench) -> list[Array]:
-    """What the cause changes, sample by sample [N]; a wrong stroke counts as the force it would ask for."""
-    return [difference(run, base, bench) for run, base in zip(runs, plain, strict=True)]
-
-
-def difference(run: Run, base: Run, bench: Bench) -> Array:
-    """As `effects`, of a record."""
-    point = replace(bench.sampling, kind="point")
-    with_, without = (sampled(r, bench.fs, point, None) for r in (run, base))
-    change: Array = run.unit[0] * with_.force - without.force
-    if run.unit[1] != 1.0 or run.stroke is not base.stroke:
-        stroke = run.unit[1] * run.stroke
-        speed = np.gradient(stroke, np.maximum.accumulate(run.time + 1e-12 * np.arange(len(run.time))))
-        moved = replace(run.motion, stroke=stroke, velocity=np.clip(speed, -5.0, 5.0))
-        asked = finished(marched(begun(run.record, moved, bench.damper)), [])
-        change = change - (sampled(asked, bench.fs, point, None).force - without.force)
-    return change
 
 
 def hidden(item: Formulation, bench: Bench, noise: float, rng: np.random.Generator, causes: int) -> Step:

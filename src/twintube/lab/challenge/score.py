@@ -157,6 +157,7 @@ def score(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     hidden = [o for o in outcomes if o["truth"]["kind"] != "none"]
     known = [o for o in hidden if o["truth"]["kind"] != "outside"]
     clear = [o for o in known if o["truth"].get("effect_over_noise", math.inf) >= CLEAR]
+    outside_tolerance = [o for o in clear if o["truth"].get("effect_beyond_bench", math.inf) >= CLEAR]
     rated = [o for o in outcomes if o["answer"].get("probabilities")]
     matrix: dict[str, Counter[str]] = defaultdict(Counter)
     for o in outcomes:
@@ -169,6 +170,8 @@ def score(outcomes: Sequence[Outcome]) -> dict[str, Any]:
         "right_share_clear": share(clear, right),
         "right_share_all": share(known, right),
         "truth_first_share_clear": share(clear, truth_first),
+        "right_share_beyond_bench": share(outside_tolerance, right),
+        "truth_first_share_beyond_bench": share(outside_tolerance, truth_first),
         "wrong_name_share": share(outcomes, wrong_name),
         "outside_right_share": share([o for o in hidden if o["truth"]["kind"] == "outside"], right),
         "ambiguous_truth_first": sum(verdict_of(o["answer"]) == "ambiguous" and truth_first(o) for o in known),

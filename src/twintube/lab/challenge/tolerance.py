@@ -1,0 +1,66 @@
+"""What of an effect lies outside the tolerances of a careful bench.
+
+A fill, a stroke, a zero, a gain and a synchronisation are never exact. Where a hidden cause changes no more than they do,
+nobody can tell it from them: a step of the force that comes some samples earlier may be a fill that is off by a thousandth.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import lsq_linear
+
+from twintube.arrays import Array
+from twintube.lab.challenge.changes import effects
+from twintube.lab.challenge.oil import level_everywhere
+from twintube.lab.challenge.plan import Bench
+from twintube.lab.challenge.run import Run, Step, begun, copied, finished
+from twintube.lab.challenge.sampling import sampled
+from twintube.lab.challenge.sensors import stroke_gain
+
+FILL = 1e-3  # of the oil in degraded states: 0.3 mL, of drops on walls
+STROKE = 1e-3  # of the stroke: a good inductive sensor
+ZERO = 5e-3  # of the largest force, in each record: 0.05 % of the range (ISO 7500-1, class 0.5) of a cell ten times as large
+GAIN = 5e-3  # of the force, in all records alike (ISO 7500-1, class 0.5)
+DELAY = 0.5  # samples, in all records alike
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """What the bench leaves open, arrays (n,) [N] over the samples of each record."""
+
+    steps: list[Array]  # what fill and stroke change in the force
+    force: list[Array]  # nothing hidden
+    largest: float  # force
+
+
+def tolerances(plain: Sequence[Run], bench: Bench) -> Tolerances:
+    """Those of a campaign, from its runs with nothing hidden."""
+    points = replace(bench.sampling, kind="point")
+    forces = [sampled(run, bench.fs, points, None).force for run in plain]
+    squares = [np.zeros(len(force)) for force in forces]
+    for stage, apply, size in (("setup", level_everywhere, FILL), ("sensors", stroke_gain, STROKE)):
+        both = []
+        for sign in (-1.0, 1.0):
+            step = Step(stage, apply, size, {"sign": sign})
+            runs = [copied(run) if stage == "sensors" else begun(run.record, run.motion, bench.damper) for run in plain]
+            both.append(effects([finished(run, [step]) for run in runs], plain, bench))
+        squares = [s + np.maximum(np.abs(a), np.abs(b)) ** 2 for s, a, b in zip(squares, *both, strict=True)]
+    return Tolerances([np.sqrt(s) for s in squares], forces, bench.largest)
+
+
+def beyond(changes: Sequence[Array], bench: Tolerances) -> list[Array]:
+    """What is left of changes of the force (n,) [N] by record where the tolerances hide as much as they can."""
+    counts = [len(change) for change in changes]
+    left = np.concatenate([np.sign(c) * np.maximum(np.abs(c) - s, 0.0) for c, s in zip(changes, bench.steps, strict=True)])
+    columns = np.zeros((len(left), len(counts) + 2))
+    for i, (end, n) in enumerate(zip(np.cumsum(counts), counts, strict=True)):
+        columns[end - n : end, i] = ZERO * bench.largest
+    columns[:, -2] = GAIN * np.concatenate(bench.force)
+    columns[:, -1] = DELAY * np.concatenate([np.gradient(force) for force in bench.force])
+    # The normal equations: small, whatever the number of samples.
+    norm = np.maximum(np.linalg.norm(columns, axis=0), 1e-12)
+    root = np.linalg.cholesky((columns / norm).T @ (columns / norm) + 1e-9 * np.eye(len(norm)))
+    target = np.linalg.solve(root, (columns / norm).T @ left)
+    shares = lsq_linear(root.T, target, (-norm, norm)).x / norm
+    return np.split(left - columns @ shares, np.cumsum(counts)[:-1])

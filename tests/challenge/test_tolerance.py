@@ -1,0 +1,67 @@
+"""What a bench leaves open hides what looks like it, and nothing else."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from twintube.arrays import Array
+from twintube.lab.challenge.changes import effects, rms
+from twintube.lab.challenge.generate import runs_of
+from twintube.lab.challenge.oil import level_everywhere
+from twintube.lab.challenge.plan import Bench, bench_for
+from twintube.lab.challenge.run import Run, Step, begun, finished, marched
+from twintube.lab.challenge.tolerance import DELAY, FILL, GAIN, ZERO, Tolerances, beyond, tolerances
+
+TIME = np.linspace(0.0, 1.0, 500)
+FORCES = [1000.0 * np.sin(2 * np.pi * f * TIME) for f in (3.0, 5.0)]
+STRAIGHT = Tolerances([np.zeros(500), np.zeros(500)], FORCES, 1000.0)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        [np.full(500, 0.9 * ZERO * 1000.0), np.full(500, -0.5 * ZERO * 1000.0)],
+        [0.9 * GAIN * F for F in FORCES],
+        [-0.9 * DELAY * np.gradient(F) for F in FORCES],
+    ],
+    ids=["a zero in each record", "a gain", "a delay"],
+)
+def test_what_a_channel_may_do_is_hidden(change: list[Array]) -> None:
+    assert rms(beyond(change, STRAIGHT)) < 1e-3 * rms(change)
+    more = beyond([3.0 * c for c in change], STRAIGHT)
+    assert rms(more) > 1.5 * rms(change), "three times as much is not"
+
+
+def test_what_no_channel_does_is_left_whole() -> None:
+    change = [3.0 * np.sign(np.sin(2 * np.pi * 41.0 * TIME)) for _ in FORCES]
+    assert rms(beyond(change, STRAIGHT)) == pytest.approx(rms(change), rel=0.01)
+
+
+def test_steps_hide_what_happens_where_they_are() -> None:
+    steps = np.where(TIME > 0.5, 20.0, 0.0)
+    change = np.where(np.arange(500) % 2, 12.0, -12.0)
+    rest = np.concatenate(beyond([change, change], replace(STRAIGHT, steps=[steps, steps])))
+    early = np.tile(TIME <= 0.5, 2)
+    assert rms([rest[~early]]) < 0.05 * rms([rest[early]])
+
+
+def campaign() -> tuple[Bench, list[Run]]:
+    for seed in range(20):
+        bench = bench_for(frozenset({"degraded", "sine"}), False, np.random.default_rng(seed))
+        if len(bench.records) <= 6:
+            break
+    bench = replace(bench, largest=2000.0)
+    return bench, [finished(marched(run), []) for run in runs_of(bench, 3.0)]
+
+
+def test_a_fill_is_hidden_up_to_its_tolerance() -> None:
+    bench, plain = campaign()
+    open_ = tolerances(plain, bench)
+    left = []
+    for fill in (FILL, 30 * FILL):
+        step = Step("setup", level_everywhere, fill, {"sign": -1.0})
+        runs = [finished(begun(run.record, run.motion, bench.damper), [step]) for run in plain]
+        changes = effects(runs, plain, bench)
+        left.append(rms(beyond(changes, open_)) / rms(changes))
+    assert left[0] < 1e-6 and left[1] > 0.3
