@@ -113,6 +113,19 @@ def test_a_spike_is_left_out_and_a_model_that_is_wrong_everywhere_is_not(runs: l
     assert sum(wrong.counts) == sum(without_outliers(wrong).counts)
 
 
+def test_what_comes_again_in_every_oscillation_is_no_outlier(runs: list[small.Run]) -> None:
+    records = [small.record(r, seed=i) for i, r in enumerate(runs)]
+    ready = small.problem(records).records[0]
+    ends = [int(np.flatnonzero(ready.cycle == i)[8]) for i in np.unique(ready.cycle[ready.cycle >= 0])]
+    times = ready.time[[end for end in ends if ready.judged[end]]]
+    assert len(times) >= RULES.repeats
+    force = records[0].force.copy()
+    force[np.searchsorted(records[0].time, times)] += 2000.0
+    problem = small.problem([replace(records[0], force=force), records[1]])
+    cleaned = without_outliers(problem)
+    assert np.array_equal(problem.records[0].judged, cleaned.records[0].judged)
+
+
 def test_samples_that_are_not_usable_are_not_compared(runs: list[small.Run]) -> None:
     record = small.record(runs[0])
     usable = np.ones(len(record.time), dtype=bool)
@@ -158,3 +171,13 @@ def test_an_error_of_the_model_is_not_taken_for_coloured_noise(period: int) -> N
     error = 2.0 * np.sin(2 * np.pi * np.arange(1500) / period)
     assert colour(coloured(0.0, 1) + error) < 1.15
     assert colour(error) == pytest.approx(1.0)
+
+
+def test_noise_is_no_larger_than_the_errors_it_is_seen_in() -> None:
+    """Steps of a few intervals make neighbours differ, and look coloured; most errors are small."""
+    error = 0.3 * coloured(0.0, 3)
+    error[::6] += 20.0
+    error[1::6] += 15.0
+    held = np.full(1500, 10)
+    size = neighbour_noise(error * np.sqrt(9.5) / 10, held)
+    assert size < 1.6 * float(np.median(np.abs(error - np.median(error))))

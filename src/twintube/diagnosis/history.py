@@ -78,8 +78,9 @@ def begun(record: PreparedRecord) -> PreparedRecord:
 
 
 def bare_of_strokes(record: PreparedRecord) -> bool:
-    """Whether a record of the degraded damper comes to a fast motion without slow strokes over its range before it."""
-    return not record.intact and sudden(record) and not slow(record).all()
+    """Whether a record of the degraded damper has no slow strokes over its range before its fast or random motion."""
+    oscillates = bool((record.cycle >= 0).any())
+    return not record.intact and sudden(record) and not (oscillates and slow(record).all())
 
 
 def sudden(record: PreparedRecord) -> bool:

@@ -95,7 +95,10 @@ def neighbour_noise(force: Array, held: NDArray[np.int64]) -> float:
     # Neighbours share a sample, so that they differ less than their noise would make them.
     white = force / averaging_noise(held)
     bent = np.diff(white, 2) / np.sqrt(BEND**2 - 2.0 / (held[1:-1] - 0.5))
-    return SCATTER * float(np.median(np.abs(bent))) * colour(white) if len(bent) else 0.0
+    if not len(bent):
+        return 0.0
+    most = float(np.median(np.abs(white - np.median(white))))  # a model's errors are no smaller than their noise
+    return SCATTER * min(float(np.median(np.abs(bent))) * colour(white), most)
 
 
 def colour(noise: Array) -> float:
