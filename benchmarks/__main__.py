@@ -47,6 +47,7 @@ def main(
     first_seed: Annotated[int, typer.Option(min=0, help="First seed of the challenge.")] = 0,
     causes: Annotated[str, typer.Option(help="Causes of the challenge, joined by commas; by default the seed draws.")] = "",
     plot: Annotated[Path | None, typer.Option(help="Picture of the challenge's reliability.")] = None,
+    tables: Annotated[Path | None, typer.Option(help="Tables of the challenge in Markdown.")] = None,
 ) -> None:
     """Measure speed and print a table; short jobs are run several times, the shortest time counts.
 
@@ -61,7 +62,7 @@ def main(
     compiled.module()
     figures: dict[str, Any]
     if name == "challenge":
-        figures = bench_challenge(seeds, keep, first_seed, causes, plot)
+        figures = bench_challenge(seeds, keep, first_seed, causes, plot, tables)
     elif name == "calibrate" and keep is not None:
         figures = dict(bench_calibrate(keep))
     else:

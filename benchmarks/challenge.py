@@ -7,9 +7,11 @@ from concurrent.futures import as_completed
 from pathlib import Path
 from typing import Any
 
+from benchmarks.challenge_tables import tables
 from twintube.diagnosis import diagnose
 from twintube.diagnosis.result import as_json
 from twintube.errors import UserError
+from twintube.files import write_text
 from twintube.lab.challenge import cause_of, write
 from twintube.lab.challenge.score import score
 from twintube.processes import pool
@@ -57,7 +59,12 @@ def append(keep: Path | None, entry: dict[str, Any]) -> None:
 
 
 def bench_challenge(
-    seeds: int, keep: Path | None, first_seed: int = 0, causes: str = "", plot: Path | None = None
+    seeds: int,
+    keep: Path | None,
+    first_seed: int = 0,
+    causes: str = "",
+    plot: Path | None = None,
+    markdown: Path | None = None,
 ) -> dict[str, Any]:
     """Figures of `score` over `seeds` seeds from `first_seed` on.
 
@@ -77,7 +84,10 @@ def bench_challenge(
                 done[entry["seed"], entry["wanted"]] = entry
                 verdict = entry["answer"].get("verdict", "refused" if "refused" in entry["answer"] else "failed")
                 print(f"{number}/{len(missing)} seed {entry['seed']}: {entry['truth']['hidden']} -> {verdict}", flush=True)
-    figures: dict[str, Any] = finite(score([done[job] for job in jobs]))
+    outcomes = [done[job] for job in jobs]
+    figures: dict[str, Any] = finite(score(outcomes))
+    if markdown is not None:
+        write_text(markdown, tables(outcomes))
     if plot is not None:
         draw_reliability(figures["reliability"], plot)
     return figures

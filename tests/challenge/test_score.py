@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from benchmarks.challenge import append, draw_reliability, kept_outcomes
+from benchmarks.challenge_tables import tables
 from twintube.lab.challenge.score import contradictions, score
 
 
@@ -68,6 +69,18 @@ def test_what_a_bench_hides_is_counted_apart() -> None:
     inside["truth"]["effect_beyond_bench"], outside["truth"]["effect_beyond_bench"] = 0.1, 0.8
     figures = score([inside, outside])
     assert figures["right_share_clear"] == 0.5 and figures["right_share_beyond_bench"] == 1.0
+
+
+def test_tables_count_what_the_marks_do() -> None:
+    alarm = outcome("none", "none", says("cause", "end_stop"), 0.0)
+    quiet = outcome("none", "none", says("none"), 0.0)
+    inside = outcome("seal_leak", "effect", says("none"))
+    inside["truth"]["effect_beyond_bench"] = 0.1
+    lines = tables([alarm, quiet, inside]).splitlines()
+    assert "| false alarms where nothing is hidden | 1 of 2 | 50.0 % | 1.3 to 98.7 % |" in lines
+    assert "| right where effect/noise is 0.5 or more | 0 of 1 | 0.0 % | 0.0 to 97.5 % |" in lines
+    assert not any("beyond the bench is" in line for line in lines), "of nothing there is no share"
+    assert "| seal_leak | 1 | 0 | 0 of 0 | none 1 |" in lines and "| none | 2 | 1 |  | end_stop 1, none 1 |" in lines
 
 
 def test_contradictions_are_counted() -> None:
