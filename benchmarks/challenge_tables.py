@@ -1,4 +1,4 @@
-"""The challenge's outcomes as tables in Markdown: shares with 95 % intervals, over the effect's size, and the confusion matrix."""
+"""The challenge's outcomes as tables in Markdown: shares with 95 % intervals, over the size of the effect, and by cause."""
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
