@@ -136,5 +136,5 @@ COMPLETE = (*ON_PLATE, "push_down")  # methods that need no intact damper
 def in_windows(damper: Damper, car: Car, setting: Setting, dt: float = DT) -> dict[str, float]:
     """The phase shift [deg] in every window of WINDOWS."""
     run = plate_motion(setting.plate, dt)
-    found = measured_cycles(run, on_plate(damper, car, run).wheel_load)
-    return {name: phase_shift(found, name) for name in WINDOWS}
+    measured = measured_cycles(run, on_plate(damper, car, run).wheel_load)
+    return {name: phase_shift(measured, name) for name in WINDOWS}

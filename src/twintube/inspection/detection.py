@@ -87,7 +87,7 @@ class Detection:
     def as_json(self) -> dict[str, Any]:
         """For JSON; the ROC curve at some false-alarm rates."""
         rates = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
-        false_alarms, found = self.roc
+        false_alarms, detected = self.roc
         return {
             "damper": self.damper,
             "method": self.method.name,
@@ -102,7 +102,7 @@ class Detection:
             "detected_band": list(self.band),
             "failed_share_at_limit": self.failed_share,
             "roc_area": self.area,
-            "roc": {f"{rate:g}": float(found[false_alarms <= rate].max()) for rate in rates},
+            "roc": {f"{rate:g}": float(detected[false_alarms <= rate].max()) for rate in rates},
         }
 
 
@@ -121,8 +121,8 @@ def figures(job: Job, vehicle: CarSet, states: tuple[Condition, ...], methods: t
     car, setting, made = job.sample.corner(job.damper, vehicle), job.sample.setting, job.sample.made(job.damper)
     for state in states:
         # The same noise for every state: what differs is the damper.
-        found = relative(read(state.applied(made), car, methods, setting, job.sample.seed), job.reference)
-        rows.append([found[name] for name in methods])
+        row = relative(read(state.applied(made), car, methods, setting, job.sample.seed), job.reference)
+        rows.append([row[name] for name in methods])
     return rows
 
 
@@ -178,7 +178,7 @@ def study(
 
 
 def first_seen(
-    found: Iterable[Detection], damper: str, method: str, closure: str = DEFAULT, *, scalar: bool = False
+    detections: Iterable[Detection], damper: str, method: str, closure: str = DEFAULT, *, scalar: bool = False
 ) -> float | None:
     """The highest oil level from which on down the method detects SEEN of the dampers, else None.
 
@@ -186,7 +186,7 @@ def first_seen(
     """
     here = [
         d
-        for d in found
+        for d in detections
         if (d.damper, d.method.name, d.condition.scalar) == (damper, method, scalar)
         and (scalar or d.condition.closure == closure)
     ]

@@ -84,5 +84,5 @@ def bump(acceleration: Array) -> float:
 
 def measured_cycles(run: Motion, force: Array, phase_error: float = 0.0) -> Cycles:
     """The cycles of a plate force (n,) [N] with the `phase_error` [deg] of the tester."""
-    found = cycles(run, force)
-    return Cycles(found.frequency, found.answer * np.exp(1j * np.radians(phase_error)))
+    exact = cycles(run, force)
+    return Cycles(exact.frequency, exact.answer * np.exp(1j * np.radians(phase_error)))
