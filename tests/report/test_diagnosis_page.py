@@ -15,12 +15,14 @@ import pytest
 from click.testing import Result
 from typer.testing import CliRunner
 
+from tests.diagnosis import small
 from tests.report.test_page import parsed
 from twintube.cli import app
 from twintube.core.checks import tube_limit
 from twintube.core.effects import EFFECTS
 from twintube.dampers import Damper, load
 from twintube.data import Record
+from twintube.diagnosis.candidates import candidates
 from twintube.diagnosis.prepare import PreparedRecord, prepared
 from twintube.diagnosis.result import (
     VERDICTS,
@@ -41,7 +43,7 @@ from twintube.report.answer import confidence, has_extension, lines, next_step, 
 from twintube.report.diagnosis import BADGES, cause_tables, doubt, open_values, write_report
 from twintube.report.diagnosis_loop import telling, typical
 from twintube.report.diagnosis_records import broken, closed, compared, models, oscillations, parts, shown, work
-from twintube.report.engineering import in_words, is_share
+from twintube.report.engineering import in_words, is_share, meaning
 from twintube.rig.signals import harmonic_block
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
@@ -432,3 +434,10 @@ def test_in_a_browser(pages):
     image = matplotlib.image.imread(shot)[..., :3]
     assert image.shape[:2] == (6000, 1200)
     assert image.std() > 0.05 and all(strip.std() > 0.02 for strip in np.array_split(image, 6))
+
+
+def test_every_value_says_what_it_is() -> None:
+    problem = small.problem([small.record(small.run(0.3, small.DEGRADED))])
+    names = {f.name for candidate in candidates(problem) for f in candidate.free}
+    assert names > {"force_gain", "clock_error", "level_error"}
+    assert [name for name in sorted(names) if not meaning(name)] == []

@@ -5,6 +5,7 @@ from dataclasses import fields
 from twintube.core.effects import EFFECTS, Parameters
 from twintube.diagnosis.candidates import FAULT_TITLES
 from twintube.diagnosis.options import RECALIBRATE
+from twintube.diagnosis.seen import FILL
 from twintube.diagnosis.verdict import lower
 
 
@@ -19,9 +20,23 @@ def title_of(effect: str) -> str:
     return " + ".join(titles.get(name, name.replace("_", " ").capitalize()) for name in effect.split("+"))
 
 
+MEASURED = {
+    "force_offset": "measured less true force",
+    "force_gain": "measured over true force",
+    "stroke_gain": "measured over true stroke",
+    "channel_delay": "by which the force is later than the stroke",
+    "zero_drift": "rise of the zero with time",
+    "clock_error": "by which the clock of the force is fast",
+    "level_error": "true less recorded fill, of every degraded state",
+}
+
+
 def meaning(name: str) -> str:
-    """Description of a model parameter; empty for other names."""
-    return next((str(item.metadata["description"]) for item in fields(Parameters) if item.name == name), "")
+    """Description of a parameter of the model or of the measurement; empty for other names."""
+    if name.startswith(FILL):
+        return f"true less recorded fill, of the state with {name.removeprefix(FILL)} % oil"
+    described = (str(item.metadata["description"]) for item in fields(Parameters) if item.name == name)
+    return next(described, MEASURED.get(name, ""))
 
 
 def in_words(step: str) -> str:
