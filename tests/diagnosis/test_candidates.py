@@ -7,7 +7,7 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.data import Record
-from twintube.diagnosis.candidates import Candidate, best_start, candidates, linear, nuisances, period, usual_delay
+from twintube.diagnosis.candidates import Candidate, best_start, candidates, linear, lowest, nuisances, period, usual_delay
 from twintube.diagnosis.edges import with_noise
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.rules import RULES
@@ -95,3 +95,19 @@ def test_an_effect_that_is_late_is_seen_behind_the_delay_that_stands_in_for_it(c
     cost, point = best_start([problem], named(problem, "mount_compliance"), [problem.usual])
     assert 0.1 * compliance < point["C_mount"] < compliance
     assert cost < 0.8 * problem.costs([problem.usual], problem.usual, linear(problem))[0]
+
+
+def test_a_strength_between_two_values_of_its_grid_is_not_lost() -> None:
+    """Both branches lose 1.5 %: of wear the grid has 0.8 and 2.4 %, and a bleed valve would come nearer in one of them."""
+    problem = small.problem(small.records(lambda r: r.force - 0.015 * r.fluid))
+    wear = named(problem, "valve_wear")
+    _, point = best_start([problem], wear, [{}])
+    assert set(point) & set(wear.strength) == {"wear_re", "wear_co"}
+    assert [point[name] for name in ("wear_re", "wear_co")] == pytest.approx([-0.015, -0.015], rel=0.25)
+
+
+def test_the_lowest_of_a_parabola() -> None:
+    costs = {x: 3.0 * (x - 0.7) ** 2 + 1.0 for x in (-1.0, 0.0, 0.5, 2.0)}
+    assert lowest(costs) == pytest.approx(0.7)
+    assert lowest({0.0: 1.0, 1.0: 2.0, 3.0: 5.0}) == 0.0
+    assert lowest({0.0: 2.0, 1.0: 1.0, 3.0: 1.0}) == pytest.approx(2.0)

@@ -68,6 +68,15 @@ def test_a_single_file_of_another_gain_may_be_of_another_setting(
     assert rest == [r.name for i, r in enumerate(good) if i != ODD]
 
 
+def test_a_record_is_odd_by_its_gain_where_most_intervals_have_little_force(
+    good: list[Record], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As in a random motion: by its mean error it would belong to the others, and its gain would be named."""
+    monkeypatch.setattr("twintube.diagnosis.odd.differ", lambda *_: False)
+    fault, _ = judged(changed(good, lambda r: replace(r, force=1.1 * r.force)))
+    assert fault is not None and fault.effect == "odd_record"
+
+
 @pytest.mark.parametrize("stranger", ["another damper", "another fill"])
 def test_a_record_of_something_else_is_named(good: list[Record], stranger: str) -> None:
     run = small.run(0.6, damper=load("SA7")) if stranger == "another damper" else small.run(0.6, small.DEGRADED)

@@ -239,23 +239,50 @@ def best_start(
         grids[CLOCK] = clock_starts(problems, fixed)
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength][: RULES.shapes]
     best, low = {f.name: f.start for f in candidate.free}, np.inf
+
+    def costs(points: Sequence[Mapping[str, float]]) -> list[float]:
+        some = [
+            problem.costs([{**values, **point} for point in points], values, measured)
+            for problem, values, measured in zip(problems, fixed, free, strict=True)
+        ]
+        return [sum(cost) for cost in zip(*some, strict=True)]
+
+    neutral = costs([best])[0]
     left = list(candidate.strength)
     while left:
         # Lengths and times are sought together with the first strength, then each by itself: a stop has an onset of its own.
         some = [dict(zip(shapes, other, strict=True)) for other in itertools.product(*(grids[name] for name in shapes))]
         if len(left) < len(candidate.strength):
             some = [{}, *({name: x} for name in shapes for x in grids[name])]
-        points = [best | {name: x} | shape for name in left for x in grids[name] for shape in some]
-        costs = [
-            problem.costs([{**values, **point} for point in points], values, measured)
-            for problem, values, measured in zip(problems, fixed, free, strict=True)
-        ]
-        scores = [sum(some) for some in zip(*costs, strict=True)]
+        rows = [(name, x, shape) for name in left for x in grids[name] for shape in some]
+        points = [best | {name: x} | shape for name, x, shape in rows]
+        scores = costs(points)
+        finer = []
+        for name in left:  # else a strength between two values of its grid loses against another's value
+            own = [i for i, row in enumerate(rows) if row[0] == name]
+            top = min(own, key=lambda i: scores[i])
+            line = {best[name]: neutral} | {rows[i][1]: scores[i] for i in own if rows[i][2] == rows[top][2]}
+            x = lowest(line)
+            finer += [points[top] | {name: x}] if x not in line else []
+        points, scores = [*points, *finer], [*scores, *(costs(finer) if finer else [])]
         if min(scores) >= (1.0 - RULES.joins) * low:
             break
         point, low = points[int(np.argmin(scores))], min(scores)
-        left = [name for name in left if point[name] == best[name]]
+        left, neutral = [name for name in left if point[name] == best[name]], low
         best = point
         if candidate.single:
             break
     return float(low), {name: x for name, x in best.items() if name not in left}
+
+
+def lowest(costs: Mapping[float, float]) -> float:
+    """Where a parabola through the lowest of some costs and its two neighbours is lowest; the lowest at an end of them."""
+    x = np.array(sorted(costs))
+    y = np.array([costs[value] for value in x.tolist()])
+    i = int(np.argmin(y))
+    if not 0 < i < len(x) - 1:
+        return float(x[i])
+    rise, fall = (y[i + 1] - y[i]) / (x[i + 1] - x[i]), (y[i - 1] - y[i]) / (x[i] - x[i - 1])
+    bend = (rise + fall) / (x[i + 1] - x[i - 1])
+    slope = (rise * (x[i] - x[i - 1]) - fall * (x[i + 1] - x[i])) / (x[i + 1] - x[i - 1])
+    return float(x[i] - slope / (2.0 * bend)) if bend > 0.0 else float(x[i])

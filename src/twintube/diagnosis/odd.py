@@ -26,9 +26,12 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
         return (fault, others) if fault is not None else (None, problem)
     fault = own_fault(part, names, {c.name: c.least[c.name] for c in faults(problem)})
     # A single record of another setting looks as if its gain were wrong.
-    if fault is None or (len(names) == 1 and fault.effect in ("force_gain", STROKE_GAIN)):
+    gain = fault is not None and len(names) == 1 and fault.effect in ("force_gain", STROKE_GAIN)
+    if fault is None or gain:
         zero = RULES.small_zero * max(record.peak for record in problem.records)
-        fault = stranger(part, names, RULES.odd_little if beyond >= RULES.odd_clear else RULES.odd_force, zero) or fault
+        least = RULES.odd_little if beyond >= RULES.odd_clear else RULES.odd_force
+        apart = differ(part, least, zero) if fault is None else abs(fault.factor - 1.0) >= least
+        fault = stranger(part, names) if apart else None
     return (fault, others) if fault is not None else (None, problem)
 
 
@@ -109,16 +112,20 @@ def right(part: Problem, values: dict[str, float], usual: float = 1.0) -> bool:
     return bool(np.all(misfit <= RULES.odd_right * usual))
 
 
-def stranger(part: Problem, names: tuple[str, ...], least: float, zero: float) -> Fault | None:
-    """Records of something else; None where they differ by less than shares `least` of their peaks, or by a `zero` [N].
+def differ(part: Problem, least: float, zero: float) -> bool:
+    """Whether records differ by shares `least` of their peaks, and by more than a `zero` [N], in most of their intervals.
 
-    So much does a model differ where the filling changes, or the zero of a good load cell. Neither is one named whose error
-    lies in few intervals: a cause that moves a single step may act in a single record.
+    So much does a model differ where the filling changes, or the zero of a good load cell. An error in few intervals is a
+    moved step: a cause may act in a single record.
     """
     sizes = shares(part)
     size = max(share * record.peak for share, record in zip(sizes, part.records, strict=True))
-    if min(sizes) < least or size < zero or min(spreads(part)) < RULES.odd_spread:
-        return None
+    return min(sizes) >= least and size >= zero and min(spreads(part)) >= RULES.odd_spread
+
+
+def stranger(part: Problem, names: tuple[str, ...]) -> Fault:
+    """Records of something else."""
+    size = max(share * record.peak for share, record in zip(shares(part), part.records, strict=True))
     kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
     text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."
     return Fault(STRANGER, f"The {kind} {', '.join(names)}", text, size, "force_rmse_N", "N", names)
