@@ -9,7 +9,7 @@ import pytest
 from twintube.diagnosis.candidates import Candidate
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.options import RECALIBRATE, Option, Selection
-from twintube.diagnosis.result import Errors, Estimate, Gain, Signature
+from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.verdict import Judgement, judge, sentence
 
@@ -54,11 +54,12 @@ def judged(
     forces: tuple[float, float, float] = (100.0, 20.0, 10.0),
     gain: Gain = GOOD,
     faults: Sequence[Fault] = (),
+    attempts: Sequence[Tried] = (),
 ) -> Judgement:
     """The verdict; `forces` [N] are the held-out errors of base and extended model and of noise."""
     errors = {name: Errors(x, 0.0) for name, x in zip(("base", "extended", "noise_floor"), forces, strict=True)}
     estimates = {name: {"strength": value} for name in KNOWN}
-    return judge(chosen, KNOWN, estimates, list(seen), errors, gain, list(faults))
+    return judge(chosen, KNOWN, estimates, list(seen), errors, gain, list(faults), attempts)
 
 
 @pytest.mark.parametrize(
@@ -187,3 +188,17 @@ def test_faults_that_were_put_right_come_first_and_what_is_left_is_said() -> Non
 def test_several_causes_are_listed_as_several() -> None:
     text = sentence(judged(selection(option("valve_wear", "fluid_lag", score=0.0))), KNOWN, [])
     assert text.startswith("Two causes: (1) change of the F-v curve; (2) lag of the fluid force.")
+
+
+def test_a_cause_whose_row_on_the_page_allows_for_no_gain_is_not_named() -> None:
+    chosen = selection(option("valve_wear", score=20.0))
+    rows = [Tried(1, "valve_wear", 0.9, (low, 1.0), "chosen", "") for low in (0.1, -0.1)]
+    assert judged(chosen, attempts=rows[:1]).causes == ["valve_wear"]
+    assert judged(chosen, attempts=rows[1:]).verdict == "unexplained"
+
+
+def test_where_noise_is_left_a_cause_explains_half_at_least() -> None:
+    chosen = selection(option("valve_wear", score=20.0))
+    forces = (11.5, 11.0, 10.0)
+    assert judged(chosen, forces=forces, gain=replace(GOOD, heldout=0.55)).causes == ["valve_wear"]
+    assert judged(chosen, forces=forces, gain=replace(GOOD, heldout=0.25)).verdict == "unexplained"

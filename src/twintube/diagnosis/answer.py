@@ -47,9 +47,9 @@ def answer(
     halves = selection.final.fits
     causes = [name for name in selection.chosen if name != RECALIBRATE]
     estimates = {name: estimated(selector.whole, known[name], extended, halves) for name in causes}
-    judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults))
-    residuals = maps(records)
     attempts = tried(selector, selection)
+    judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults), attempts)
+    residuals = maps(records)
     named = [*judgement.causes, *(fault.effect for fault in faults)]
     probable = evidence(judgement.verdict, named, [o.names[-1] for o in judgement.rivals], attempts)
     left = [describe(residuals, left=True)] if judgement.remaining == "unexplained" else []
@@ -188,7 +188,7 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
     for n, options in enumerate(selection.rounds, start=1):
         for k, option in enumerate(options):
             rows = np.column_stack([selector.logs(current.misfit) - selector.logs(option.misfit), explainable])
-            gain = float(rows[:, 0].sum() / total)
+            gain = min(1.0, float(rows[:, 0].sum() / total))
             won = k == 0 and option.names[-1] in selection.chosen
             if won:
                 reason = "improves the held-out records most"

@@ -216,7 +216,10 @@ class Rules:
         1 / 3, "1", "of the squared error left, or of the step between the zeros, for a further cause", TRIALS
     )
     half: float = selection(
-        0.5, "1", "of the misfit left, for a further cause that does not raise the squared error", TRIALS
+        0.5,
+        "1",
+        "of the misfit left, for a further cause that does not raise the squared error; of a cause, where noise is left",
+        TRIALS,
     )
     second_share: float = selection(
         0.1, "1", "of the whole squared error beyond noise, which a further cause must explain", DEVELOPMENT

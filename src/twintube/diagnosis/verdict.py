@@ -8,7 +8,7 @@ import numpy as np
 from twintube.diagnosis.candidates import Candidate
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.options import RECALIBRATE, Option, Selection
-from twintube.diagnosis.result import Errors, Estimate, Gain, Signature
+from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
 from twintube.diagnosis.rules import RULES
 
 NUMBERS = {2: "Two", 3: "Three"}
@@ -37,11 +37,13 @@ def judge(
     errors: Mapping[str, Errors],
     gain: Gain,
     faults: Sequence[Fault],
+    attempts: Sequence[Tried],
 ) -> Judgement:
     """The verdict from the selected causes, the signatures in the records and the faults that were put right.
 
     `estimates` are the values of the chosen causes, `errors` those of the models on held-out records, `gain` that of the
-    model with all chosen causes. A cause is named only where none of these figures speaks against it.
+    model with all chosen causes, `attempts` the candidates as the page shows them. A cause is named only where none of these
+    figures speaks against it.
     """
     base, extended, floor = (errors[name].force_rmse_N for name in ("base", "extended", "noise_floor"))
     right = selection.final.score <= RULES.right * selection.count
@@ -52,8 +54,10 @@ def judge(
     unlimited = [signature for signature in seen if signature.size == np.inf]
     causes = [name for name in selection.chosen if name != RECALIBRATE]
     doubts = {name: doubt for name in causes if (doubt := doubtful(candidates[name], estimates[name]))}
-    proven = gain.heldout > 0.0 and gain.heldout_interval[0] > 0.0 and extended < base and base > floor
-    enough = gain.heldout >= RULES.explained or right
+    lows = [gain.heldout_interval[0], *(a.interval[0] for a in attempts if a.decision == "chosen" and a.effect in causes)]
+    proven = gain.heldout > 0.0 and min(lows) > 0.0 and extended < base and base > floor
+    # Where noise alone is left, what is explained of little is known badly.
+    enough = gain.heldout >= (RULES.half if right else RULES.explained)
     if quiet:
         # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained.
         enough = selection.final.score <= (1 - RULES.half) * selection.start.score
