@@ -27,7 +27,6 @@ MEASURED = {
     "channel_delay": "by which the force is later than the stroke",
     "zero_drift": "rise of the zero with time",
     "clock_error": "by which the clock of the force is fast",
-    "level_error": "true less recorded fill, of every degraded state",
 }
 
 
