@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.polynomial import Polynomial
 
 from twintube.core import effects
 from twintube.core.hooks import Effect, sources
@@ -257,14 +258,14 @@ def best_start(
         rows = [(name, x, shape) for name in left for x in grids[name] for shape in some]
         points = [best | {name: x} | shape for name, x, shape in rows]
         scores = costs(points)
-        finer = []
-        for name in left:  # else a strength between two values of its grid loses against another's value
+        # Else a strength between two values of its grid loses against a value of another's.
+        for name in left:
             own = [i for i, row in enumerate(rows) if row[0] == name]
             top = min(own, key=lambda i: scores[i])
             line = {best[name]: neutral} | {rows[i][1]: scores[i] for i in own if rows[i][2] == rows[top][2]}
-            x = lowest(line)
-            finer += [points[top] | {name: x}] if x not in line else []
-        points, scores = [*points, *finer], [*scores, *(costs(finer) if finer else [])]
+            if (x := lowest(line)) not in line:
+                points.append(points[top] | {name: x})
+        scores += costs(points[len(rows) :]) if len(points) > len(rows) else []
         if min(scores) >= (1.0 - RULES.joins) * low:
             break
         point, low = points[int(np.argmin(scores))], min(scores)
@@ -282,7 +283,5 @@ def lowest(costs: Mapping[float, float]) -> float:
     i = int(np.argmin(y))
     if not 0 < i < len(x) - 1:
         return float(x[i])
-    rise, fall = (y[i + 1] - y[i]) / (x[i + 1] - x[i]), (y[i - 1] - y[i]) / (x[i] - x[i - 1])
-    bend = (rise + fall) / (x[i + 1] - x[i - 1])
-    slope = (rise * (x[i] - x[i - 1]) - fall * (x[i + 1] - x[i])) / (x[i + 1] - x[i - 1])
-    return float(x[i] - slope / (2.0 * bend)) if bend > 0.0 else float(x[i])
+    slope = Polynomial.fit(x[i - 1 : i + 2], y[i - 1 : i + 2], 2).deriv()
+    return float(slope.roots()[0]) if slope.degree() == 1 and slope.coef[1] > 0.0 else float(x[i])
