@@ -182,13 +182,15 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
     rows_of_table = []
     current = selection.start
     first = selector.logs(current.misfit)
-    # An equal whole for every resample; where hardly anything is to be explained, what would be worth a cause.
-    total = max(float(np.maximum(first, 0.0).sum()), RULES.worth * selection.count)
+    # An equal whole for every resample. The best model may take more away, as noise is known to some per cent; where hardly
+    # anything is to be explained, what would be worth a cause.
+    most = max(float((first - selector.logs(option.misfit)).sum()) for options in selection.rounds for option in options)
+    total = max(float(np.maximum(first, 0.0).sum()), most, RULES.worth * selection.count)
     explainable = np.full(len(first), total / len(first))
     for n, options in enumerate(selection.rounds, start=1):
         for k, option in enumerate(options):
             rows = np.column_stack([selector.logs(current.misfit) - selector.logs(option.misfit), explainable])
-            gain = min(1.0, float(rows[:, 0].sum() / total))
+            gain = float(rows[:, 0].sum() / total)
             won = k == 0 and option.names[-1] in selection.chosen
             if won:
                 reason = "improves the held-out records most"
