@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 0b330ecdcbe4bb3e, body f427161af96be272; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations f18e98385368fc27, body 55ac10de6073d159; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -78,6 +78,7 @@ struct kernel_Parameters {
     double fade_kelvin;
     double friction_kelvin;
     double gas_kelvin;
+    double turbulence;
     double gas_heat;
     double friction_slope;
     double friction_bow;
@@ -1741,7 +1742,11 @@ static void kernel_effects_transition(struct kernel_Parameters* p, struct kernel
 /* Share of the fluid force that is left [1]. */
 static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
 {
-    return exp((-p->fade_heat) * (p->H_start + s->heat) - p->fade_kelvin * s->warm);
+    double thin;
+    double laminar;
+    thin = exp((-p->fade_heat) * (p->H_start + s->heat) - p->fade_kelvin * s->warm);
+    laminar = 1.0 / (1.0 + p->turbulence * fabs(v));
+    return thin + (1.0 - laminar) * (1.0 - thin);
 }
 
 /* Factor of the fluid force [1] in the direction of `v`. */
@@ -2207,7 +2212,7 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     s->F_friction = s->F_friction * kernel_effects_scale_friction(p, s, s->z, v) + kernel_effects_rub(p, s->z, v);
     s->F_gas += kernel_effects_elastic(p, s, s->z);
     /* As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end. */
-    s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, dz);
+    s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, (dt > 0.0 ? dz / dt : dz));
     s->F_mean = 0.5 * (kernel_fluid_force(p, s->goal_v0) * kernel_effects_scale_valve(p, s->goal_v0) + F_1) * s->k_mean;
     s->W_step = s->F_mean * dz;
     s->F_valve = s->F_fluid;

@@ -48,6 +48,18 @@ def test_a_warm_start_thins_the_oil_from_the_beginning() -> None:
     assert warm.F_fluid[0] == pytest.approx(plain.F_fluid[0] * math.exp(-0.05))
 
 
+def test_only_the_laminar_part_of_the_force_knows_the_viscosity() -> None:
+    base = load("SA8").with_(fade_heat=1e-4, H_start=1000.0, cooling_time=5.0)
+    left = {}
+    for speed in (0.1, 1.0):
+        z, v = np.linspace(-0.03, 0.03, 61), np.full(61, speed)
+        t = np.arange(61) * 1e-3 / speed
+        plain, mixed = (simulate(damper, z, v, t).F_fluid[1] for damper in (load("SA8"), base.with_(turbulence=2.0)))
+        left[speed] = mixed / plain
+    thin = math.exp(-0.1)  # hardly any work has been done after the first millimetre
+    assert left == pytest.approx({x: (thin + 2.0 * x) / (1.0 + 2.0 * x) for x in left}, rel=2e-3)
+
+
 @dataclass
 class Warmed:
     """A record of the intact damper, `warm` [K] beyond the temperature of its parameters."""

@@ -12,7 +12,7 @@ from twintube.core import effects
 from twintube.core.hooks import Effect, sources
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import BENDS, CLOCK, DELAY, LINEAR, STROKE_GAIN
+from twintube.diagnosis.seen import BENDS, CLOCK, DELAY, LINEAR, SETTLING, STROKE_GAIN
 from twintube.fitting.parameters import DEGRADATION, ranges
 
 FAULT_TITLES = {
@@ -33,6 +33,8 @@ def hooked(hooks: str) -> tuple[str, ...]:
 LATENESS = hooked("force|transition")  # effects that make the force late
 LATE = (*LATENESS, DELAY, CLOCK)  # and faults that do
 FILLED = hooked("level")  # another fill than the recorded one, in all states alike or in one
+# What changes volumes alone moves steps of the force, or brings them about.
+MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked("scale_fluid"), *FILLED))
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
 ALIKE = (LATE, FRICTION)  # of each a second only mends the formulation of the first
 
@@ -149,14 +151,15 @@ def unsought(effect: Effect, problem: Problem) -> tuple[str, ...]:
     """Parameters of heat for which the records have no temperature, or which a temperature along them makes needless."""
     kelvin = tuple(item.name for item in effect.parameters if item.metadata["unit"] == "1/K")
     if kelvin and any(np.ptp(record.warm) > RULES.warm for record in problem.records):
-        return tuple(item.name for item in effect.parameters if item.name not in kelvin)
+        return tuple(item.name for item in effect.parameters if item.metadata["unit"] in ("1/J", "J", "s"))
     return () if np.ptp(np.concatenate([record.warm for record in problem.records])) > RULES.warm else kelvin
 
 
 def faults(problem: Problem) -> list[Candidate]:
     """What may be wrong with a measuring channel in all records alike."""
     peak = max(record.peak for record in problem.records)
-    duration = float(np.median([np.ptp(record.time) for record in problem.records]))
+    lasting = [np.ptp(record.time) for record in problem.records]
+    duration, longest = float(np.median(lasting)), float(max(lasting))
     usual = {free.name: free.high for free in nuisances(problem)}
     zero, late = RULES.zero_range * peak, max(RULES.delay_range, RULES.delay_samples * period(problem))
     drift = zero / duration
@@ -170,22 +173,24 @@ def faults(problem: Problem) -> list[Candidate]:
          "a record of the friction alone at high frequency: only a delay shifts it"),
         (STROKE_GAIN, "1", (1.0, *RULES.stroke_range), RULES.small_gain,
          "The stroke channel reads all strokes too large or too small.", "the stroke checked with a gauge block"),
-        ("zero_drift", "N/s", (0.0, -drift, drift), usual["force_offset"] / duration,
-         "The zero of the load cell moves evenly during each record.", "the load cell read before and after a record"),
+        ("zero_drift", "N/s", (0.0, -drift, drift), RULES.small_force * peak / longest,
+         "The zero of the load cell moves during each record.", "the load cell read before and after a record"),
         ("clock_error", "1", (0.0, -RULES.clock_range, RULES.clock_range), usual["channel_delay"] / duration,
          "The clock of the force channel runs faster or slower than that of the stroke.", "both channels on a single clock"),
     ]  # fmt: skip
+    laws = dict.fromkeys(FAULT_TITLES, ()) | {"zero_drift": (Free(SETTLING, *RULES.settling),)}
     return [
         Candidate(
             name,
             FAULT_TITLES[name],
             text,
-            (Free(name, *bounds, neutral=bounds[0]),),
+            (Free(name, *bounds, neutral=bounds[0]), *laws[name]),
             (name,),
-            {name: unit},
+            {name: unit} | {law.name: "1/s" for law in laws[name]},
             True,
             decides,
             {name: least},
+            tuple(law.name for law in laws[name]),
         )
         for name, unit, bounds, least, text, decides in several
     ]
@@ -201,7 +206,15 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
         near += [f.low] if f.name in candidate.laws else []
         return sorted({min(max(x, f.low), f.high) for x in near})
     sides = [(sign, side) for sign, side in ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0]
-    return [f.start + sign * share * side for share in RULES.shares for sign, side in sides]
+    shares = np.geomspace(*RULES.shares_moving).tolist() if candidate.name in MOVING else RULES.shares
+    return [f.start + sign * share * side for share in shares for sign, side in sides]
+
+
+def fills() -> list[float]:
+    """Errors of a fill [1] from which a search begins."""
+    fine, coarse, end = RULES.fills_tried
+    near, far = np.arange(fine, end, fine), np.arange(end, RULES.most_fill, coarse)
+    return [*RULES.shares[:2], *near.tolist(), *far.tolist()]
 
 
 def clock_starts(problems: Sequence[Problem], fixed: Sequence[Mapping[str, float]]) -> list[float]:
@@ -236,6 +249,8 @@ def best_start(
     """
     free = [nuisances(problem) if candidate.name in LATENESS else linear(problem) for problem in problems]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
+    if candidate.single:  # a step of the force comes or goes with some thousandths of the oil
+        grids |= {f.name: [x for size in fills() for x in (size, -size) if f.low <= x <= f.high] for f in candidate.free}
     if CLOCK in grids:
         grids[CLOCK] = clock_starts(problems, fixed)
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength][: RULES.shapes]

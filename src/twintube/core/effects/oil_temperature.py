@@ -1,9 +1,10 @@
 """Heat: the oil thins, so that the fluid force fades; the gas presses harder and the friction falls.
 
 The damper is one heat store with one way out (lumped capacity, Newton cooling); H is the heat in it beyond that of the
-start: dH/dt = P - H / cooling_time. Viscosity falls exponentially with temperature (Reynolds), and so does the force:
-F_Fl exp(-fade_heat (H + H_start)), H_start being the heat at the start beyond that at the temperature of the F-v curve.
-Heat capacity and viscosity index act only through their ratio `fade_heat`.
+start: dH/dt = P - H / cooling_time. Viscosity falls exponentially with temperature (Reynolds), and so does the laminar
+part of the force, by exp(-fade_heat (H + H_start)), H_start being the heat at the start beyond that at the temperature of
+the F-v curve. Heat capacity and viscosity index act only through their ratio `fade_heat`. The pressure drop a mu v + b v^2
+of a passage is laminar by 1 / (1 + turbulence |v|), turbulence being b / (a mu); the rest does not know the viscosity.
 
 Where the temperature is measured, it is `s.warm` [K] beyond that of the parameter set, set from outside; it acts by
 fade_kelvin and friction_kelvin in the same exponential way. The gas is enclosed: force and stiffness of the preload rise by
@@ -44,6 +45,9 @@ class Parameters(variables.Parameters):
                                  role="strength")  # fmt: skip
     gas_kelvin: float = var("oil_temperature", "", "1/K", "relative rise of the preload per kelvin measured", lower=0,
                             upper=0.01, source="ideal gas, enclosed: 1/296 K", default=0.00338, role="scale")  # fmt: skip
+    turbulence: float = var("oil_temperature", "", "s/m", "turbulent over laminar pressure drop per velocity; 0: all is "
+                            "laminar", lower=0, upper=20, source="Hagen-Poiseuille and Bernoulli: a mu v + b v^2",
+                            default=0.0, role="law")  # fmt: skip
     gas_heat: float = var("oil_temperature", "", "1/J", "relative rise of the preload per retained heat", lower=0,
                           upper=1e-3, source="ideal gas, lumped heat capacity", default=0.0, role="law")  # fmt: skip
 
@@ -62,7 +66,9 @@ def oil_temperature_phases(p: Parameters, s: State, way: float, dt: float) -> No
 
 def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
     """Share of the fluid force that is left [1]."""
-    return math.exp(-p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * s.warm)
+    thin = math.exp(-p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * s.warm)
+    laminar = 1.0 / (1.0 + p.turbulence * abs(v))
+    return thin + (1.0 - laminar) * (1.0 - thin)
 
 
 def oil_temperature_scale_friction(p: Parameters, s: State, z: float, v: float) -> float:
