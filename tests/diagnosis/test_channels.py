@@ -50,11 +50,22 @@ def test_a_fault_is_recovered_from_its_own_start(name: str, runs: list[small.Run
     problem = small.problem([measured(r) for r in runs])
     candidate = fault(problem, name)
     cost, start = best_start([problem], candidate, [{}])
-    (f,) = candidate.free
-    fit = problem.fit([*(g for g in nuisances(problem) if g.name != name), replace(f, start=start[name])])
+    f, *laws = candidate.free
+    fit = problem.fit([*(g for g in nuisances(problem) if g.name != name), replace(f, start=start[name]), *laws])
     assert cost < float(np.sum(problem.residual({}) ** 2))
     assert fit.values[name] == pytest.approx(value, abs=max(0.02 * abs(value - f.start), candidate.least[name] * 0.1))
     assert abs(value - f.start) > candidate.least[name]
+    assert fit.misfit.max() < 1.2
+
+
+def test_a_zero_that_settles_is_recovered_with_its_rate(runs: list[small.Run]) -> None:
+    """As of a load cell that warms up at the beginning of each record."""
+    problem = small.problem([small.record(r, r.force + 8.0 * (1.0 - np.exp(-0.2 * r.time))) for r in runs])
+    candidate = fault(problem, "zero_drift")
+    _, start = best_start([problem], candidate, [{}])
+    fit = problem.fit([*nuisances(problem), *(replace(f, start=start[f.name]) for f in candidate.free)])
+    assert fit.values["zero_drift"] == pytest.approx(1.6, rel=0.1)
+    assert fit.values["zero_settling"] == pytest.approx(0.2, rel=0.2)
     assert fit.misfit.max() < 1.2
 
 

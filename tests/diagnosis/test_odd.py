@@ -83,7 +83,7 @@ def test_a_record_of_something_else_is_named(good: list[Record], stranger: str) 
     other = replace(small.record(run), name="stray", oil_level=1.0, gas_preload=True)
     fault, rest = judged(changed(good, lambda _: other))
     assert fault is not None
-    assert (fault.effect, fault.records, fault.unit) == ("odd_record", ("stray",), "N")
+    assert (fault.effect, fault.records) == ("odd_record", ("stray",))
     assert "stray does not belong" in fault.explanation
     assert "stray" not in rest
 
@@ -110,3 +110,15 @@ def test_an_error_in_few_intervals_makes_no_odd_record(good: list[Record]) -> No
     everywhere = replace(degraded[0], force=1.15 * degraded[0].force)
     fault, _ = judged([*good, everywhere, degraded[1]])
     assert fault is not None
+
+
+def test_another_fill_of_a_single_record_is_named_with_its_size(good: list[Record]) -> None:
+    """It moves a step of the force, in few intervals; a leak would have to lose a tenth of the oil at that velocity alone."""
+    degraded = [small.record(small.run(speed, small.DEGRADED, slow=2)) for speed in (0.3, 0.6, 1.0)]
+    other = replace(small.record(small.run(0.6, 0.45, slow=2)), name=degraded[1].name, oil_level=small.DEGRADED)
+    fault, rest = judged([*good, degraded[0], other, degraded[2]])
+    assert fault is not None
+    assert (fault.effect, fault.name, fault.records) == ("odd_record", "oil_level", (other.name,))
+    assert fault.factor == pytest.approx(0.45, abs=0.003)
+    assert "as with 45 % oil, recorded with 56 %" in fault.explanation
+    assert other.name not in rest

@@ -1,12 +1,18 @@
 """A limit of the force channel under noise is seen against the model; a valve that opens at high forces is none."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from tests.diagnosis import small
+from twintube.dampers import load
+from twintube.data import Record
 from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.saturation import saturated
+from twintube.engine.simulate import simulate
+from twintube.rig.signals import AMPLITUDE
 
 LIMIT = 0.6  # of the largest force
 
@@ -34,3 +40,25 @@ def test_a_good_damper_and_a_valve_that_opens_are_no_limit(largest: float) -> No
     knee = LIMIT * largest
     assert saturated(problem(lambda r: np.minimum(r.force, knee + 0.3 * (r.force - knee))))[0] is None
     assert saturated(problem(lambda r: 0.8 * r.force))[0] is None
+
+
+def triangle(level: float, *, factor: float = 1.0) -> Record:
+    """Strokes of constant velocity, forces times a factor and cut at a level [N]."""
+    strokes = np.linspace(-AMPLITUDE, AMPLITUDE, 161)
+    z = np.concatenate([strokes[:-1], strokes[::-1][:-1]] * 4)
+    t = np.arange(len(z)) * (strokes[1] - strokes[0]) / 1.3
+    v = np.gradient(z, t)
+    force = factor * simulate(load("SA8"), z, v, t).force
+    noise = 3.0 * np.random.default_rng(3).standard_normal(len(z))
+    like = small.record(small.run(1.3))
+    return replace(like, name="triangle", time=t, stroke=z, velocity=v, force=np.clip(force, -level, level) + noise)
+
+
+def test_a_limit_is_told_from_another_setting_at_constant_velocity(largest: float) -> None:
+    slower = small.records(speeds=(0.1, 0.3, 0.6))
+    cut = with_edges(with_noise(small.problem([*slower, triangle(0.8 * largest)])))
+    seen, rest = saturated(cut)
+    assert seen is not None and "triangle" in seen.text
+    assert float(rest.misfits(rest.residual({}))[-1]) < 2.0
+    # Another setting changes the other direction, too.
+    assert saturated(with_edges(with_noise(small.problem([*slower, triangle(np.inf, factor=0.8)]))))[0] is None

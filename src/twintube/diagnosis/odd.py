@@ -1,8 +1,10 @@
 """Records that do not belong to the others: of another damper, setting or fill than stated, or with a fault of their own."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
+from scipy.optimize import minimize_scalar
 
 from twintube.diagnosis.candidates import faults
 from twintube.diagnosis.faults import Fault, unit_error
@@ -31,7 +33,8 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
         zero = RULES.small_zero * max(record.peak for record in problem.records)
         least = RULES.odd_little if beyond >= RULES.odd_clear else RULES.odd_force
         apart = differ(part, least, zero) if fault is None else abs(fault.factor - 1.0) >= least
-        fault = stranger(part, names) if apart else None
+        filled = own_fill(part, names) if fault is None else None
+        fault = filled or (stranger(part, names) if apart else None)
     return (fault, others) if fault is not None else (None, problem)
 
 
@@ -90,7 +93,7 @@ def own_fault(part: Problem, names: tuple[str, ...], least: Mapping[str, float])
         return unit
     best = None
     for candidate in faults(part):
-        (f,) = candidate.free
+        f = candidate.free[0]
         grid = [f.start + share * side for share in RULES.shares for side in (f.high - f.start, f.low - f.start)]
         start = min(grid, key=lambda x: float(np.sum(part.residual({f.name: x}) ** 2)))
         fit = part.fit([type(f)(f.name, start, f.low, f.high)])
@@ -101,9 +104,30 @@ def own_fault(part: Problem, names: tuple[str, ...], least: Mapping[str, float])
     if best is None:
         return None
     _, candidate, value = best
-    (f,) = candidate.free
+    f = candidate.free[0]
     text = f"In {', '.join(names)}: {candidate.cause[0].lower()}{candidate.cause[1:]}"
     return Fault(candidate.name, candidate.title, text, value, f.name, candidate.units[f.name], names)
+
+
+def own_fill(part: Problem, names: tuple[str, ...]) -> Fault | None:
+    """Another fill, far from the recorded one, at which the model explains a single record; without preload, as measured."""
+    if len(names) > 1:
+        return None
+    (record,) = part.records
+
+    def misfit(level: float) -> float:
+        other = part.with_records([replace(record, oil_level=level, gas_preload=0)])
+        return float(other.misfits(other.residual({}))[0])
+
+    low, high, step = RULES.odd_fills
+    start = min(np.arange(low, high, step).tolist(), key=misfit)
+    level = float(minimize_scalar(misfit, bounds=(max(low, start - step), min(high, start + step)), method="bounded").x)
+    now = float(part.misfits(part.residual({}))[0])
+    if abs(level - record.oil_level) < RULES.odd_fill or misfit(level) > RULES.odd_left * now:
+        return None
+    of, as_if = 100.0 * record.oil_level, 100.0 * level
+    text = f"The record {names[0]} does not belong to the others: it is as with {as_if:.0f} % oil, recorded with {of:.0f} %."
+    return Fault(STRANGER, f"The record {names[0]}", text, level, "oil_level", "1", names)
 
 
 def right(part: Problem, values: dict[str, float], usual: float = 1.0) -> bool:

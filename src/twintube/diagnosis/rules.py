@@ -105,6 +105,11 @@ class Rules:
     odd_spread: float = records(
         0.5, "1", "of its intervals in which a record of something else is off: a moved step is not one", DEVELOPMENT
     )
+    odd_fills: tuple[float, float, float] = records(
+        (0.25, 0.98, 0.002), "1", "fills at which a single record may have been taken: from, to, step", JUDGEMENT
+    )
+    odd_fill: float = records(0.05, "1", "of the oil: another fill than the recorded one, of a record by mistake", JUDGEMENT)
+    odd_left: float = records(0.05, "1", "of its misfit that such a fill leaves", JUDGEMENT)
     odd_off: float = records(3.0, "1", "times its uncertainty, at which an interval is off", JUDGEMENT)
     odd_right: float = records(2.0, "1", "misfit up to which a fault of their own explains such records", JUDGEMENT)
 
@@ -182,14 +187,27 @@ class Rules:
     shares: tuple[float, ...] = starts(
         (0.0007, 0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", DEVELOPMENT
     )
+    shares_moving: tuple[float, float, int] = starts(
+        (2e-4, 0.8, 36), "1", "the like of what moves steps of the force: from, to, number", DEVELOPMENT
+    )
     place: float = starts(0.9, "1", "of the largest stroke, at which the search for a place begins", JUDGEMENT)
     zero_range: float = starts(0.5, "1", "of the largest force: range of a zero that is a fault", JUDGEMENT)
+    settling: tuple[float, float, float] = starts(
+        (0.1, 0.0, 0.3), "1/s", "rate at which a moving zero settles: usual, least, most (a load cell warms up)", DEVELOPMENT
+    )
     gain_range: tuple[float, float] = starts(
         (0.5, 2.0), "1", "range of a gain that is a fault; beyond it is a wrong unit", JUDGEMENT
     )
     delay_range: float = starts(0.03, "s", "range of a delay that is a fault, to both sides", JUDGEMENT)
     delay_samples: float = starts(3.0, "1", "samples that this range holds at least", JUDGEMENT)
     stroke_range: tuple[float, float] = starts((0.8, 1.25), "1", "range of a gain of the stroke that is a fault", JUDGEMENT)
+    fills_tried: tuple[float, float, float] = starts(
+        (0.004, 0.02, 0.16),
+        "1",
+        "of the oil: steps of a fill's error that is sought, near, far, and where far begins",
+        DEVELOPMENT,
+    )
+    most_fill: float = starts(0.3, "1", "of the oil: the largest error of a fill that is sought", JUDGEMENT)
     clock_range: float = starts(0.01, "1", "range of a clock's error, to both sides", JUDGEMENT)
     clocks: int = starts(401, "1", "errors of a clock within this range that are looked at by moving forces", JUDGEMENT)
     clock_starts: int = starts(3, "1", "best of these from which a fit may begin", JUDGEMENT)

@@ -3,11 +3,14 @@
 A limit without noise is seen in the samples (data/defects.py) before any model is asked.
 """
 
+import itertools
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
+from twintube.arrays import Array
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.prepare import PreparedRecord
 from twintube.diagnosis.result import Signature
@@ -32,6 +35,7 @@ def saturated(problem: Problem) -> tuple[Signature | None, Problem]:
             found = limit(record, sign * forces[a:b], sign * record.force)
             if found is not None:
                 limits.append(replace(found, force=sign * found.force))
+    limits += [] if limits else cut(problem, forces)
     sides = [[item for item in limits if item.force * sign > 0.0] for sign in (1.0, -1.0)]
     if not limits or any(
         np.ptp([item.force for item in side]) > RULES.limit_alike * abs(side[0].force) for side in sides if side
@@ -48,6 +52,37 @@ def saturated(problem: Problem) -> tuple[Signature | None, Problem]:
         beyond = [item.beyond for item in limits if item.record == record.name]
         records.append(replace(record, judged=record.judged & ~np.logical_or.reduce(beyond)) if beyond else record)
     return Signature("saturation", text, np.inf), problem.with_records(records)
+
+
+def cut(problem: Problem, forces: Array) -> list[Limit]:
+    """Limits (both sides) that explain records which the model contradicts, where no record's force passes them.
+
+    Of a motion with constant velocity the whole stroke is beyond a limit, of one side or of both; another damper or setting
+    changes the other side, too.
+    """
+    bounds = list(itertools.pairwise(problem.starts))
+    several = [problem.weight[a:b] * record.judged for record, (a, b) in zip(problem.records, bounds, strict=True)]
+    highest = max(float(np.abs(record.force[record.judged]).max(initial=0.0)) for record in problem.records)
+    misfits = problem.misfits(problem.residual({}))
+    usual = max(1.0, float(np.median(misfits)))
+    limits = []
+    for record, (a, b), weight, misfit in zip(problem.records, bounds, several, misfits.tolist(), strict=True):
+        if misfit < RULES.odd * usual:
+            continue
+        model = forces[a:b]
+
+        def left(level: float, model: Array = model, record: PreparedRecord = record, weight: Array = weight) -> float:
+            return float(np.mean((weight * (np.clip(model, -level, level) - record.force))[record.judged] ** 2))
+
+        top = float(np.abs(model).max())
+        level = float(minimize_scalar(left, bounds=(0.5 * top, top), method="bounded").x)
+        beyond = np.abs(model) > level
+        least = max(RULES.odd_right * usual, RULES.odd_left * misfit)
+        at_top = highest <= (1.0 + RULES.limit_alike) * level and top - level > RULES.limit_far * record.peak
+        if at_top and left(level) <= least and (record.judged & beyond).sum() >= RULES.limit_least:
+            around = beyond | np.roll(beyond, 1) | np.roll(beyond, -1)
+            limits += [Limit(record.name, sign * level, around) for sign in (1.0, -1.0) if (sign * model > level).any()]
+    return limits
 
 
 def limit(record: PreparedRecord, model: np.ndarray, force: np.ndarray) -> Limit | None:

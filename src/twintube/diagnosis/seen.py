@@ -19,8 +19,9 @@ from twintube.fitting.simulation import SimulatedRecords
 BENDS = {"bend_ahead": 1, "bend_about": 0, "bend_before": -1}
 SAMPLING = ("sample_mean", *BENDS)
 LINEAR = ("force_offset", *SAMPLING)  # the force is linear in them, and every measurement has them
-# What the measurement adds to the force.
-ADDED = ("force_offset", "force_gain", "zero_drift", *SAMPLING)
+# What the measurement adds to the force; a zero that moves as the load cell warms up settles at a rate.
+SETTLING = "zero_settling"
+ADDED = ("force_offset", "force_gain", "zero_drift", SETTLING, *SAMPLING)
 # What it changes of the motion under which the force is seen; a simulation of its own for each value.
 STROKE_GAIN, DELAY, CLOCK = "stroke_gain", "channel_delay", "clock_error"
 MOTION = (STROKE_GAIN, DELAY, CLOCK)
@@ -105,7 +106,9 @@ class SeenRecords(SimulatedRecords):
         force, point = self.simulated(self.damping(values))
         values = {**self.usual, **values}
         seen = point + sum(values[name] * part for name, part in self.parts_of_samples(force, point, values).items())
-        zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * self.elapsed
+        settling = values.get(SETTLING, 0.0)
+        moved = -np.expm1(-settling * self.elapsed) / settling if settling > 0.0 else self.elapsed
+        zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * moved
         return np.asarray(values.get("force_gain", 1.0) * seen + zero)
 
     def parts_of_samples(self, force: Array, point: Array, names: Container[str] = SAMPLING) -> dict[str, Array]:

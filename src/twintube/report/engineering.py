@@ -25,7 +25,8 @@ MEASURED = {
     "force_gain": "measured over true force",
     "stroke_gain": "measured over true stroke",
     "channel_delay": "by which the force is later than the stroke",
-    "zero_drift": "rise of the zero with time",
+    "zero_drift": "rise of the zero with time, at first",
+    "zero_settling": "rate at which this rise settles; 0: it goes on",
     "clock_error": "by which the clock of the force is fast",
 }
 
