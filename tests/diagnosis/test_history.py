@@ -1,13 +1,17 @@
 """A record that lacks the slow strokes before it is noticed, and a damper that had none is believed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from tests.diagnosis import small
+from twintube.dampers import load
 from twintube.data import Record
 from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.history import bare_of_strokes, settled, with_history
+from twintube.diagnosis.history import bare_of_strokes, settled, sudden, with_history
+from twintube.engine.simulate import simulate
 
 SPEEDS, STROKES = (0.3, 1.0), 6
 
@@ -44,3 +48,19 @@ def test_a_damper_that_rested_before_and_a_file_with_slow_strokes_are_left_as_th
     whole = ready([small.record(small.run(v, small.DEGRADED, slow=3), seed=i) for i, v in enumerate(SPEEDS)])
     assert not any(bare_of_strokes(record) for record in whole.records)
     assert with_history(whole) == (whole, [])
+
+
+def test_a_slow_random_motion_holds_no_slow_strokes_of_its_own() -> None:
+    """Its velocity stays below that of the strokes for a while by chance, over parts of its range."""
+    t = np.arange(3000) * 5e-3
+    parts = [(0.5, 0.9), (0.83, 2.1), (1.31, 4.0), (2.03, 0.3)]  # Hz, phase: no motion that repeats within the record
+    z = sum(np.sin(2 * np.pi * f * t + phase) / f for f, phase in parts)
+    z *= 0.08 / np.abs(np.gradient(z, t)).max()
+    v = np.gradient(z, t)
+    force = simulate(load("SA8").with_(oil_level=small.DEGRADED, gas_preload=0), z, v, t).force
+    like = small.record(small.run(0.3, small.DEGRADED))
+    usable = np.ones(len(t), dtype=bool)
+    random = replace(like, measurement="stochastic", time=t, stroke=z, velocity=v, force=force, usable=usable)
+    (record,) = small.problem([random]).records
+    assert not (record.cycle >= 0).any()
+    assert sudden(record) and bare_of_strokes(record)

@@ -51,7 +51,8 @@ def triangle(level: float, *, factor: float = 1.0) -> Record:
     force = factor * simulate(load("SA8"), z, v, t).force
     noise = 3.0 * np.random.default_rng(3).standard_normal(len(z))
     like = small.record(small.run(1.3))
-    return replace(like, name="triangle", time=t, stroke=z, velocity=v, force=np.clip(force, -level, level) + noise)
+    seen = np.clip(force, -level, level) + noise
+    return replace(like, name="triangle", time=t, stroke=z, velocity=v, force=seen, usable=np.ones(len(z), dtype=bool))
 
 
 def test_a_limit_is_told_from_another_setting_at_constant_velocity(largest: float) -> None:

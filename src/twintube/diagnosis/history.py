@@ -88,7 +88,9 @@ def sudden(record: PreparedRecord) -> bool:
     if record.measurement == "quasi-static":
         return False
     calm = slow(record)
-    first = int(np.argmin(calm)) if not calm.all() else 0
+    # A random motion hardly faster than preconditioning is slow for a while by chance.
+    slow_motion = not (record.cycle >= 0).any() and record.top_speed < RULES.slow_random * V_PRECONDITIONING
+    first = int(np.argmin(calm)) if not calm.all() and not slow_motion else 0
     way = float(np.abs(np.diff(record.stroke[: first + 1])).sum())
     return way < RULES.slow_way * float(np.ptp(record.stroke))
 

@@ -91,6 +91,9 @@ class Rules:
     )
     history_rest: float = records(5.0, "s", "rest after them", JUDGEMENT)
     slow_share: float = records(0.2, "1", "of the top speed: slower is preconditioning", JUDGEMENT)
+    slow_random: float = records(
+        2.0, "1", "times the velocity of preconditioning, up to which a random motion is slow all along", DEVELOPMENT
+    )
     slow_way: float = records(2.0, "1", "of the range of the stroke that preconditioning goes at least", JUDGEMENT)
     odd: float = records(4.0, "1", "times the largest misfit of all others, at which a record does not belong", DEVELOPMENT)
     odd_unit: float = records(25.0, "1", "the like where only another unit of these records is looked for", JUDGEMENT)
