@@ -210,10 +210,10 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
     return [f.start + sign * share * side for share in shares for sign, side in sides]
 
 
-def fills() -> list[float]:
-    """Errors of a fill [1] from which a search begins."""
+def fills(most: float) -> list[float]:
+    """Errors of a fill [1] up to `most`, to either side, from which a search begins."""
     fine, coarse, end = RULES.fills_tried
-    near, far = np.arange(fine, end, fine), np.arange(end, RULES.most_fill, coarse)
+    near, far = np.arange(fine, end, fine), np.arange(end, most, coarse)
     return [*RULES.shares[:2], *near.tolist(), *far.tolist()]
 
 
@@ -250,7 +250,7 @@ def best_start(
     free = [nuisances(problem) if candidate.name in LATENESS else linear(problem) for problem in problems]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     if candidate.single:  # a step of the force comes or goes with some thousandths of the oil
-        grids |= {f.name: [x for size in fills() for x in (size, -size) if f.low <= x <= f.high] for f in candidate.free}
+        grids |= {f.name: [x for size in fills(f.high) for x in (size, -size)] for f in candidate.free}
     if CLOCK in grids:
         grids[CLOCK] = clock_starts(problems, fixed)
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength][: RULES.shapes]

@@ -210,7 +210,6 @@ class Rules:
         "of the oil: steps of a fill's error that is sought, near, far, and where far begins",
         DEVELOPMENT,
     )
-    most_fill: float = starts(0.3, "1", "of the oil: the largest error of a fill that is sought", JUDGEMENT)
     clock_range: float = starts(0.01, "1", "range of a clock's error, to both sides", JUDGEMENT)
     clocks: int = starts(401, "1", "errors of a clock within this range that are looked at by moving forces", JUDGEMENT)
     clock_starts: int = starts(3, "1", "best of these from which a fit may begin", JUDGEMENT)

@@ -60,29 +60,30 @@ def cut(problem: Problem, forces: Array) -> list[Limit]:
     Of a motion with constant velocity the whole stroke is beyond a limit, of one side or of both; another damper or setting
     changes the other side, too.
     """
-    bounds = list(itertools.pairwise(problem.starts))
-    several = [problem.weight[a:b] * record.judged for record, (a, b) in zip(problem.records, bounds, strict=True)]
     highest = max(float(np.abs(record.force[record.judged]).max(initial=0.0)) for record in problem.records)
     misfits = problem.misfits(problem.residual({}))
     usual = max(1.0, float(np.median(misfits)))
     limits = []
-    for record, (a, b), weight, misfit in zip(problem.records, bounds, several, misfits.tolist(), strict=True):
+    for record, (a, b), misfit in zip(problem.records, itertools.pairwise(problem.starts), misfits.tolist(), strict=True):
         if misfit < RULES.odd * usual:
             continue
         model = forces[a:b]
-
-        def left(level: float, model: Array = model, record: PreparedRecord = record, weight: Array = weight) -> float:
-            return float(np.mean((weight * (np.clip(model, -level, level) - record.force))[record.judged] ** 2))
-
         top = float(np.abs(model).max())
-        level = float(minimize_scalar(left, bounds=(0.5 * top, top), method="bounded").x)
+        data = (model[record.judged], record.force[record.judged], problem.weight[a:b][record.judged])
+        best = minimize_scalar(cut_misfit, args=data, bounds=(0.5 * top, top), method="bounded")
+        level = float(best.x)
         beyond = np.abs(model) > level
         least = max(RULES.odd_right * usual, RULES.odd_left * misfit)
         at_top = highest <= (1.0 + RULES.limit_alike) * level and top - level > RULES.limit_far * record.peak
-        if at_top and left(level) <= least and (record.judged & beyond).sum() >= RULES.limit_least:
+        if at_top and best.fun <= least and (record.judged & beyond).sum() >= RULES.limit_least:
             around = beyond | np.roll(beyond, 1) | np.roll(beyond, -1)
             limits += [Limit(record.name, sign * level, around) for sign in (1.0, -1.0) if (sign * model > level).any()]
     return limits
+
+
+def cut_misfit(level: float, model: Array, force: Array, weight: Array) -> float:
+    """Mean squared weighted error [1] of a `model` (n,) [N] that is cut at a level [N] on both sides."""
+    return float(np.mean((weight * (np.clip(model, -level, level) - force)) ** 2))
 
 
 def limit(record: PreparedRecord, model: np.ndarray, force: np.ndarray) -> Limit | None:
