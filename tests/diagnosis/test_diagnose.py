@@ -19,7 +19,7 @@ from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.prepare import prepare
 from twintube.diagnosis.result import Estimate, RecordResult
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.where import structured
+from twintube.diagnosis.where import maps, structured
 from twintube.diagnosis.zeros import zero_drift
 from twintube.engine.simulate import InputError
 from twintube.lab.blind_trials.trials import Trial, dataset, trial, write
@@ -73,6 +73,18 @@ def test_structure_is_more_than_white_noise_with_the_stated_false_alarms(nothing
 
     assert sum(bool(structured(results(0.0), "base")) for _ in range(200)) <= 8
     assert len(structured(results(2.0), "base")) == len(nothing.records)
+
+
+def test_intervals_that_are_left_out_are_no_place_where_the_model_is_wrong(nothing: Problem) -> None:
+    """Such as those beyond the limit of a load cell: they are neither in the maps nor in the structure."""
+    record = nothing.records[0]
+    zero = np.zeros(len(record.time))
+    beyond = record.velocity > 0.5 * record.velocity.max()
+    force = np.where(beyond, -1000.0, np.random.default_rng(5).standard_normal(len(zero)))
+    results = {out: RecordResult(record, "fit", force, zero, zero, zero, np.where(beyond & out, 0.0, 1.0)) for out in (0, 1)}
+    worst = {out: max(float(np.nanmax(m.base)) for m in maps([r])) for out, r in results.items()}
+    assert worst[0] > 500.0 and worst[1] < 10.0
+    assert structured([results[0]], "base") and not structured([results[1]], "base")
 
 
 def test_fit_recovers_a_parameter(nothing: Problem) -> None:

@@ -199,7 +199,8 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
             elif options[0].names[-1] in selection.chosen:
                 reason = "improves them less than the chosen candidate"
             else:
-                reason = "improves the held-out records not more than noise and numerics would"
+                beaten = "improves them less than the best of its round" if k else "is superfluous beside the other causes"
+                reason = selector.against(current, option) or beaten
             row = Tried(n, option.names[-1], gain, bootstrap(rows), "chosen" if won else "rejected", reason)
             rows_of_table.append(row)
         current = options[0]

@@ -88,32 +88,46 @@ class Selector:
 
     def worth(self, before: Option, after: Option) -> bool:
         """Whether an improvement of the held-out misfit is more than noise, numerics and formulation give."""
+        return not self.against(before, after)
+
+    def against(self, before: Option, after: Option) -> str:
+        """What speaks against a further cause, for the table of all candidates; empty where it is worth it."""
         by_record = self.logs(before.misfit) - self.logs(after.misfit)
         gained = float(by_record.sum())
-        if gained <= self.limit or (len(by_record) > RULES.few_records and gained - float(by_record.max()) <= self.limit):
-            return False  # noise, or a single record decides
+        if gained <= self.limit:
+            return "improves the held-out records not more than noise would"
+        if len(by_record) > RULES.few_records and gained - float(by_record.max()) <= self.limit:
+            return "improves a single held-out record, all others together not more than noise would"
         if self.levelled(before, after):
-            return True
+            return ""
         right = before.score <= RULES.right * self.count
         share = RULES.clear_share if right else RULES.least_share
         if after.names[-1] in (RECALIBRATE, *LATE):
             share = RULES.loose_share
-        small = after.total > (1 - share) * before.total
-        if gained <= RULES.worth * self.count or small or not self.surely(before, after):
-            return False
-        if before.names == self.sampling:
-            return True
-        # Many records a little better and some far worse is a formulation, not a second cause. So is a small part of the
-        # error of which another cause explains some.
+        if gained <= RULES.worth * self.count:
+            return "improves the held-out records not more than numerics would"
+        if after.total > (1 - share) * before.total:
+            return f"takes less than {share:.0%} of the squared error of the held-out records away"
+        if not self.surely(before, after):
+            return "with other records of the kind, the squared error might not fall"
+        return "" if before.names == self.sampling else self.against_next(before, after, gained)
+
+    def against_next(self, before: Option, after: Option, gained: float) -> str:
+        """The like for a cause beside others.
+
+        Many records a little better and some far worse is a formulation, not a second cause. So is a small part of the
+        error of which another cause explains some.
+        """
         less, whole = before.total - after.total, self.excess(self.start)
-        rest = less >= RULES.rest_share * self.excess(before) and less >= RULES.little_share * whole
-        if less < RULES.second_share * whole and not rest:
-            return False
-        if rest:
-            return True
+        if less >= RULES.rest_share * self.excess(before) and less >= RULES.little_share * whole:
+            return ""
+        if less < RULES.second_share * whole:
+            return f"explains less than {RULES.second_share:.0%} of the error and {RULES.rest_share:.0%} of what is left"
         left = removed(before.score, after.score, self.count)
         much = left >= RULES.half and gained >= RULES.second_share * self.start.score
-        return (much and after.total <= before.total) or after.total <= (1 - RULES.next_share) * before.total
+        if (much and after.total <= before.total) or after.total <= (1 - RULES.next_share) * before.total:
+            return ""
+        return f"explains less than {RULES.next_share:.0%} of what the other causes leave, which may be their formulation"
 
     def excess(self, option: Option) -> float:
         """Sum of the squared weighted errors beyond noise."""

@@ -32,14 +32,15 @@ def coordinates(result: RecordResult) -> dict[str, tuple[str, Array]]:
 
 
 def maps(records: Sequence[RecordResult]) -> list[Map]:
-    """The maps of all records together; residuals are measured less simulated."""
+    """The maps of all intervals that are compared; residuals are measured less simulated."""
     tables = [coordinates(r) for r in records]
-    base = np.concatenate([(r.measured - r.base)[1:] for r in records])
-    extended = np.concatenate([(r.measured - r.extended)[1:] for r in records])
-    noise = np.concatenate([r.record.noise[1:] for r in records])
+    compared = np.concatenate([r.weight[1:] > 0.0 for r in records])
+    base = np.concatenate([(r.measured - r.base)[1:] for r in records])[compared]
+    extended = np.concatenate([(r.measured - r.extended)[1:] for r in records])[compared]
+    noise = np.concatenate([r.record.noise[1:] for r in records])[compared]
     drawn = []
     for quantity, (unit, _) in tables[0].items():
-        x = np.concatenate([table[quantity][1][1:] for table in tables])
+        x = np.concatenate([table[quantity][1][1:] for table in tables])[compared]
         centres, place = binned(quantity, x)
         rows = np.full((4, len(centres)), np.nan)
         for k in range(len(centres)):
@@ -102,8 +103,9 @@ def structured(results: Sequence[RecordResult], model: str) -> list[str]:
     limit = float(norm.isf(RULES.structure_alarm / 2 / max(1, len(results))))
     names = []
     for r in results:
-        signs = np.sign(r.measured - getattr(r, model))[1:]
+        signs = np.where(r.weight > 0.0, np.sign(r.measured - getattr(r, model)), 0.0)[1:]
         pairs = (signs[1:] * signs[:-1])[np.diff(r.record.stretch[1:]) == 0]
+        pairs = pairs[pairs != 0.0]  # both intervals are compared
         if len(pairs) and abs(float(pairs.sum())) > limit * np.sqrt(len(pairs)):
             names.append(r.record.name)
     return names
