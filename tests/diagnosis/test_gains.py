@@ -52,9 +52,11 @@ def test_the_gain_is_that_of_the_errors_that_are_shown() -> None:
 def test_intervals_without_weight_count_nowhere() -> None:
     records = some(np.random.default_rng(2), (5.0, 4.0, 1.5))
     before = {name: e.force_rmse_N for name, e in errors(records).items()}
+    work = errors(records)["base"].work_rmse_J
     for r in records:
         r.base[r.weight == 0.0] += 1e6
     assert {name: e.force_rmse_N for name, e in errors(records).items()} == pytest.approx(before)
+    assert errors(records)["base"].work_rmse_J == pytest.approx(work)
 
 
 def test_gains_over_records() -> None:

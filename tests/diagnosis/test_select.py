@@ -70,6 +70,7 @@ def test_worth_is_what_most_records_gain(selector: Selector) -> None:
         ([1.0, 1.0, 1.0, 1.0], "not more than noise"),
         ([1.0, 1.0, 1.0, 0.01], "a single held-out record"),
         ([1 - 0.5 * RULES.least_share] * 4, "not more than noise"),
+        ([0.5, 0.5, 0.5, 5.0], "a single held-out record"),  # the squared error rises, and the others gain too little
         ([0.3, 0.3, 0.3, 4.0], "takes less than 1%"),  # the squared error rises
         ([0.3, 0.3, 0.3, 2.3], "might not fall"),
     ):
@@ -79,7 +80,8 @@ def test_worth_is_what_most_records_gain(selector: Selector) -> None:
 
 def test_a_further_cause_must_take_a_good_part_of_what_is_left(selector: Selector) -> None:
     first = changed(selector, ("valve_wear",), [0.2, 0.2, 0.2, 0.2])
-    little, some, much = (changed(selector, ("valve_wear", "fluid_lag"), [x] * 4) for x in (0.17, 0.1, 0.02))
+    least, little, some, much = (changed(selector, ("valve_wear", "fluid_lag"), [x] * 4) for x in (0.18, 0.17, 0.1, 0.02))
+    assert not selector.worth(first, least)
     assert "of what is left" in selector.against(first, little)
     assert selector.worth(first, some)
     assert selector.worth(first, much)

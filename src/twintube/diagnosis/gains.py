@@ -12,13 +12,15 @@ from twintube.diagnosis.rules import RULES
 def errors(records: Sequence[RecordResult]) -> dict[str, Errors]:
     """Force and work errors of base, recalibrated and extended model over some records, and the noise floor.
 
-    An interval counts by its uncertainty, in all of these errors alike.
+    An interval counts by its uncertainty, in all of these errors of the force alike; the work is that of the intervals that
+    are compared.
     """
     weights = np.concatenate([r.weight for r in records]) ** 2
     models = {}
     for name in ("base", "recalibrated", "extended"):
         squares = np.concatenate([(getattr(r, name) - r.measured) ** 2 for r in records])
-        works = np.array([float(np.sum((getattr(r, name) - r.measured)[1:] * np.diff(r.record.stroke))) for r in records])
+        works = np.array([float((getattr(r, name) - r.measured)[1:] @ (np.diff(r.record.stroke) * (r.weight[1:] > 0)))
+                          for r in records])  # fmt: skip
         turns = np.array([max(1, len(np.unique(r.record.cycle[r.record.cycle >= 0]))) for r in records])
         force = float(np.sqrt(np.sum(weights * squares) / weights.sum()))
         models[name] = Errors(force, float(np.sqrt(np.mean((works / turns) ** 2))))
