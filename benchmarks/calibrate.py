@@ -14,9 +14,9 @@ from scipy.optimize import minimize
 from scipy.special import logsumexp
 
 from twintube.arrays import Array
+from twintube.diagnosis.candidates import RECALIBRATE
 from twintube.diagnosis.confidence import WEIGHTS, Evidence, evidence, features, probabilities
 from twintube.diagnosis.faults import PUT_RIGHT
-from twintube.diagnosis.options import RECALIBRATE
 from twintube.diagnosis.result import Tried
 from twintube.diagnosis.rules import RULES
 from twintube.lab.challenge.score import wanted

@@ -6,8 +6,19 @@ import numpy as np
 import pytest
 
 from tests.diagnosis import small
+from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.candidates import Candidate, best_start, candidates, linear, lowest, nuisances, period, usual_delay
+from twintube.diagnosis.candidates import (
+    Candidate,
+    best_start,
+    calibration,
+    candidates,
+    linear,
+    lowest,
+    nuisances,
+    period,
+    usual_delay,
+)
 from twintube.diagnosis.edges import with_noise
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.rules import RULES
@@ -111,3 +122,17 @@ def test_the_lowest_of_a_parabola() -> None:
     assert lowest(costs) == pytest.approx(0.7)
     assert lowest({0.0: 1.0, 1.0: 2.0, 3.0: 5.0}) == 0.0
     assert lowest({0.0: 2.0, 1.0: 1.0, 3.0: 1.0}) == pytest.approx(2.0)
+
+
+def test_a_calibration_moves_the_parameters_that_help_and_no_others() -> None:
+    """Two of fourteen are wrong: the others keep what was given, so that they do not follow the noise."""
+    true = load("SA8").with_(X_Re=0.25, B=0.5)
+    runs = [small.run(v, level, slow=2, damper=true) for level in (0.7, small.DEGRADED) for v in (0.3, 0.6, 1.0)]
+    problem = with_noise(small.problem([small.record(r, seed=i) for i, r in enumerate(runs)]))
+    candidate = calibration(problem)
+    cost, point = best_start([problem], candidate, [{}])
+    assert cost < 0.2 * float(np.sum(problem.residual({}) ** 2))
+    assert "X_Re" in point and len(point) <= 5
+    assert {f.name for f in candidate.joined(point)} == set(point)
+    healthy = with_noise(small.problem([small.record(small.run(v, 0.7, slow=2), seed=9) for v in (0.3, 1.0)]))
+    assert len(best_start([healthy], calibration(healthy), [{}])[1]) == 1  # that with which a search begins

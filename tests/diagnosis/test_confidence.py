@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from benchmarks.calibrate import fitted_weights
+from twintube.diagnosis.candidates import RECALIBRATE
 from twintube.diagnosis.confidence import WEIGHTS, evidence, features, probabilities
 from twintube.diagnosis.faults import PUT_RIGHT
-from twintube.diagnosis.options import RECALIBRATE
 from twintube.diagnosis.result import Tried
 
 KNOWN = ("valve_wear", "fluid_lag", "force_gain")

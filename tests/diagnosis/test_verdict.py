@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from twintube.diagnosis.candidates import Candidate
+from twintube.diagnosis.candidates import RECALIBRATE, Candidate
 from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.options import RECALIBRATE, Option, Selection
+from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.verdict import Judgement, judge, sentence
@@ -60,6 +60,12 @@ def judged(
     errors = {name: Errors(x, 0.0) for name, x in zip(("base", "extended", "noise_floor"), forces, strict=True)}
     estimates = {name: {"strength": value} for name in KNOWN}
     return judge(chosen, KNOWN, estimates, list(seen), errors, gain, list(faults), attempts)
+
+
+def test_a_cause_is_no_rival_of_itself_with_another() -> None:
+    both = selection(option("valve_wear", "fluid_lag", score=1.0), option("fluid_lag", score=1.0))
+    assert judged(both).verdict == "cause"
+    assert judged(selection(option("valve_wear", score=1.0), option("fluid_lag", score=1.0))).verdict == "ambiguous"
 
 
 @pytest.mark.parametrize(

@@ -8,12 +8,12 @@ import numpy as np
 from twintube.core import effects
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset
-from twintube.diagnosis.candidates import Candidate
+from twintube.diagnosis.candidates import RECALIBRATE, Candidate
 from twintube.diagnosis.confidence import evidence, probabilities
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, errors, gains, removed, whole, worst
-from twintube.diagnosis.options import RECALIBRATE, Option, Selection
+from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, Gain, RecordResult, Signature, Tried
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.select import Selector
@@ -43,7 +43,7 @@ def answer(
     records.sort(key=lambda r: order.index(r.record.name))
     known = selector.candidates
     shares = gains(fitted), gains(held)
-    gain = Gain(whole(shares[0]), whole(shares[1]), bootstrap(shares[1]), worst(shares[1]))
+    gain = Gain(whole(shares[0]), whole(shares[1]), bootstrap(gains(held, parts=True)), worst(shares[1]))
     halves = selection.final.fits
     causes = [name for name in selection.chosen if name != RECALIBRATE]
     estimates = {name: estimated(selector.whole, known[name], extended, halves) for name in causes}

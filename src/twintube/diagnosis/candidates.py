@@ -36,6 +36,7 @@ FILLED = hooked("level")  # another fill than the recorded one, in all states al
 # What changes volumes alone moves steps of the force, or brings them about.
 MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked("scale_fluid"), *FILLED))
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
+RECALIBRATE = "recalibrate"
 ALIKE = (LATE, FRICTION)  # of each a second only mends the formulation of the first
 
 
@@ -91,13 +92,16 @@ def period(problem: Problem) -> float:
     return float(np.median([record.period for record in problem.records]))
 
 
-def base(problem: Problem) -> tuple[Free, ...]:
-    """The degradation parameters, in which a bad calibration is sought, from the given values."""
+def calibration(problem: Problem) -> Candidate:
+    """Other values of the degradation parameters; those that do not help keep the given ones."""
     limits = ranges(DEGRADATION, max(record.top_speed for record in problem.records)).tolist()
     free = []
     for name, (low, high) in zip(DEGRADATION, limits, strict=True):
-        free.append(Free(name, min(max(getattr(problem.damper.parameters, name), low), high), low, high))
-    return tuple(free)
+        given = min(max(getattr(problem.damper.parameters, name), low), high)
+        free.append(Free(name, given, low, high, given))
+    least = {f.name: RULES.acts * f.width for f in free}
+    text = "Other values of the degradation parameters explain the records."
+    return Candidate(RECALIBRATE, "Degradation parameters", text, tuple(free), DEGRADATION, {}, False, "", least)
 
 
 def candidates(problem: Problem) -> list[Candidate]:
@@ -207,6 +211,7 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
         return sorted({min(max(x, f.low), f.high) for x in near})
     sides = [(sign, side) for sign, side in ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0]
     shares = np.geomspace(*RULES.shares_moving).tolist() if candidate.name in MOVING else RULES.shares
+    shares = RULES.shares_calibration if candidate.name == RECALIBRATE else shares
     return [f.start + sign * share * side for share in shares for sign, side in sides]
 
 

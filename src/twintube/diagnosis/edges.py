@@ -5,6 +5,7 @@ is off by a thousandth makes another oscillation of it. Neither tells anything a
 """
 
 import itertools
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 
@@ -70,14 +71,27 @@ def with_noise(problem: Problem) -> Problem:
     return problem.with_records([replace(record, noise=noise(record, errors[a:b])) for record, (a, b) in pairs])
 
 
-def without_outliers(problem: Problem) -> Problem:
-    """The problem without the few intervals of each record that contradict the model far beyond all its others.
+def less_noise(problem: Problem, models: Sequence[Mapping[str, float]], known: Mapping[str, Array]) -> dict[str, Array]:
+    """The least noise (n,) [N] of each record, by its name, in the errors of some models; `known` are bounds of others.
+
+    What is wrong in the model as given seldom repeats to the last sample: its errors hold more than noise.
+    """
+    least = {record.name: known.get(record.name, record.noise) for record in problem.records}
+    for values in models:
+        errors = problem.errors(values)
+        for record, (a, b) in zip(problem.records, itertools.pairwise(problem.starts), strict=True):
+            least[record.name] = np.minimum(least[record.name], noise(record, errors[a:b]))
+    return least
+
+
+def without_outliers(problem: Problem) -> tuple[Problem, dict[str, NDArray[np.bool_]]]:
+    """The problem without the few intervals of each record that contradict the model far beyond all its others, and these.
 
     They are left out for every model alike. What happened there - a spike, a stop of the rig - is not in the records. What
     comes again at the same phase of other oscillations did not happen once: it stays, where the record's start is known.
     """
     residual = problem.residual({})
-    records = []
+    records, outliers = [], {}
     for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
         size = np.abs(residual[a:b])
         usual = max(1.0, SCATTER * float(np.median(size[record.judged]))) if record.judged.any() else 1.0
@@ -85,8 +99,17 @@ def without_outliers(problem: Problem) -> Problem:
         few = far.sum() <= RULES.outliers * record.judged.sum()
         known = not sudden(record)
         out = far & ~again(record, np.where(far, np.sign(residual[a:b]), 0.0)) if known else far
-        records.append(replace(record, judged=record.judged & ~out) if few and out.any() else record)
-    return problem.with_records(records)
+        if few and out.any():
+            outliers[record.name] = out
+        records.append(replace(record, judged=record.judged & ~out) if few else record)
+    return problem.with_records(records), outliers
+
+
+def with_outliers(problem: Problem, outliers: Mapping[str, NDArray[np.bool_]]) -> Problem:
+    """The problem with these intervals compared: a step that a cause moves is wrong in few, and by far."""
+    return problem.with_records(
+        [replace(r, judged=r.judged | outliers[r.name]) if r.name in outliers else r for r in problem.records]
+    )
 
 
 def again(record: PreparedRecord, sign: Array) -> NDArray[np.bool_]:

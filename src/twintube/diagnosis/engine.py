@@ -10,7 +10,7 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.diagnosis.answer import answer, predictions
 from twintube.diagnosis.candidates import candidates
-from twintube.diagnosis.edges import with_edges, with_noise, without_outliers
+from twintube.diagnosis.edges import with_edges, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.faults import Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
@@ -29,6 +29,11 @@ from twintube.engine.simulate import InputError
 from twintube.fitting.splits import distinct
 
 Halves = tuple[list[PreparedRecord], list[PreparedRecord]]  # to fit and to judge on
+BY_VELOCITY = "every record is predicted from those of other velocities: every second velocity is held out in turn"
+WITHIN = (
+    "the cause acts in so few records that no others predict it: every second tenth of each record is held out in turn, "
+    "predicted from the others. Repeat the records in which it acts"
+)
 
 
 def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: None, *, tolerance: float = 0.0) -> Diagnosis:
@@ -54,7 +59,8 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     stepped, problem = zero_change(with_edges(with_noise(problem)))
     problem, drift = zero_drift(problem)
     problem, bare = with_history(problem)
-    cut, problem = saturated(without_outliers(problem))
+    calm, outliers = without_outliers(problem)
+    cut, problem = saturated(calm)
     remarks += [*notes, *drift, *([history_remark(bare)] if bare else [])]
     if turned is not None:
         factors = (1.0, turned.factor) if turned.channel == "stroke" else (turned.factor, 1.0)
@@ -64,14 +70,25 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     seen += [cut] if cut is not None and all(signature.name != cut.name for signature in seen) else []
 
     def concluded(judged: Problem, odd: Fault | None = None) -> Diagnosis:
-        folds, split_remarks = split(dataset.title, judged.records)
-        selector = selector_of(judged, folds)
-        selection = selector.run(progress)
-        progress("fitting the model to all records")
         faults = put_right(before, recorded, judged)
         if odd is not None:
             faults[odd] = excluded_gain(recorded, judged)
-        answered = answer(dataset, judged, selector, selection, seen, faults)
+
+        def by(judged: Problem, folds: Sequence[Halves], label: str) -> Diagnosis:
+            selector = selector_of(judged, folds)
+            selection = selector.run(lambda text: progress(label + text))
+            progress(label + "fitting the model to all records")
+            return answer(dataset, judged, selector, selection, seen, faults)
+
+        folds, split_remarks = split(dataset.title, judged.records)
+        answered = by(judged, folds, "")
+        few = split_remarks == [BY_VELOCITY] and len(answered.causes) < RULES.rounds - 1
+        wrong = contradicted(with_outliers(judged, outliers), answered) if few else None
+        inside = within(wrong.records) if wrong is not None else []
+        if wrong is not None and inside:
+            closer = by(wrong, inside, "within the records: ")
+            if says_more(answered, closer):
+                answered, split_remarks = closer, [WITHIN]
         return replace(answered, remarks=[*split_remarks, *remarks, *answered.remarks])
 
     before = [fault for fault in (turned, wrong, smoothed, stepped) if fault is not None]
@@ -81,6 +98,26 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     if odd is not None and odd.effect == STRANGER and len(answered.causes) == len(before):
         answered = concluded(others, odd)
     return replace(answered, seconds=time.monotonic() - began, tolerance=tolerance)
+
+
+def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
+    """The few records in which an answer leaves more than noise, with some others; None where there are none."""
+    extended = {r.record.name: r for r in answered.records}
+    wrong: list[PreparedRecord] = []
+    right: list[PreparedRecord] = []
+    for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
+        error = extended[record.name].extended - extended[record.name].measured
+        squares = np.sort((problem.weight[a:b] * error)[record.judged] ** 2)[: -RULES.few_intervals]
+        (wrong if float(np.mean(squares)) > RULES.odd_right else right).append(record)
+    if not 0 < len(wrong) <= RULES.odd_share * len(problem.records):
+        return None
+    return problem.with_records([*wrong, *problem.with_records(right).sparse(RULES.start_records).records])
+
+
+def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
+    """Whether another answer names all causes of an answer and further ones."""
+    before, after = ({cause.effect for cause in some.causes} for some in (answered, closer))
+    return before < after
 
 
 def history_remark(bare: Sequence[str]) -> str:
@@ -172,19 +209,22 @@ def split(title: str, records: Sequence[PreparedRecord]) -> tuple[list[Halves], 
     if not speeds:
         raise InputError(f"{title}: only quasi-static records, there is no velocity to judge on")
     if len(speeds) < 2:
-        slow = [record for i, record in enumerate(records) if i not in moving]
-        parts = [[part(records[i], half) for i in moving] for half in (0, 1)]
-        if not all(record.judged.any() for half in parts for record in half):
+        folds = within(records)
+        if not folds:
             raise InputError(f"{title}: all records have one velocity and are too short to be split")
         text = "all records have one velocity: every second tenth of each is held out in turn, predicted from the others"
-        return [([*slow, *parts[0]], parts[1]), ([*slow, *parts[1]], parts[0])], [text]
+        return folds, [text]
     place = {i: int(np.searchsorted(speeds, speed, side="right")) for i, speed in moving.items()}
     halves = [[i for i, number in place.items() if number % 2 == half] for half in (0, 1)]
     folds = [([r for i, r in enumerate(records) if i not in held], [records[i] for i in held]) for held in halves]
-    return folds, ["every record is predicted from those of other velocities: every second velocity is held out in turn"]
+    return folds, [BY_VELOCITY]
 
 
-def part(record: PreparedRecord, half: int) -> PreparedRecord:
-    """The record with every second tenth of its time compared, from the first or the second on."""
-    tenth = np.floor(RULES.parts * (record.time - record.begin) / max(record.time[-1] - record.begin, 1e-9))
-    return replace(record, judged=record.judged & (tenth % 2 == half))
+def within(records: Sequence[PreparedRecord]) -> list[Halves]:
+    """Every second tenth of each record to fit and to judge on, then exchanged; none where a record is too short."""
+    slow = [record for record in records if record.measurement == "quasi-static"]
+    moving = [record for record in records if record.measurement != "quasi-static"]
+    halves = [[record.alternate(half) for record in moving] for half in (0, 1)]
+    if not all(record.judged.any() for half in halves for record in half):
+        return []
+    return [([*slow, *halves[0]], halves[1]), ([*slow, *halves[1]], halves[0])]

@@ -72,6 +72,10 @@ class Problem(SeenRecords):
         self.power = np.add.reduceat(self.weight**2, self.starts[:-1])  # (r,) [1/N2], of a record's zero
         self.share: Array = np.ones(len(self.z))
         self.counts = np.add.reduceat(self.used.astype(np.int64), self.starts[:-1])
+        # Records, or their parts where every second is held out: what is resampled and must improve.
+        numbers = np.concatenate([i * RULES.parts + r.part for i, r in enumerate(records)])[self.used]
+        self.unit = np.unique(numbers, return_inverse=True)[1]
+        self.unit_counts = np.bincount(self.unit)
 
     def with_records(self, records: Sequence[PreparedRecord]) -> "Problem":
         """The damper with other records."""
@@ -194,6 +198,10 @@ class Problem(SeenRecords):
     def misfits(self, residual: Array) -> Array:
         """Mean squared weighted error (r,) per record."""
         return np.asarray(np.add.reduceat(residual**2, self.starts[:-1]) / self.counts)
+
+    def unit_misfits(self, residual: Array) -> Array:
+        """The like (u,) per unit."""
+        return np.asarray(np.bincount(self.unit, residual[self.used] ** 2) / self.unit_counts)
 
     def fit(self, free: Sequence[Free], *, thorough: bool = True) -> Fit:
         """Least squares for the free parameters, from their starts; `thorough` seeks a better optimum where forces step."""

@@ -37,14 +37,15 @@ def floor(records: Sequence[RecordResult]) -> float:
     return float(min(1.0, min(squares) / sum(np.sum(r.weight > 0) for r in records)))
 
 
-def gains(records: Sequence[RecordResult]) -> Array:
-    """Squared weighted error that goes away and that is explainable (r, 2) per record."""
+def gains(records: Sequence[RecordResult], *, parts: bool = False) -> Array:
+    """Squared weighted error that goes away and that is explainable (r, 2) per record, or per part of a record."""
     rows = []
     least = floor(records)
     for r in records:
-        base, extended = (float(np.sum((r.weight * (force - r.measured)) ** 2)) for force in (r.base, r.extended))
-        rows.append((base - extended, base - least * float(np.sum(r.weight > 0))))
-    return np.array(rows)
+        part = r.record.part if parts else np.zeros(len(r.weight), dtype=np.int64)
+        base, extended = (np.bincount(part, (r.weight * (force - r.measured)) ** 2) for force in (r.base, r.extended))
+        rows.append(np.column_stack([base - extended, base - least * np.bincount(part, r.weight > 0)]))
+    return np.concatenate(rows)
 
 
 def whole(rows: Array) -> float:

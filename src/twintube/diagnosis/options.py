@@ -11,8 +11,6 @@ from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import LINEAR
 
-RECALIBRATE = "recalibrate"
-
 
 @dataclass(frozen=True)
 class Fold:
@@ -29,9 +27,9 @@ class Option:
     names: tuple[str, ...]  # of all causes in the model, the new cause last
     fits: tuple[Fit, ...]  # fold after fold
     seen: tuple[Mapping[str, float], ...]  # their values, with those of the measurement as the held-out records ask for
-    misfit: Array  # (h,) mean squared weighted error of the held-out records, fold after fold
-    means: Array  # (h,) their mean errors [N]
-    squares: Array  # (h,) sums of squared weighted errors
+    misfit: Array  # (u,) mean squared weighted error of the held-out units, fold after fold
+    means: Array  # (h,) mean errors [N] of the held-out records
+    squares: Array  # (u,) sums of squared weighted errors
     score: float  # twice the negative log-likelihood of the held-out records
 
     @property
@@ -60,17 +58,17 @@ def fitted(folds: Sequence[Fold], names: Sequence[str], frees: Sequence[Sequence
     linear = [[f for f in nuisances(fold.held) if f.name in LINEAR and f.name not in names] for fold in folds]
     seen = tuple(fold.held.adjusted(fit.values, some) for fold, fit, some in zip(folds, fits, linear, strict=True))
     held = [(fold.held, values) for fold, values in zip(folds, seen, strict=True)]
-    misfit = np.concatenate([judge.misfits(judge.residual(values)) for judge, values in held])
+    misfit = np.concatenate([judge.unit_misfits(judge.residual(values)) for judge, values in held])
     means = np.concatenate([judge.means(judge.errors(values) * judge.weight) for judge, values in held])
     counts = counts_of(folds)
     return Option(tuple(names), fits, seen, misfit, means, counts * misfit, float(logs(counts, misfit).sum()))
 
 
 def counts_of(folds: Sequence[Fold]) -> Array:
-    """Numbers of samples (h,) of the held-out records."""
-    return np.concatenate([fold.held.counts for fold in folds])
+    """Numbers of samples (u,) of the held-out units."""
+    return np.concatenate([fold.held.unit_counts for fold in folds])
 
 
 def logs(counts: Array, misfit: Array) -> Array:
-    """Twice the negative log-likelihood (h,) of each held-out record, with a variance not below its noise's."""
+    """Twice the negative log-likelihood (u,) of each held-out unit, with a variance not below its noise's."""
     return np.asarray(counts * np.log(np.maximum(RULES.least_misfit, misfit)))

@@ -50,6 +50,7 @@ class PreparedRecord:
     warm: Array  # (n,) [K] warmer than records usually begin, 0 where no temperature is known
     gas_pressure: float | None  # gauge [Pa], where known
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through
+    tenth: NDArray[np.int64] | None = None  # (n,) of its intervals, where every second tenth is compared
 
     @property
     def intact(self) -> bool:
@@ -60,6 +61,18 @@ class PreparedRecord:
     def begin(self) -> float:
         """Time of the first measured sample [s]; what is simulated before it was not recorded."""
         return float(self.path.x[0])
+
+    @property
+    def part(self) -> NDArray[np.int64]:
+        """The part of the record (n,) that each interval belongs to; 0 where it is not divided."""
+        return self.tenth if self.tenth is not None else np.zeros(len(self.time), dtype=np.int64)
+
+    def alternate(self, half: int) -> "PreparedRecord":
+        """The record with every second tenth of its compared intervals, from the first or the second on."""
+        before: NDArray[np.int64] = np.cumsum(self.judged) - self.judged
+        tenth = (RULES.parts * before) // max(1, int(self.judged.sum()))
+        tenth = np.minimum(tenth, RULES.parts - 1).astype(np.int64)
+        return replace(self, tenth=tenth, judged=self.judged & (tenth % 2 == half))
 
     def moved(self, delay: float, clock: float) -> tuple[Array, Array]:
         """Stroke [m] and velocity [m/s] (n,) at the moments when the force was measured.

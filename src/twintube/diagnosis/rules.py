@@ -78,6 +78,8 @@ class Rules:
     )
     still_run: int = records(3, "", "... where so many follow each other", JUDGEMENT)
     least_noise: float = records(1e-4, "1", "of the peak: without noise every difference would be significant", JUDGEMENT)
+    quieter: float = records(0.9, "1", "of a record's noise, at which a better model's errors show it to be less", JUDGEMENT)
+    noise_rounds: int = records(2, "", "most times that noise is read anew from the errors of better models", JUDGEMENT)
     equal_speeds: float = records(
         1.05, "1", "top speeds within this factor are held out together: they hold noise", JUDGEMENT
     )
@@ -114,6 +116,7 @@ class Rules:
     odd_fill: float = records(0.05, "1", "of the oil: another fill than the recorded one, of a record by mistake", JUDGEMENT)
     odd_left: float = records(0.05, "1", "of its misfit that such a fill leaves", JUDGEMENT)
     odd_off: float = records(3.0, "1", "times its uncertainty, at which an interval is off", JUDGEMENT)
+    few_intervals: int = records(2, "", "of a record, that make it no record with a cause of its own", JUDGEMENT)
     odd_right: float = records(2.0, "1", "misfit up to which a fault of their own explains such records", JUDGEMENT)
 
     limit_least: int = records(8, "", "intervals beyond the largest measured force, for a limit of the channel", JUDGEMENT)
@@ -190,6 +193,9 @@ class Rules:
     shares: tuple[float, ...] = starts(
         (0.0007, 0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", DEVELOPMENT
     )
+    shares_calibration: tuple[float, ...] = starts(
+        (0.01, 0.05, 0.2, 0.5, 1.0), "1", "the like of the degradation parameters", JUDGEMENT
+    )
     shares_moving: tuple[float, float, int] = starts(
         (2e-4, 0.8, 36), "1", "the like of what moves steps of the force: from, to, number", DEVELOPMENT
     )
@@ -244,7 +250,7 @@ class Rules:
     second_share: float = selection(
         0.1, "1", "of the whole squared error beyond noise, which a further cause must explain", DEVELOPMENT
     )
-    little_share: float = selection(0.02, "1", "of it, below which no further cause is sought ...", DEVELOPMENT)
+    little_share: float = selection(0.005, "1", "of it, below which no further cause is sought ...", DEVELOPMENT)
     rest_share: float = selection(
         0.75, "1", "... and of what is left, which a smaller further cause must explain", DEVELOPMENT
     )

@@ -12,10 +12,11 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import ALIKE, LATE, Candidate, base, best_start, linear, nuisances
+from twintube.diagnosis.candidates import ALIKE, LATE, RECALIBRATE, Candidate, best_start, calibration, linear, nuisances
+from twintube.diagnosis.edges import less_noise
 from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, removed
-from twintube.diagnosis.options import RECALIBRATE, Fold, Option, Selection, counts_of, fitted, logs
+from twintube.diagnosis.options import Fold, Option, Selection, counts_of, fitted, logs
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import DELAY, MEASUREMENT
 from twintube.diagnosis.zeros import differ, step
@@ -28,21 +29,26 @@ class Selector:
     """
 
     def __init__(self, whole: Problem, candidates: Sequence[Candidate], folds: Sequence[Fold]) -> None:
+        self.candidates = {c.name: c for c in candidates}
+        self.calibration = calibration(whole)
+        self.sampling: tuple[str, ...] = ()  # candidates that belong to every model, too short for the sampling
+        self.limit = float(norm.isf(RULES.alarm / (len(candidates) + 1))) ** 2
+        self.records = [record for fold in folds for record in fold.held.records]  # held out
+        self.counts = counts_of(folds)
+        self.count = int(self.counts.sum())
+        self.begin(whole, folds)
+
+    def begin(self, whole: Problem, folds: Sequence[Fold]) -> None:
+        """Fit the model without a cause."""
         self.start = fitted(folds, (), [self.of_measurement(whole, ())] * len(folds))
         first = self.start.fits[0].values
         self.whole = whole.balanced(whole.misfits(whole.residual(first)))
         pairs = zip(folds, self.start.fits, strict=True)
         self.folds = [replace(fold, fitted=fold.fitted.balanced(fit.misfit)) for fold, fit in pairs]
         self.sketches = [fold.fitted.sparse(RULES.start_records) for fold in self.folds]
-        self.candidates = {c.name: c for c in candidates}
-        self.sampling: tuple[str, ...] = ()  # candidates that belong to every model, too short for the sampling
-        self.limit = float(norm.isf(RULES.alarm / (len(candidates) + 1))) ** 2
-        self.records = [record for fold in folds for record in fold.held.records]  # held out
-        self.counts = counts_of(folds)
-        self.count = int(self.counts.sum())
 
     def logs(self, misfit: Array) -> Array:
-        """Twice the negative log-likelihood (h,) of each held-out record."""
+        """Twice the negative log-likelihood (u,) of each held-out unit."""
         return logs(self.counts, misfit)
 
     def option(self, names: Sequence[str], frees: Sequence[Sequence[Free]]) -> Option:
@@ -53,7 +59,7 @@ class Selector:
         """The free parameters of a model, from the values where they are known."""
         wanted = {f.name: f for f in self.of_measurement(self.whole, names)}
         for name in names:
-            added = base(self.whole) if name == RECALIBRATE else self.candidates[name].joined(values)
+            added = self.known(name).joined(values)
             if name in self.sampling:
                 least = self.candidates[name].least
                 added = tuple(replace(f, low=max(f.low, f.start - least[f.name]), high=min(f.high, f.start + least[f.name]))
@@ -66,16 +72,20 @@ class Selector:
         """What of the measurement is free in a model: the delay, known from all records, beside what is late itself."""
         return [f for f in nuisances(problem) if f.name != DELAY or any(name in LATE for name in names)]
 
+    def known(self, name: str) -> Candidate:
+        """A candidate, or the calibration."""
+        return self.calibration if name == RECALIBRATE else self.candidates[name]
+
     def beginning(self, current: Option, name: str) -> tuple[float, dict[str, float]]:
         """Where a further cause begins in all folds, and the sum of squares there.
 
         From starts of their own the folds may end in different laws, of which a single law holds for the others' records.
         """
-        return best_start(self.sketches, self.candidates[name], [fit.values for fit in current.fits])
+        return best_start(self.sketches, self.known(name), [fit.values for fit in current.fits])
 
     def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
         """The current model with a further cause, from its best start where no other is given."""
-        point = begin if begin is not None else {} if name == RECALIBRATE else self.beginning(current, name)[1]
+        point = begin if begin is not None else self.beginning(current, name)[1]
         names = [*current.names, name]
         frees = [self.free(names, {**fit.values, **point}) for fit in current.fits]
         return self.option(names, frees)
@@ -157,9 +167,7 @@ class Selector:
     def acts(self, option: Option) -> bool:
         """Whether the new cause of an option is off its neutral value in every fold."""
         name = option.names[-1]
-        if name == RECALIBRATE:
-            return True
-        candidate = self.candidates[name]
+        candidate = self.known(name)
         start = {f.name: f.start for f in candidate.free}
         return all(
             any(abs(fit.values.get(n, start[n]) - start[n]) > candidate.least[n] for n in candidate.strength)
@@ -168,11 +176,13 @@ class Selector:
 
     def run(self, progress: Callable[[str], None]) -> Selection:
         """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
-        recalibrated = self.extended(self.start, RECALIBRATE)
-        options = self.tried(self.start, "a single cause", RULES.first_fits, progress, (recalibrated,))
+        recalibrated, options = self.single(progress)
+        for _ in range(RULES.noise_rounds):
+            if not self.quieter(options):
+                break
+            recalibrated, options = self.single(progress)
         if self.seen_through_sampling(options):
-            recalibrated = self.extended(self.start, RECALIBRATE)
-            options = self.tried(self.start, "a single cause, sampling known", RULES.first_fits, progress, (recalibrated,))
+            recalibrated, options = self.single(progress, "a single cause, sampling known")
         current, rounds = self.start, []
         while True:
             taken = self.taken(current, options)
@@ -187,6 +197,31 @@ class Selector:
         chosen = [name for name in current.names if name not in self.sampling]
         neutral = tuple(option.names[-1] for option in rounds[0] if not self.acts(option))
         return Selection(self.start, rounds, chosen, current, recalibrated, self.count, self.limit, neutral)
+
+    def single(self, progress: Callable[[str], None], label: str = "a single cause") -> tuple[Option, list[Option]]:
+        """The calibration, and all models of a single cause that were fitted, best first."""
+        # Where the model as given is right there is nothing to calibrate.
+        right = self.start.score <= RULES.right * self.count
+        recalibrated = self.extended(self.start, RECALIBRATE, {} if right else None)
+        return recalibrated, self.tried(self.start, label, RULES.first_fits, progress, (recalibrated,))
+
+    def quieter(self, options: Sequence[Option]) -> bool:
+        """Begin again with less noise where better models show that it is less."""
+        better = [option for option in options if self.start.score - option.score > self.limit]
+        noise: dict[str, Array] = {}
+        for k, fold in enumerate(self.folds):
+            for problem in (fold.fitted, fold.held):
+                noise |= less_noise(problem, [option.seen[k] for option in better], noise)
+        known = {record.name: record.noise for record in self.records}
+        if all(np.median(row / known[name]) > RULES.quieter for name, row in noise.items() if name in known):
+            return False
+
+        def heard(problem: Problem) -> Problem:
+            return problem.with_records([replace(r, noise=noise.get(r.name, r.noise)) for r in problem.records])
+
+        self.begin(heard(self.whole), [Fold(heard(fold.fitted), heard(fold.held)) for fold in self.folds])
+        self.records = [record for fold in self.folds for record in fold.held.records]
+        return True
 
     def seen_through_sampling(self, options: Sequence[Option]) -> bool:
         """Whether something too short for the sampling explains the records best; not a cause, it joins every model then."""
@@ -239,9 +274,12 @@ class Selector:
         return any(name in group and any(other in group for other in causes) for group in ALIKE)
 
     def exchanged(self, current: Option, progress: Callable[[str], None]) -> Option:
-        """With each of several causes exchanged for another where that is better: the first was chosen alone."""
+        """With each of several causes exchanged for another where that is better: the first was chosen alone.
+
+        Where noise alone is left no other can be.
+        """
         causes = [name for name in current.names if name not in self.sampling]
-        for name in causes if len(causes) > 1 else ():
+        for name in causes if len(causes) > 1 and not self.enough(current) else ():
             others = [other for other in current.names if other != name]
             rest = self.option(others, [self.free(others, fit.values) for fit in current.fits])
             best = self.tried(rest, f"instead of {name}", RULES.further_fits, progress)[0]

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.diagnosis.candidates import Candidate
+from twintube.diagnosis.candidates import RECALIBRATE, Candidate
 from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.options import RECALIBRATE, Option, Selection
+from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
 from twintube.diagnosis.rules import RULES
 
@@ -110,7 +110,7 @@ def rivals(selection: Selection, left: bool) -> list[Option]:
     margin = max(selection.limit, RULES.close * max(selection.start.score - best.score, 0.0))
     if left and len(selection.chosen) == 1:
         margin = max(margin, RULES.law_apart * best.score)
-    others = [o for o in others if o.names[-1] not in (RECALIBRATE, *selection.neutral)]
+    others = [o for o in others if o.names[-1] not in (RECALIBRATE, *selection.neutral, *selection.chosen)]
     near = [o for o in others if 0.0 <= o.score - best.score <= margin]
     return near[: RULES.alternatives]
 

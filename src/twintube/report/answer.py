@@ -1,8 +1,8 @@
 """The answer in four lines, alike on the page and in the terminal: verdict, how sure it is, a number, the next step."""
 
 from twintube.core.effects import EFFECTS
+from twintube.diagnosis.candidates import RECALIBRATE
 from twintube.diagnosis.faults import PUT_RIGHT
-from twintube.diagnosis.options import RECALIBRATE
 from twintube.diagnosis.result import Cause, Diagnosis
 from twintube.diagnosis.verdict import lower, share
 from twintube.readable import amount

@@ -3,8 +3,7 @@
 from dataclasses import fields
 
 from twintube.core.effects import EFFECTS, Parameters
-from twintube.diagnosis.candidates import FAULT_TITLES
-from twintube.diagnosis.options import RECALIBRATE
+from twintube.diagnosis.candidates import FAULT_TITLES, RECALIBRATE
 from twintube.diagnosis.seen import FILL
 from twintube.diagnosis.verdict import lower
 
