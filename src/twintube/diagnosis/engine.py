@@ -9,7 +9,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.diagnosis.answer import answer, predictions
-from twintube.diagnosis.candidates import candidates
+from twintube.diagnosis.candidates import RECALIBRATE, candidates
 from twintube.diagnosis.edges import with_edges, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.faults import Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.fit import Problem
@@ -82,7 +82,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
 
         folds, split_remarks = split(dataset.title, judged.records)
         answered = by(judged, folds, "")
-        few = split_remarks == [BY_VELOCITY] and len(answered.causes) < RULES.rounds - 1
+        few = split_remarks == [BY_VELOCITY] and answered.verdict != RECALIBRATE and len(answered.causes) < RULES.rounds - 1
         wrong = contradicted(with_outliers(judged, outliers), answered) if few else None
         inside = within(wrong.records) if wrong is not None else []
         if wrong is not None and inside:
@@ -225,6 +225,6 @@ def within(records: Sequence[PreparedRecord]) -> list[Halves]:
     slow = [record for record in records if record.measurement == "quasi-static"]
     moving = [record for record in records if record.measurement != "quasi-static"]
     halves = [[record.alternate(half) for record in moving] for half in (0, 1)]
-    if not all(record.judged.any() for half in halves for record in half):
+    if any(record.judged.sum() < RULES.parts * RULES.part_least for record in moving):
         return []
     return [([*slow, *halves[0]], halves[1]), ([*slow, *halves[1]], halves[0])]

@@ -78,12 +78,17 @@ class Rules:
     )
     still_run: int = records(3, "", "... where so many follow each other", JUDGEMENT)
     least_noise: float = records(1e-4, "1", "of the peak: without noise every difference would be significant", JUDGEMENT)
-    quieter: float = records(0.9, "1", "of a record's noise, at which a better model's errors show it to be less", JUDGEMENT)
+    quieter: float = records(
+        0.75, "1", "of a record's noise, at which a better model's errors show it to be less", JUDGEMENT
+    )
     noise_rounds: int = records(2, "", "most times that noise is read anew from the errors of better models", JUDGEMENT)
     equal_speeds: float = records(
         1.05, "1", "top speeds within this factor are held out together: they hold noise", JUDGEMENT
     )
-    parts: int = records(10, "", "parts of the records of a single velocity, every second of which is held out", JUDGEMENT)
+    parts: int = records(
+        10, "", "parts of a record, every second of which is held out where its velocity is not held out", JUDGEMENT
+    )
+    part_least: int = records(5, "", "intervals of a part at least", JUDGEMENT)
     most_tolerance: float = records(0.2, "1", "of the largest force: more than a good damper can be off", JUDGEMENT)
     history_gain: float = records(
         0.1, "1", "log-misfit per sample by which slow strokes before a record must explain it better", DEVELOPMENT

@@ -12,7 +12,17 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import ALIKE, LATE, RECALIBRATE, Candidate, best_start, calibration, linear, nuisances
+from twintube.diagnosis.candidates import (
+    ALIKE,
+    FADING,
+    LATE,
+    RECALIBRATE,
+    Candidate,
+    best_start,
+    calibration,
+    linear,
+    nuisances,
+)
 from twintube.diagnosis.edges import less_noise
 from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, removed
@@ -20,6 +30,7 @@ from twintube.diagnosis.options import Fold, Option, Selection, counts_of, fitte
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import DELAY, MEASUREMENT
 from twintube.diagnosis.zeros import differ, step
+from twintube.fitting.splits import distinct
 
 
 class Selector:
@@ -271,7 +282,9 @@ class Selector:
     def alike(self, name: str, names: Sequence[str]) -> bool:
         """Whether a candidate would only mend the formulation of a chosen cause."""
         causes = [other for other in names if other not in self.sampling]
-        return any(name in group and any(other in group for other in causes) for group in ALIKE)
+        speeds = distinct([r.top_speed for r in self.records], RULES.equal_speeds)
+        groups = ALIKE if len(speeds) > 1 else (*ALIKE, FADING)
+        return any(name in group and any(other in group for other in causes) for group in groups)
 
     def exchanged(self, current: Option, progress: Callable[[str], None]) -> Option:
         """With each of several causes exchanged for another where that is better: the first was chosen alone.
