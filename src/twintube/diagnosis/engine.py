@@ -9,7 +9,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.diagnosis.answer import answer, predictions
-from twintube.diagnosis.candidates import RECALIBRATE, candidates
+from twintube.diagnosis.candidates import LATE, RECALIBRATE, candidates
 from twintube.diagnosis.edges import with_edges, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.faults import Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.fit import Problem
@@ -115,9 +115,12 @@ def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
 
 
 def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
-    """Whether another answer names all causes of an answer and further ones."""
+    """Whether another answer names all causes of an answer and further ones, none of which makes the force late.
+
+    Between two samples a step of the force is late by chance, and nothing of a record is left out there.
+    """
     before, after = ({cause.effect for cause in some.causes} for some in (answered, closer))
-    return before < after
+    return before < after and not (after - before) & set(LATE)
 
 
 def history_remark(bare: Sequence[str]) -> str:
