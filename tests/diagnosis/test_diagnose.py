@@ -3,6 +3,8 @@
 import json
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ from twintube.dampers import load
 from twintube.data import Record
 from twintube.diagnosis import Diagnosis, diagnose
 from twintube.diagnosis.edges import with_edges, with_noise
-from twintube.diagnosis.engine import split
+from twintube.diagnosis.engine import contradicted, says_more, split
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.prepare import prepare
 from twintube.diagnosis.result import Estimate, RecordResult
@@ -243,3 +245,42 @@ def test_zero_of_the_load_cell_is_a_fault_of_the_measurement(tmp_path: Path) -> 
     assert (answer.verdict, answer.causes[0].effect) == ("measurement_fault", "force_offset")
     value = answer.causes[0].parameters["force_offset"]
     assert value.low <= value.value <= value.high
+
+
+def test_records_in_which_an_answer_leaves_more_than_noise(good: list[Record]) -> None:
+    """One of them is wrong by far in many intervals, one in two: the first is looked at once more, with others."""
+    problem = with_edges(with_noise(small.problem(good)))
+    forces = np.split(problem.forces({}), problem.starts[1:-1])
+    weights = np.split(problem.weight, problem.starts[1:-1])
+
+    def left(wrong: dict[int, int]) -> Diagnosis:
+        rows = []
+        for i, (record, force, weight) in enumerate(zip(problem.records, forces, weights, strict=True)):
+            error = np.zeros(len(force))
+            error[np.flatnonzero(record.judged)[: wrong.get(i, 0)]] = 1e3
+            rows.append(RecordResult(record, "heldout", force, force, force, force + error, weight))
+        return cast(Diagnosis, SimpleNamespace(records=rows))
+
+    assert contradicted(problem, left({})) is None
+    assert contradicted(problem, left({1: RULES.few_intervals})) is None
+    some = contradicted(problem, left({1: 40}))
+    assert some is not None and some.records[0].name == problem.records[1].name
+    assert contradicted(problem, left(dict.fromkeys(range(len(good)), 40))) is None  # all: not a matter of few records
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "more"),
+    [
+        ((), ("gas_redissolution",), True),
+        (("valve_wear",), ("end_stop", "valve_wear"), True),
+        (("valve_wear",), ("end_stop",), False),
+        ((), (), False),
+        ((), ("fluid_lag",), False),
+        (("valve_wear",), ("valve_wear", "channel_delay"), False),
+    ],
+)
+def test_an_answer_within_records_must_name_more(before: tuple[str, ...], after: tuple[str, ...], more: bool) -> None:
+    def answer(names: tuple[str, ...]) -> Diagnosis:
+        return cast(Diagnosis, SimpleNamespace(causes=[SimpleNamespace(effect=name) for name in names]))
+
+    assert says_more(answer(before), answer(after)) == more

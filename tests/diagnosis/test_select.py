@@ -122,3 +122,15 @@ def test_what_is_too_short_for_the_sampling_joins_every_model_and_is_no_cause(pr
     (lag,) = (f for f in seen.free(("fluid_lag",), short.fits[0].values) if f.name == "tau_fluid")
     assert lag.high == pytest.approx(seen.candidates["fluid_lag"].least["tau_fluid"])
     assert not seen.alike("channel_delay", seen.sampling)  # a true delay may still be a cause
+
+
+def test_at_one_velocity_a_gain_is_no_second_cause_beside_heat(selector: Selector, problem: Problem) -> None:
+    """A constant factor is another temperature at the start there."""
+    assert not selector.alike("force_gain", ("oil_temperature",))
+    single = problem.with_records([record for record in problem.records if record.top_speed > 0.9])
+    halves = [single.with_records([record.alternate(half) for record in single.records]) for half in (0, 1)]
+    inside = Selector(single, candidates(single), [Fold(*halves), Fold(*halves[::-1])])
+    assert inside.alike("force_gain", ("oil_temperature",)) and inside.alike("valve_wear", ("oil_temperature",))
+    assert not inside.alike("side_load_friction", ("oil_temperature",))
+    assert not inside.alike("oil_temperature", ("force_gain",))
+    assert len(inside.counts) == RULES.parts * len(single.records)

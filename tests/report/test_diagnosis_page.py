@@ -368,6 +368,8 @@ def test_only_what_the_records_determine_is_a_value():
 def test_progress_in_words():
     assert in_words("a single cause: start of mount_compliance") == "trying: rubber mount in series"
     assert in_words("a further cause, 2 in all: force_offset") == "trying another cause as well: zero of the load cell"
+    inside = in_words("within the records: a single cause: start of mount_compliance")
+    assert inside == "in the records that are left, trying: rubber mount in series"
     assert in_words("instead of fluid_lag: start of valve_wear") == (
         "trying instead of compressible oil and late check valves: change of the F-v curve"
     )

@@ -38,7 +38,7 @@ MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked(
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
 RECALIBRATE = "recalibrate"
 ALIKE = (LATE, FRICTION)  # of each a second only mends the formulation of the first
-FADING = ("oil_temperature", "force_gain", "valve_wear")  # at one velocity a factor is a temperature at the start
+FACTORS = ("force_gain", "valve_wear")  # at a single velocity, beside heat, another temperature at the start
 
 
 @dataclass(frozen=True)

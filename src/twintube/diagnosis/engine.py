@@ -14,7 +14,7 @@ from twintube.diagnosis.edges import with_edges, with_noise, with_outliers, with
 from twintube.diagnosis.faults import Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
-from twintube.diagnosis.history import settled, with_history
+from twintube.diagnosis.history import bare_of_strokes, settled, with_history
 from twintube.diagnosis.odd import STRANGER, odd_records
 from twintube.diagnosis.options import Fold
 from twintube.diagnosis.prepare import PreparedRecord, prepare
@@ -32,7 +32,7 @@ Halves = tuple[list[PreparedRecord], list[PreparedRecord]]  # to fit and to judg
 BY_VELOCITY = "every record is predicted from those of other velocities: every second velocity is held out in turn"
 WITHIN = (
     "the cause acts in so few records that no others predict it: every second tenth of each record is held out in turn, "
-    "predicted from the others. Repeat the records in which it acts"
+    "predicted from the others, without most records that the model explains anyway. Repeat those in which it acts"
 )
 
 
@@ -58,6 +58,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     recorded = recorded.with_usual(problem.usual)
     stepped, problem = zero_change(with_edges(with_noise(problem)))
     problem, drift = zero_drift(problem)
+    known = not any(bare_of_strokes(record) for record in problem.records)
     problem, bare = with_history(problem)
     calm, outliers = without_outliers(problem)
     cut, problem = saturated(calm)
@@ -75,7 +76,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
             faults[odd] = excluded_gain(recorded, judged)
 
         def by(judged: Problem, folds: Sequence[Halves], label: str) -> Diagnosis:
-            selector = selector_of(judged, folds)
+            selector = selector_of(judged, folds, history=known)
             selection = selector.run(lambda text: progress(label + text))
             progress(label + "fitting the model to all records")
             return answer(dataset, judged, selector, selection, seen, faults)
@@ -108,7 +109,7 @@ def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
     for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
         error = extended[record.name].extended - extended[record.name].measured
         squares = np.sort((problem.weight[a:b] * error)[record.judged] ** 2)[: -RULES.few_intervals]
-        (wrong if float(np.mean(squares)) > RULES.odd_right else right).append(record)
+        (wrong if float(squares.sum()) > RULES.odd_right * len(squares) else right).append(record)
     if not 0 < len(wrong) <= RULES.odd_share * len(problem.records):
         return None
     return problem.with_records([*wrong, *problem.with_records(right).sparse(RULES.start_records).records])
@@ -131,11 +132,11 @@ def history_remark(bare: Sequence[str]) -> str:
     )
 
 
-def selector_of(problem: Problem, folds: Sequence[Halves]) -> Selector:
-    """The selector for the records to fit and to judge on, fold by fold."""
+def selector_of(problem: Problem, folds: Sequence[Halves], *, history: bool = True) -> Selector:
+    """The selector for the records to fit and to judge on, fold by fold; `history` says whether it is known of all."""
     several = [Fold(*(problem.with_records(some) for some in (fitted, held))) for fitted, held in folds]
     # With a single fold the held-out records are never fitted, with several every record is held out of some fold.
-    return Selector(several[0].fitted if len(several) == 1 else problem, candidates(problem), several)
+    return Selector(several[0].fitted if len(several) == 1 else problem, candidates(problem), several, history=history)
 
 
 def known_gain(path: str | Path, causes: Sequence[str]) -> float:

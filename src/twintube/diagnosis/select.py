@@ -14,7 +14,7 @@ from scipy.stats import norm
 from twintube.arrays import Array
 from twintube.diagnosis.candidates import (
     ALIKE,
-    FADING,
+    FACTORS,
     LATE,
     RECALIBRATE,
     Candidate,
@@ -37,9 +37,13 @@ class Selector:
     """Fits and compares models; `whole` holds the records that the final model is fitted to.
 
     `start` is the model without a cause. The records to fit are balanced by its misfit, once, before anything is compared.
+    Where the `history` of records is not known, no other degradation parameters are named: foam of before looks like them.
     """
 
-    def __init__(self, whole: Problem, candidates: Sequence[Candidate], folds: Sequence[Fold]) -> None:
+    def __init__(
+        self, whole: Problem, candidates: Sequence[Candidate], folds: Sequence[Fold], *, history: bool = True
+    ) -> None:
+        self.history = history
         self.candidates = {c.name: c for c in candidates}
         self.calibration = calibration(whole)
         self.sampling: tuple[str, ...] = ()  # candidates that belong to every model, too short for the sampling
@@ -214,7 +218,8 @@ class Selector:
         # Where the model as given is right there is nothing to calibrate.
         right = self.start.score <= RULES.right * self.count
         recalibrated = self.extended(self.start, RECALIBRATE, {} if right else None)
-        return recalibrated, self.tried(self.start, label, RULES.first_fits, progress, (recalibrated,))
+        shown = (recalibrated,) if self.history else ()
+        return recalibrated, self.tried(self.start, label, RULES.first_fits, progress, shown)
 
     def quieter(self, options: Sequence[Option]) -> bool:
         """Begin again with less noise where better models show that it is less."""
@@ -283,8 +288,9 @@ class Selector:
         """Whether a candidate would only mend the formulation of a chosen cause."""
         causes = [other for other in names if other not in self.sampling]
         speeds = distinct([r.top_speed for r in self.records], RULES.equal_speeds)
-        groups = ALIKE if len(speeds) > 1 else (*ALIKE, FADING)
-        return any(name in group and any(other in group for other in causes) for group in groups)
+        if len(speeds) < 2 and "oil_temperature" in causes and name in FACTORS:
+            return True
+        return any(name in group and any(other in group for other in causes) for group in ALIKE)
 
     def exchanged(self, current: Option, progress: Callable[[str], None]) -> Option:
         """With each of several causes exchanged for another where that is better: the first was chosen alone.

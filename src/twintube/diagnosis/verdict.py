@@ -59,8 +59,10 @@ def judge(
     # Where noise alone is left, what is explained of little is known badly.
     enough = gain.heldout >= (RULES.half if right else RULES.explained)
     if quiet:
-        # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained.
-        enough = selection.final.score <= (1 - RULES.half) * selection.start.score
+        # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained. So
+        # small an error, less than half of the noise, names a fault of the measurement at most.
+        faulty = all(candidates[name].fault for name in causes)
+        enough = faulty and selection.final.score <= (1 - RULES.half) * selection.start.score
     close = rivals(selection, extended > RULES.quiet * floor)
     solved = bool(selection.chosen) and proven and enough and not doubts
     if outside and not (solved and extended <= RULES.quiet * floor):

@@ -40,6 +40,9 @@ def meaning(name: str) -> str:
 
 def in_words(step: str) -> str:
     """A step that a diagnosis reports, such as `a single cause: start of force_gain`, with the title of what is tried."""
+    inside = "within the records: "
+    if step.startswith(inside):
+        return f"in the records that are left, {in_words(step.removeprefix(inside))}"
     head, _, name = step.rpartition(": ")
     name = name.removeprefix("start of ")
     title = lower(title_of(name))
