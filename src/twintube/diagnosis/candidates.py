@@ -38,7 +38,9 @@ MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked(
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
 RECALIBRATE = "recalibrate"
 ALIKE = (LATE, FRICTION)  # of each a second only mends the formulation of the first
-FACTORS = ("force_gain", "valve_wear")  # at a single velocity, beside heat, another temperature at the start
+FADING = tuple(name for name in hooked("scale_fluid") if name in hooked("phases"))  # the force falls with what happened
+# At a single velocity, beside what fades, another temperature at the start.
+FACTORS = ("force_gain", *(name for name in hooked("scale_fluid") if name not in FADING))
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from twintube.arrays import Array
 from twintube.diagnosis.candidates import (
     ALIKE,
     FACTORS,
+    FADING,
     LATE,
     RECALIBRATE,
     Candidate,
@@ -288,7 +289,7 @@ class Selector:
         """Whether a candidate would only mend the formulation of a chosen cause."""
         causes = [other for other in names if other not in self.sampling]
         speeds = distinct([r.top_speed for r in self.records], RULES.equal_speeds)
-        if len(speeds) < 2 and "oil_temperature" in causes and name in FACTORS:
+        if len(speeds) < 2 and name in FACTORS and any(other in FADING for other in causes):
             return True
         return any(name in group and any(other in group for other in causes) for group in ALIKE)
 
