@@ -62,6 +62,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     problem, bare = with_history(problem)
     calm, outliers = without_outliers(problem)
     cut, problem = saturated(calm)
+    outliers = {} if cut is not None else outliers  # what lies beyond a limit stays left out
     remarks += [*notes, *drift, *([history_remark(bare)] if bare else [])]
     if turned is not None:
         factors = (1.0, turned.factor) if turned.channel == "stroke" else (turned.factor, 1.0)

@@ -79,6 +79,7 @@ def answer_loop(d: Diagnosis, narrow: bool = False) -> Figure:
 def caption(d: Diagnosis) -> str:
     """What the picture shows."""
     result = telling(d)
-    held = "held out: the models do not know it" if result.split == "heldout" else "fitted"
+    unknown = "the models do not know it" if result.record.tenth is None else "every second tenth of it in turn"
+    held = f"held out: {unknown}" if result.split == "heldout" else "fitted"
     which, _ = typical(d, result)
     return f"Record {result.record.name} ({name_of(result)}; {held}), {which}."
