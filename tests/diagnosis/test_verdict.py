@@ -100,8 +100,10 @@ def test_the_verdict_follows_from_what_is_chosen_and_what_is_left(
         {"value": replace(FOUND, low=-0.05)},
         {"value": replace(FOUND, value=1.0, low=0.9, high=1.0)},
         {"value": replace(FOUND, value=0.5 * LEAST, low=0.4 * LEAST, high=0.6 * LEAST)},
+        {"value": replace(FOUND, value=0.63, low=0.6, high=0.66)},
     ],
-    ids=["worse", "no gain", "gain open", "error rises", "base at noise", "interval holds zero", "end of range", "every measurement's"],
+    ids=["worse", "no gain", "gain open", "error rises", "base at noise", "interval holds zero", "end of range", "every measurement's",
+         "another damper"],
 )  # fmt: skip
 @pytest.mark.parametrize("name", ["valve_wear", "force_gain"])
 def test_no_cause_is_named_against_a_figure(name: str, figures: dict[str, object]) -> None:

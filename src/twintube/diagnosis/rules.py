@@ -274,6 +274,9 @@ class Rules:
         1.1, "1", "error of the base model over the noise floor, up to which nothing is missing", DEVELOPMENT
     )
     explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
+    stiffer: float = verdict(
+        0.4, "1", "factor of the force above 1, beyond which it is another damper or setting", JUDGEMENT
+    )
     close: float = verdict(0.03, "1", "of the explainable misfit: candidates that differ by less are ambiguous", DEVELOPMENT)
     law_apart: float = verdict(
         0.25, "1", "the like of the misfit that a single cause leaves, where it leaves more than noise", DEVELOPMENT

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.diagnosis.candidates import RECALIBRATE, Candidate
+from twintube.diagnosis.candidates import FACTORS, RECALIBRATE, Candidate
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
@@ -98,7 +98,12 @@ def doubtful(candidate: Candidate, values: Mapping[str, Estimate]) -> str:
     if not acting:
         return "its strength is not determined by these records"
     ends = [value.doubt for value in acting if value.at_bound]
-    return f"its strength is {ends[0]}" if ends else ""
+    if ends:
+        return f"its strength is {ends[0]}"
+    more = max(values[name].value - (values[name].neutral or 0.0) for name in candidate.strength if name in values)
+    if candidate.name in FACTORS and more > RULES.stiffer:
+        return f"no calibration, wear or lack of oil makes forces {more:.0%} larger: another damper or setting, identify it first"
+    return ""
 
 
 def rivals(selection: Selection, left: bool) -> list[Option]:
