@@ -102,7 +102,7 @@ def doubtful(candidate: Candidate, values: Mapping[str, Estimate]) -> str:
         return f"its strength is {ends[0]}"
     more = max(values[name].value - (values[name].neutral or 0.0) for name in candidate.strength if name in values)
     if candidate.name in FACTORS and more > RULES.stiffer:
-        return f"no calibration, wear or lack of oil makes forces {more:.0%} larger: another damper or setting, identify it first"
+        return f"no calibration, wear or lack of oil makes forces {more:.0%} larger: identify this damper first"
     return ""
 
 
