@@ -11,11 +11,18 @@ from twintube.lab.challenge.generate import runs_of
 from twintube.lab.challenge.oil import level_everywhere
 from twintube.lab.challenge.plan import Bench, bench_for
 from twintube.lab.challenge.run import Run, Step, begun, finished, marched
-from twintube.lab.challenge.tolerance import DELAY, FILL, GAIN, ZERO, Tolerances, beyond, tolerances
+from twintube.lab.challenge.tolerance import FILL, GAIN, SHIFTS, ZERO, Tolerances, beyond, tolerances
 
 TIME = np.linspace(0.0, 1.0, 500)
 FORCES = [1000.0 * np.sin(2 * np.pi * f * TIME) for f in (3.0, 5.0)]
-STRAIGHT = Tolerances([np.zeros(500), np.zeros(500)], FORCES, 1000.0)
+
+
+def late(samples: float) -> list[Array]:
+    """What a delay changes."""
+    return [np.interp(TIME - samples * TIME[1], TIME, F) - F for F in FORCES]
+
+
+STRAIGHT = Tolerances([np.zeros(500), np.zeros(500)], FORCES, [late(shift) for shift in SHIFTS], 1000.0)
 
 
 @pytest.mark.parametrize(
@@ -23,7 +30,7 @@ STRAIGHT = Tolerances([np.zeros(500), np.zeros(500)], FORCES, 1000.0)
     [
         [np.full(500, 0.9 * ZERO * 1000.0), np.full(500, -0.5 * ZERO * 1000.0)],
         [0.9 * GAIN * F for F in FORCES],
-        [-0.9 * DELAY * np.gradient(F) for F in FORCES],
+        late(0.45),
     ],
     ids=["a zero in each record", "a gain", "a delay"],
 )
@@ -44,6 +51,20 @@ def test_steps_hide_what_happens_where_they_are() -> None:
     rest = np.concatenate(beyond([change, change], replace(STRAIGHT, steps=[steps, steps])))
     early = np.tile(TIME <= 0.5, 2)
     assert rms([rest[~early]]) < 0.05 * rms([rest[early]])
+
+
+def test_steps_that_a_part_of_a_sample_moves_to_the_next_are_hidden_by_that_part_alone() -> None:
+    square = [np.where(np.sin(2 * np.pi * f * TIME + 0.1) > 0.0, 1000.0, -1000.0) for f in (3.0, 5.0)]
+    fine = np.linspace(0.0, 1.0, 50 * 499 + 1)
+
+    def moved(samples: float) -> list[Array]:
+        several = [np.where(np.sin(2 * np.pi * f * fine + 0.1) > 0.0, 1000.0, -1000.0) for f in (3.0, 5.0)]
+        return [np.interp(TIME - samples * TIME[1], fine, s) - np.interp(TIME, fine, s) for s in several]
+
+    bench = Tolerances([np.zeros(500), np.zeros(500)], square, [moved(shift) for shift in SHIFTS], 1000.0)
+    part, whole = moved(0.35), moved(1.5)
+    assert rms(part) > 0.0 and rms(beyond(part, bench)) < 1e-3 * rms(part)
+    assert rms(beyond(whole, bench)) > 0.5 * rms(whole)
 
 
 def campaign() -> tuple[Bench, list[Run]]:

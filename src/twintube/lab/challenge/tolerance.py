@@ -11,18 +11,18 @@ import numpy as np
 from scipy.optimize import lsq_linear
 
 from twintube.arrays import Array
-from twintube.lab.challenge.changes import effects
+from twintube.lab.challenge.changes import effects, rms
 from twintube.lab.challenge.oil import level_everywhere
 from twintube.lab.challenge.plan import Bench
 from twintube.lab.challenge.run import Run, Step, begun, copied, finished
 from twintube.lab.challenge.sampling import sampled
-from twintube.lab.challenge.sensors import stroke_gain
+from twintube.lab.challenge.sensors import force_late, stroke_gain
 
 FILL = 1e-3  # of the oil in degraded states: 0.3 mL, of drops on walls
 STROKE = 1e-3  # of the stroke: a good inductive sensor
 ZERO = 5e-3  # of the largest force, in each record: 0.05 % of the range (ISO 7500-1, class 0.5) of a cell ten times as large
 GAIN = 5e-3  # of the force, in all records alike (ISO 7500-1, class 0.5)
-DELAY = 0.5  # samples, in all records alike
+SHIFTS = np.delete(np.linspace(-0.5, 0.5, 21), 10).tolist()  # samples: delays of the force, in all records alike
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,7 @@ class Tolerances:
 
     steps: list[Array]  # what fill and stroke change in the force
     force: list[Array]  # nothing hidden
+    shifts: list[list[Array]]  # what each delay of the force channel changes
     largest: float  # force
 
 
@@ -46,18 +47,34 @@ def tolerances(plain: Sequence[Run], bench: Bench) -> Tolerances:
             runs = [copied(run) if stage == "sensors" else begun(run.record, run.motion, bench.damper) for run in plain]
             both.append(effects([finished(run, [step]) for run in runs], plain, bench))
         squares = [s + np.maximum(np.abs(a), np.abs(b)) ** 2 for s, a, b in zip(squares, *both, strict=True)]
-    return Tolerances([np.sqrt(s) for s in squares], forces, bench.largest)
+    late = [
+        [
+            effects([finished(copied(run), [Step("sensors", force_late, shift / bench.fs, {})])], [run], bench)[0]
+            for run in plain
+        ]
+        for shift in SHIFTS
+    ]
+    return Tolerances([np.sqrt(s) for s in squares], forces, late, bench.largest)
 
 
 def beyond(changes: Sequence[Array], bench: Tolerances) -> list[Array]:
-    """What is left of changes of the force (n,) [N] by record where the tolerances hide as much as they can."""
+    """What is left of changes of the force (n,) [N] by record where the tolerances hide as much as they can.
+
+    A delay of a part of a sample moves some steps of the force into another sample and others not, so that each is tried.
+    """
+    nothing = [np.zeros_like(change) for change in changes]
+    several = [left_of([c - s for c, s in zip(changes, shift, strict=True)], bench) for shift in (nothing, *bench.shifts)]
+    return min(several, key=rms)
+
+
+def left_of(changes: Sequence[Array], bench: Tolerances) -> list[Array]:
+    """What is left of changes of the force (n,) [N] by record without what fill, stroke, zeros and gain may hide."""
     counts = [len(change) for change in changes]
     left = np.concatenate([np.sign(c) * np.maximum(np.abs(c) - s, 0.0) for c, s in zip(changes, bench.steps, strict=True)])
-    columns = np.zeros((len(left), len(counts) + 2))
+    columns = np.zeros((len(left), len(counts) + 1))
     for i, (end, n) in enumerate(zip(np.cumsum(counts), counts, strict=True)):
         columns[end - n : end, i] = ZERO * bench.largest
-    columns[:, -2] = GAIN * np.concatenate(bench.force)
-    columns[:, -1] = DELAY * np.concatenate([np.gradient(force) for force in bench.force])
+    columns[:, -1] = GAIN * np.concatenate(bench.force)
     # The normal equations: small, whatever the number of samples.
     norm = np.maximum(np.linalg.norm(columns, axis=0), 1e-12)
     root = np.linalg.cholesky((columns / norm).T @ (columns / norm) + 1e-9 * np.eye(len(norm)))
