@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from twintube.arrays import Array
+from twintube.lab.challenge.catalogue import CAUSES
 from twintube.lab.challenge.changes import effects, rms
-from twintube.lab.challenge.generate import runs_of
+from twintube.lab.challenge.generate import attempt, beyond_bench, runs_of, with_hidden
 from twintube.lab.challenge.oil import level_everywhere
 from twintube.lab.challenge.plan import Bench, bench_for
 from twintube.lab.challenge.run import Run, Step, begun, finished, marched
@@ -86,3 +87,12 @@ def test_a_fill_is_hidden_up_to_its_tolerance() -> None:
         changes = effects(runs, plain, bench)
         left.append(rms(beyond(changes, open_)) / rms(changes))
     assert left[0] < 1e-6 and left[1] > 0.3
+
+
+def test_of_two_causes_the_lesser_decides() -> None:
+    rng = np.random.default_rng(5)
+    single = attempt([CAUSES["side_load_friction"].formulations[0]], None, rng)
+    weak = replace(single.steps[0], strength=1e-6 * single.steps[0].strength)
+    both = replace(single, steps=[*single.steps, weak], runs=with_hidden(single.plain, [*single.steps, weak], single.bench))
+    assert beyond_bench(single) > 0.0
+    assert beyond_bench(both) < 1e-3 * beyond_bench(single)
