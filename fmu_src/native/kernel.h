@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations f18e98385368fc27, body 55ac10de6073d159; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations ded6dced5d99d07b, body 7e07cbee1727ed10; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -64,6 +64,7 @@ struct kernel_Parameters {
     double foam_decay_rate;
     double exhaustion;
     double redissolution_rate;
+    double reserve_share;
     double F_surplus;
     double c_residual;
     double F_residual;
@@ -82,6 +83,9 @@ struct kernel_Parameters {
     double gas_heat;
     double friction_slope;
     double friction_bow;
+    double friction_spot;
+    double spot_at;
+    double spot_width;
     double leak_film;
     double leak_power;
     double side_load;
@@ -312,7 +316,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if ((p->friction_slope != 0.0) || (p->friction_bow != 0.0))
+    if ((p->friction_slope != 0.0) || (p->friction_bow != 0.0) || (p->friction_spot != 0.0))
     {
         return 1;
     }
@@ -870,7 +874,9 @@ static double kernel_oil_temperature_scale_friction(struct kernel_Parameters* p,
 /* Factor of the friction force [1] at the stroke `z` [m]. */
 static double kernel_position_friction_scale_friction(struct kernel_Parameters* p, struct kernel_State* s, double z, double v)
 {
-    return double_max(2, 0.0, 1.0 + z * (p->friction_slope + z * p->friction_bow));
+    double x;
+    x = (z - p->spot_at) / p->spot_width;
+    return double_max(2, 0.0, 1.0 + z * (p->friction_slope + z * p->friction_bow) + p->friction_spot * exp((-x) * x));
 }
 
 /* Factor of the friction force [1] at the velocity `v` [m/s]. */
@@ -889,7 +895,7 @@ static double kernel_effects_scale_friction(struct kernel_Parameters* p, struct 
     {
         value *= kernel_oil_temperature_scale_friction(p, s, z, v);
     }
-    if ((p->friction_slope != 0.0) || (p->friction_bow != 0.0))
+    if ((p->friction_slope != 0.0) || (p->friction_bow != 0.0) || (p->friction_spot != 0.0))
     {
         value *= kernel_position_friction_scale_friction(p, s, z, v);
     }
@@ -1081,6 +1087,8 @@ static void kernel_gas_redissolution_phases(struct kernel_Parameters* p, struct 
     double part;
     back = s->V_cav * (1.0 - exp((-p->redissolution_rate) * dt));
     s->V_cav -= back;
+    s->V3_oil += p->reserve_share * back;
+    back -= p->reserve_share * back;
     gas = s->V1_gas + s->V2_gas;
     if (gas <= back)
     {

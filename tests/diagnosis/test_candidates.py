@@ -8,10 +8,10 @@ import pytest
 from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.data import Record
+from twintube.diagnosis.calibration import best_calibration, calibration
 from twintube.diagnosis.candidates import (
     Candidate,
     best_start,
-    calibration,
     candidates,
     linear,
     lowest,
@@ -58,7 +58,9 @@ def test_what_every_measurement_has_goes_with_the_sampling(good: list[Record]) -
     assert named(coarse, "fluid_lag").least["tau_fluid"] > 2 * named(problem, "fluid_lag").least["tau_fluid"]
     zero, late, *_ = nuisances(coarse)
     assert zero.high == pytest.approx(RULES.small_zero * max(record.peak for record in coarse.records))
-    assert late.high == pytest.approx(RULES.open_samples * period(coarse))
+    assert late.high == pytest.approx(RULES.open_filtered * period(coarse)), "a filter is not ruled out yet"
+    sharp = nuisances(coarse.with_usual({"bend_about": 0.0}))
+    assert sharp[1].high == pytest.approx(RULES.open_samples * period(coarse))
 
 
 def test_a_strength_that_does_not_help_stays_neutral() -> None:
@@ -136,3 +138,15 @@ def test_a_calibration_moves_the_parameters_that_help_and_no_others() -> None:
     assert {f.name for f in candidate.joined(point)} == set(point)
     healthy = with_noise(small.problem([small.record(small.run(v, 0.7, slow=2), seed=9) for v in (0.3, 1.0)]))
     assert len(best_start([healthy], calibration(healthy), [{}])[1]) == 1  # that with which a search begins
+
+
+def test_degradation_parameters_that_interact_are_sought_together() -> None:
+    true = load("SA8").with_(X_Re=0.15, X_Co2=0.59, G_PV=0.34, S_BV=0.2, E=11.5, Y_Co_cav=0.16, Y_Re_cav=0.07)
+    runs = [small.run(v, level, slow=2, damper=true) for level in (0.7, small.DEGRADED) for v in (0.3, 0.6, 1.3)]
+    problem = with_noise(small.problem([small.record(r, seed=i) for i, r in enumerate(runs)]))
+    candidate = calibration(problem)
+    point = best_calibration([problem], candidate, [{}])
+    singly = best_start([problem], candidate, [{}])[1]
+    left = [float(np.sum(problem.residual(values) ** 2)) for values in ({}, singly, point)]
+    assert left[2] < 0.1 * left[0] and left[2] < 0.5 * left[1]
+    assert 0 < len(point) < len(candidate.strength), "what hardly helps keeps the given value"

@@ -269,18 +269,25 @@ def test_records_in_which_an_answer_leaves_more_than_noise(good: list[Record]) -
 
 
 @pytest.mark.parametrize(
-    ("before", "after", "more"),
+    ("before", "after", "left", "more"),
     [
-        ((), ("gas_redissolution",), True),
-        (("valve_wear",), ("end_stop", "valve_wear"), True),
-        (("valve_wear",), ("end_stop",), False),
-        ((), (), False),
-        ((), ("fluid_lag",), False),
-        (("valve_wear",), ("valve_wear", "channel_delay"), False),
+        ((), ("gas_redissolution",), 0.9, True),
+        (("valve_wear",), ("end_stop", "valve_wear"), 0.9, True),
+        (("valve_wear",), ("end_stop",), 0.9, False),
+        (("valve_wear",), ("end_stop",), 0.1, True),
+        (("valve_wear",), ("fluid_lag",), 0.1, False),
+        ((), (), 0.1, False),
+        ((), ("fluid_lag",), 0.1, False),
+        (("valve_wear",), ("valve_wear", "channel_delay"), 0.1, False),
     ],
 )
-def test_an_answer_within_records_must_name_more(before: tuple[str, ...], after: tuple[str, ...], more: bool) -> None:
-    def answer(names: tuple[str, ...]) -> Diagnosis:
-        return cast(Diagnosis, SimpleNamespace(causes=[SimpleNamespace(effect=name) for name in names]))
+def test_an_answer_within_records_must_name_more_or_leave_far_less(
+    before: tuple[str, ...], after: tuple[str, ...], left: float, more: bool
+) -> None:
+    def answer(names: tuple[str, ...], error: float) -> Diagnosis:
+        row = SimpleNamespace(
+            record=SimpleNamespace(name="a"), measured=np.zeros(9), extended=np.full(9, error), weight=np.ones(9)
+        )
+        return cast(Diagnosis, SimpleNamespace(causes=[SimpleNamespace(effect=name) for name in names], records=[row]))
 
-    assert says_more(answer(before), answer(after)) == more
+    assert says_more(answer(before, 1.0), answer(after, left)) == more

@@ -39,6 +39,22 @@ def test_a_file_with_another_defect_is_not_read_by_turning_it(good: list[Record]
         read(folder)
 
 
+@pytest.mark.parametrize("count", [1, None], ids=["a file", "all files"])
+def test_forces_too_small_for_newtons_are_read_as_kilonewtons(good: list[Record], tmp_path: Path, count: int | None) -> None:
+    several = [replace(r, force=1e-3 * r.force) for r in good[:count]]
+    data, fault = read(small.write([*several, *good[len(several) :]], tmp_path))
+    assert fault is not None and (fault.effect, fault.factor) == ("unit_error", 1e3)
+    assert set(fault.records) == {r.name for r in several}
+    forces = {r.name: r.force for r in data.records}
+    assert all(np.abs(forces[r.name] - r.force).max() < 1e-3 * np.abs(r.force).max() for r in good)
+
+
+def test_a_channel_of_noise_is_no_kilonewton(good: list[Record], tmp_path: Path) -> None:
+    noise = np.random.default_rng(3).normal(0.0, 0.5, len(good[0].force))
+    with pytest.raises(DataError, match="it does not move"):
+        read(small.write([replace(good[0], force=noise), *good[1:]], tmp_path))
+
+
 @pytest.mark.parametrize(("factor", "unit"), [(1e-3, "kN for N"), (1 / 4.4482216, "lbf for N")])
 def test_a_wrong_unit_of_the_force_is_named_and_put_right(good: list[Record], factor: float, unit: str) -> None:
     fault, right = unit_error(small.problem([replace(r, force=factor * r.force) for r in good]))

@@ -66,3 +66,12 @@ def test_gains_over_records() -> None:
     assert (low, high) == (pytest.approx(0.4), pytest.approx(0.9))
     assert removed(0.0, -1.0, 10) == 0.0
     assert removed(RULES.right, 0.0, 10) == pytest.approx(1.0)
+
+
+def test_a_cause_in_two_of_many_records_is_in_every_resample() -> None:
+    quiet = np.column_stack([np.linspace(-1.0, 1.0, 20), np.full(20, 1.0)])
+    loud = np.array([[900.0, 1000.0], [800.0, 1000.0]])
+    low, high = bootstrap(np.concatenate([quiet, loud]))
+    assert (low, high) == (pytest.approx(0.79, abs=0.03), pytest.approx(0.89, abs=0.03))
+    low, _ = bootstrap(np.concatenate([quiet, loud[:1]]))
+    assert low < 0.1, "where a single record holds all of it, another sample of records may lack it"

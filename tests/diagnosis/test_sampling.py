@@ -10,9 +10,10 @@ from tests.diagnosis import small
 from twintube.arrays import Array
 from twintube.core import effects
 from twintube.data import Record
-from twintube.diagnosis.candidates import period
+from twintube.diagnosis.candidates import period, unfiltered, usual_delay
 from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.sampling import with_sampling
 from twintube.diagnosis.seen import SAMPLING
 
@@ -67,6 +68,19 @@ def test_a_filter_near_the_sampling_rate_is_no_misfit(runs: list[small.Run]) -> 
     misfits = [p.misfits(p.residual({})) for p in (bare, known)]
     assert misfits[0].mean() > 3.0 * misfits[1].mean()
     assert misfits[1].mean() < 1.5
+
+
+def test_the_delay_of_a_filter_is_that_of_sampling_and_a_sharp_one_is_not(runs: list[small.Run]) -> None:
+    """A filter of the fourth order at 0.4 of the rate is late by 1.04 samples."""
+
+    def behind(r: small.Run) -> float:
+        return 1.04 * small.FINE * float(r.time[1] - r.time[0])
+
+    usual = [with_sampling(small.problem(sampled(runs, [late(replace(r, force=force(r)), behind(r)) for r in runs])))
+             for force in (filtered, lambda r: r.force)]  # fmt: skip
+    assert not unfiltered(usual[0]) and usual[0].usual["bend_about"] < -RULES.bent
+    assert usual_delay(usual[0]) > RULES.open_samples * period(usual[0])
+    assert unfiltered(usual[1]) and usual[1].usual["channel_delay"] <= RULES.open_samples * period(usual[1])
 
 
 def test_a_record_of_another_damper_does_not_decide(runs: list[small.Run]) -> None:

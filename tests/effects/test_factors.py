@@ -47,6 +47,16 @@ def test_friction_follows_the_position_and_never_pushes(sa8: Damper) -> None:
     assert (bowed - rest)[-1] / rubbed[-1] == pytest.approx(1.0 + 500.0 * AMPLITUDE**2 / 3.0, rel=0.03)
 
 
+def test_a_spot_rubs_where_it_is_and_nowhere_else(sa8: Damper) -> None:
+    block = harmonic_block(0.262)
+    spot = {"friction_spot": 4.0, "spot_at": 0.01, "spot_width": 0.005}
+    plain, dented = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(**spot)))
+    factor = 1.0 + 4.0 * np.exp(-(((block.stroke - 0.01) / 0.005) ** 2))
+    assert dented.F_friction == pytest.approx(factor * plain.F_friction, abs=1e-9)
+    far = np.abs(block.stroke - 0.01) > 0.03
+    assert far.any() and dented.force[far] == pytest.approx(plain.force[far], abs=1e-6)
+
+
 def test_wear_scales_each_branch_and_its_work() -> None:
     block = harmonic_block(1.048)
     base = load("SA8").with_(F_FrS=0.0)

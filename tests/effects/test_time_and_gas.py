@@ -50,3 +50,13 @@ def test_freed_gas_dissolves_at_rest_by_its_rate(sa8: Damper) -> None:
     assert oil_of(s) + s.V_cav == pytest.approx(oil + freed, rel=1e-12)
     model.advance(p, d, s, f, s.z, 0.0, 0.0, 1e4)
     assert oil_of(s) == pytest.approx(0.6 * p.V_oil, rel=1e-12)
+
+
+def test_gas_that_dissolves_in_the_reserve_leaves_that_of_the_chambers(sa8: Damper) -> None:
+    p, d, s, f = foamed(sa8.with_(redissolution_rate=0.1, reserve_share=1.0))
+    freed, oil, inside, reserve = s.V_cav, oil_of(s), s.V1_gas + s.V2_gas, s.V3_oil
+    model.advance(p, d, s, f, s.z, 0.0, 0.0, 20.0)
+    back = freed * (1.0 - math.exp(-2.0))
+    assert s.V3_oil == pytest.approx(reserve + back, rel=1e-9)
+    assert s.V1_gas + s.V2_gas == pytest.approx(inside, abs=1e-12)
+    assert oil_of(s) + s.V_cav == pytest.approx(oil + freed, rel=1e-12)

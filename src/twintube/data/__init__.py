@@ -9,7 +9,7 @@ Reading: manifest.py (dataset.toml), raw.py (any file), formats.py (CSV, text), 
 (Parquet, MATLAB, MDF), table.py (units). Judging: checks.py.
 """
 
-from twintube.data.dataset import Dataset, LoadedDataset, check_dataset, flipped_dataset, listed_record, load_dataset
+from twintube.data.dataset import Dataset, LoadedDataset, check_dataset, listed_record, load_dataset
 from twintube.data.findings import DataError, Finding, report
 from twintube.data.motion import read_motion
 from twintube.data.record import GIVEN, GRADIENT, MEASURED, Record
@@ -24,7 +24,6 @@ __all__ = [
     "LoadedDataset",
     "Record",
     "check_dataset",
-    "flipped_dataset",
     "listed_record",
     "load_dataset",
     "read_motion",

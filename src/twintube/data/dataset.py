@@ -54,14 +54,12 @@ def load_dataset(path: str | Path) -> LoadedDataset:
     return LoadedDataset(dataset.title, dataset.damper, dataset.records, dataset.findings)
 
 
-def check_dataset(path: str | Path) -> Dataset:
-    """As `load_dataset`, but errors are only in the findings; nothing is raised."""
-    return read_dataset(path, 1)
+def check_dataset(path: str | Path, *, force_factor: int = 1) -> Dataset:
+    """As `load_dataset`, but errors are only in the findings; nothing is raised.
 
-
-def flipped_dataset(path: str | Path) -> Dataset:
-    """As `check_dataset` with the sign of every force turned: what a wrong sign of the force channel would explain."""
-    return read_dataset(path, -1)
+    All forces times `force_factor` tell what a wrong sign or a wrong unit of the force channel would explain.
+    """
+    return read_dataset(path, force_factor)
 
 
 def listed_record(path: Path) -> tuple[Damper, Record] | None:
@@ -80,8 +78,8 @@ def listed_record(path: Path) -> tuple[Damper, Record] | None:
     return dataset.damper, dataset.records[0]
 
 
-def read_dataset(path: str | Path, sign: int, only: Path | None = None) -> Dataset:
-    """The dataset with its forces times `sign`; with `only`, the record of this file alone."""
+def read_dataset(path: str | Path, force_factor: int, only: Path | None = None) -> Dataset:
+    """The dataset with its forces times `force_factor`; with `only`, the record of this file alone."""
     folder = Path(path)
     toml = folder / FILE if folder.is_dir() or folder.suffix != ".toml" else folder
     notes = Notes(toml.name)
@@ -104,7 +102,7 @@ def read_dataset(path: str | Path, sign: int, only: Path | None = None) -> Datas
     records: list[Record] = []
     findings: list[Finding] = []
     known: dict[bytes, Record] = {}
-    entries = [replace(entry, force_sign=sign * entry.force_sign) for entry in manifest.entries]
+    entries = [replace(entry, force_sign=force_factor * entry.force_sign) for entry in manifest.entries]
     outcomes = read_all([(toml.parent / entry.file, entry.form) for entry in entries if entry.file])
     for entry in entries:
         own = Notes(entry.file)

@@ -201,7 +201,9 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
             else:
                 beaten = "improves them less than the best of its round" if k else "is superfluous beside the other causes"
                 reason = selector.against(current, option) or beaten
-            row = Tried(n, option.names[-1], gain, bootstrap(rows), "chosen" if won else "rejected", reason)
+            row = Tried(
+                n, option.names[-1], gain, bootstrap(rows, size=np.abs(rows[:, 0])), "chosen" if won else "rejected", reason
+            )
             rows_of_table.append(row)
         current = options[0]
     return rows_of_table

@@ -13,7 +13,6 @@ from twintube.core.hooks import Effect, sources
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import BENDS, CLOCK, DELAY, LINEAR, SETTLING, STROKE_GAIN
-from twintube.fitting.parameters import DEGRADATION, ranges
 
 FAULT_TITLES = {
     "force_offset": "Zero of the load cell",
@@ -40,7 +39,7 @@ RECALIBRATE = "recalibrate"
 ALIKE = (LATE, FRICTION)  # of each a second only mends the formulation of the first
 FADING = tuple(name for name in hooked("scale_fluid") if name in hooked("phases"))  # the force falls with what happened
 # At a single velocity, beside what fades, another temperature at the start.
-FACTORS = ("force_gain", *(name for name in hooked("scale_fluid") if name not in FADING))
+FACTORS = ("force_gain", STROKE_GAIN, *(name for name in hooked("scale_fluid") if name not in FADING))
 
 
 @dataclass(frozen=True)
@@ -86,25 +85,19 @@ def linear(problem: Problem) -> tuple[Free, ...]:
 
 
 def usual_delay(problem: Problem) -> float:
-    """The delay [s] that sampling leaves open: a mean over the interval is late by half of it, a filter by a bit more."""
-    return max(RULES.small_delay, RULES.open_samples * period(problem))
+    """The delay [s] that sampling leaves open: a mean over the interval is late by half of it, a filter by a sample."""
+    samples = RULES.open_samples if unfiltered(problem) else RULES.open_filtered
+    return max(RULES.small_delay, samples * period(problem))
+
+
+def unfiltered(problem: Problem) -> bool:
+    """Whether steps of the force are known to be as sharp as the samples: a filter takes part of each bend away."""
+    return problem.usual.get("bend_about", -np.inf) > -RULES.bent
 
 
 def period(problem: Problem) -> float:
     """The usual time [s] between two measured samples."""
     return float(np.median([record.period for record in problem.records]))
-
-
-def calibration(problem: Problem) -> Candidate:
-    """Other values of the degradation parameters; those that do not help keep the given ones."""
-    limits = ranges(DEGRADATION, max(record.top_speed for record in problem.records)).tolist()
-    free = []
-    for name, (low, high) in zip(DEGRADATION, limits, strict=True):
-        given = min(max(getattr(problem.damper.parameters, name), low), high)
-        free.append(Free(name, given, low, high, given))
-    least = {f.name: RULES.acts * f.width for f in free}
-    text = "Other values of the degradation parameters explain the records."
-    return Candidate(RECALIBRATE, "Degradation parameters", text, tuple(free), DEGRADATION, {}, False, "", least)
 
 
 def candidates(problem: Problem) -> list[Candidate]:
@@ -122,7 +115,7 @@ def candidates(problem: Problem) -> list[Candidate]:
                 continue
             low, high, start = meta["lower"], meta["upper"], meta["default"]
             if meta["role"] == "place" and high > reach > low:
-                high, start = reach, RULES.place * reach
+                low, high, start = max(low, -reach), reach, start if low < 0.0 else RULES.place * reach
             free.append(Free(item.name, start, low, high, meta["default"] if meta["role"] == "strength" else None))
             if meta["role"] == "strength":
                 # A time constant below a sample cannot be told from sampling.
@@ -209,6 +202,8 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
     A power or a share begins at its low end too, which is a law of its own.
     """
     if f.name not in candidate.strength:
+        if f.low < 0.0 < f.high:  # a place on either side
+            return [float(x) for x in np.linspace(f.low, f.high, RULES.places + 2)[1:-1]]
         near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
         near += [f.low] if f.name in candidate.laws else []
         return sorted({min(max(x, f.low), f.high) for x in near})

@@ -65,7 +65,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     outliers = {} if cut is not None else outliers  # what lies beyond a limit stays left out
     remarks += [*notes, *drift, *([history_remark(bare)] if bare else [])]
     if turned is not None:
-        factors = (1.0, turned.factor) if turned.channel == "stroke" else (turned.factor, 1.0)
+        factors = (1.0, 1.0 / turned.factor) if turned.channel == "stroke" else (1.0 / turned.factor, 1.0)
         recorded = recorded.with_records([scaled(r, *factors) if r.name in turned.records else r for r in recorded.records])
 
     seen = signatures(dataset.records)
@@ -84,7 +84,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
 
         folds, split_remarks = split(dataset.title, judged.records)
         answered = by(judged, folds, "")
-        few = split_remarks == [BY_VELOCITY] and answered.verdict != RECALIBRATE and len(answered.causes) < RULES.rounds - 1
+        few = split_remarks == [BY_VELOCITY] and answered.verdict != RECALIBRATE and len(answered.causes) < RULES.rounds
         wrong = contradicted(with_outliers(judged, outliers), answered) if few else None
         inside = within(wrong.records) if wrong is not None else []
         if wrong is not None and inside:
@@ -113,16 +113,25 @@ def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
         (wrong if float(squares.sum()) > RULES.odd_right * len(squares) else right).append(record)
     if not 0 < len(wrong) <= RULES.odd_share * len(problem.records):
         return None
-    return problem.with_records([*wrong, *problem.with_records(right).sparse(RULES.start_records).records])
+    others = problem.with_records(right).sparse(RULES.start_records, np.ones(len(right)))
+    return problem.with_records([*wrong, *others.records])
 
 
 def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
-    """Whether another answer names all causes of an answer and further ones, none of which makes the force late.
+    """Whether another answer names all causes of an answer and further ones, or others that leave far less of the error.
 
-    Between two samples a step of the force is late by chance, and nothing of a record is left out there.
+    Nothing that makes the force late is taken from it: between two samples a step of the force is late by chance, and
+    nothing of a record is left out there.
     """
     before, after = ({cause.effect for cause in some.causes} for some in (answered, closer))
-    return before < after and not (after - before) & set(LATE)
+    if not after - before or (after - before) & set(LATE):
+        return False
+    first = {r.record.name: r for r in answered.records}
+    left = np.zeros(2)
+    for r in closer.records:
+        errors = ((some.extended - r.measured) * r.weight for some in (first[r.record.name], r))
+        left += [float(np.sum(error**2)) for error in errors]
+    return before < after or bool(left[1] < RULES.explains_more * left[0])
 
 
 def history_remark(bare: Sequence[str]) -> str:

@@ -8,9 +8,9 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from twintube.core.checks import tube_limit
-from twintube.data import LoadedDataset, Record, check_dataset, flipped_dataset, load_dataset
+from twintube.data import LoadedDataset, Record, check_dataset, load_dataset
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.prepare import PreparedRecord
+from twintube.diagnosis.prepare import PreparedRecord, prepare
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.signature import oscillating
 from twintube.fitting.averaging import averaging, through
@@ -52,19 +52,31 @@ class Fault:
 
 
 def read(path: str | Path) -> tuple[LoadedDataset, Fault | None]:
-    """The dataset, forces turned where only that makes a record readable; raises DataError with what else is wrong."""
+    """The dataset, forces turned or kN taken for N where only that makes a record readable.
+
+    Raises DataError with what else is wrong.
+    """
     checked = check_dataset(path)
-    if checked.errors and all("work of" in finding.message for finding in checked.errors):
-        turned = flipped_dataset(path)
+    for factor, message in ((-1, "work of"), (1000, "N and kN mixed up")):
+        if not checked.errors or not all(message in finding.message for finding in checked.errors):
+            continue
+        other = check_dataset(path, force_factor=factor)
         straight = {record.file for record in checked.records}
-        added = [record for record in turned.records if record.file not in straight]
+        added = [record for record in other.records if record.file not in straight]
         wrong = {finding.file for finding in checked.errors}
-        if turned.damper is not None and added and not wrong & {finding.file for finding in turned.errors}:
-            data = LoadedDataset(turned.title, turned.damper, [*checked.records, *added], checked.findings)
-            names = tuple(record.name for record in added)
-            of = f" of {', '.join(names)}" if straight else ""
+        if other.damper is None or not added or wrong & {finding.file for finding in other.errors}:
+            continue
+        names = tuple(record.name for record in added)
+        of = f" of {', '.join(names)}" if straight else ""
+        data = LoadedDataset(checked.title, other.damper, [*checked.records, *added], checked.findings)
+        if factor < 0:
             text = f"The force channel{of} has the other sign."
             return data, Fault("sign_flip", "Sign of the force channel", text, -1.0, records=names)
+        # A channel that holds nothing but noise is no kN.
+        part = Problem(other.damper, prepare(replace(data, records=added)))
+        if relative(part) < RULES.followed_force:
+            text = f"The force channel{of} holds kN for N."
+            return data, Fault("unit_error", "Unit of the force: kN for N", text, 1e3, records=names)
     return load_dataset(path), None
 
 
@@ -82,8 +94,8 @@ def really_turned(turned: Fault | None, problem: Problem) -> tuple[Fault | None,
 
     The work of a record is negative with either channel turned, and that of a long record also if a clock is wrong.
     """
-    if turned is None:
-        return None, problem
+    if turned is None or turned.effect != "sign_flip":
+        return turned, problem
     part = problem.with_records([r for r in problem.records if r.name in turned.records])
     as_recorded = part.with_records([scaled(r, -1.0, 1.0) for r in part.records])
     stroke = part.with_records([scaled(r, 1.0, -1.0) for r in as_recorded.records])

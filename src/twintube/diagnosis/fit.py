@@ -89,12 +89,18 @@ class Problem(SeenRecords):
         """The problem with values of the measurement where no others are given."""
         return Problem(self.given, self.records, self.drift, self.tolerance, usual)
 
-    def sparse(self, most: int) -> "Problem":
-        """The problem with at most so many of its records, of all states and velocities, as balanced as this."""
+    def sparse(self, most: int, misfit: Array) -> "Problem":
+        """The problem with so many of its records, as balanced as this: the worst, others of all states and velocities.
+
+        `misfit` (r,) is their mean squared weighted error. What acts in few records would not show in others.
+        """
         order = sorted(range(len(self.records)), key=lambda i: (*self.states[i].tolist(), self.records[i].top_speed))
         if len(order) <= most:
             return self
-        kept = [order[i] for i in np.unique(np.linspace(0, len(order) - 1, most).round().astype(int))]
+        worst = [i for i in np.argsort(-misfit).tolist() if misfit[i] > RULES.odd_right][: most // 2]
+        rest = [i for i in order if i not in worst]
+        spread = np.unique(np.linspace(0, len(rest) - 1, most - len(worst)).round().astype(int))
+        kept = [i for i in order if i in worst or i in [rest[k] for k in spread]]
         other = self.with_records([self.records[i] for i in kept])
         other.share = np.concatenate([self.share[self.starts[i] : self.starts[i + 1]] for i in kept])
         return other

@@ -68,11 +68,20 @@ def removed(before: float, after: float, count: int) -> float:
     return float((1.0 - np.exp((max(after, 0.0) - before) / count)) / (1.0 - np.exp(-before / count)))
 
 
-def bootstrap(rows: Array, seed: int = 1, level: float = RULES.interval_level) -> tuple[float, float]:
-    """Interval at a `level` of the ratio of sums of the columns (r, 2), by resampling the rows."""
+def bootstrap(
+    rows: Array, seed: int = 1, level: float = RULES.interval_level, size: Array | None = None
+) -> tuple[float, float]:
+    """Interval at a `level` of the ratio of sums of the columns (r, 2), by resampling the rows.
+
+    Rows that hold hardly anything, by `size` (r,) or by their numbers, stay in every resample: what acts in two of many
+    records would be missing in some.
+    """
     rng = np.random.default_rng(seed)
-    picks = rng.integers(0, len(rows), (RULES.resamples, len(rows)))
-    sums = rows[picks].sum(axis=1)
+    size = np.abs(rows).max(axis=1) if size is None else size
+    idle = size < RULES.idle * size.max()
+    some = rows[~idle] if np.sum(~idle) > 1 else rows
+    picks = rng.integers(0, len(some), (RULES.resamples, len(some)))
+    sums = some[picks].sum(axis=1) + (rows.sum(axis=0) - some.sum(axis=0))
     ratios = sums[:, 0] / np.where(sums[:, 1] > 0, sums[:, 1], np.nan)
     if np.isnan(ratios).all():
         return 0.0, 0.0

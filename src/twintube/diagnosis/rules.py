@@ -138,9 +138,11 @@ class Rules:
     open_samples: float = measurement(
         0.6,
         "1",
-        "samples of delay that sampling leaves open: 0.5 of a mean, 0.56 of a filter at 0.4 of its rate",
+        "samples of delay that sampling leaves open: 0.5 of a mean, 0.56 of a filter of order 2 at 0.4 of its rate",
         DEVELOPMENT,
     )
+    open_filtered: float = measurement(1.1, "1", "where a filter shows: 1.04 of order 4 at 0.4 of its rate", DEVELOPMENT)
+    bent: float = measurement(0.03, "1", "of a bend of the force, which a filter takes from a sample at least", DEVELOPMENT)
     open_step: float = measurement(0.05, "1", "of a sample, by which a step of the force is known no better", DEVELOPMENT)
     warm: float = measurement(3.0, "K", "change of temperature that shows in forces", JUDGEMENT)
     open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
@@ -201,10 +203,13 @@ class Rules:
     shares_calibration: tuple[float, ...] = starts(
         (0.01, 0.05, 0.2, 0.5, 1.0), "1", "the like of the degradation parameters", JUDGEMENT
     )
+    generations: int = starts(40, "", "of differential evolution, in the search for degradation parameters", NUMERICS)
+    population: int = starts(4, "", "of it, per parameter", NUMERICS)
     shares_moving: tuple[float, float, int] = starts(
         (2e-4, 0.8, 36), "1", "the like of what moves steps of the force: from, to, number", DEVELOPMENT
     )
     place: float = starts(0.9, "1", "of the largest stroke, at which the search for a place begins", JUDGEMENT)
+    places: int = starts(7, "", "places on either side of the middle of the stroke, at which a search begins", JUDGEMENT)
     zero_range: float = starts(0.5, "1", "of the largest force: range of a zero that is a fault", JUDGEMENT)
     settling: tuple[float, float, float] = starts(
         (0.1, 0.0, 0.3), "1/s", "rate at which a moving zero settles: usual, least, most (a load cell warms up)", DEVELOPMENT
@@ -212,7 +217,7 @@ class Rules:
     gain_range: tuple[float, float] = starts(
         (0.5, 2.0), "1", "range of a gain that is a fault; beyond it is a wrong unit", JUDGEMENT
     )
-    delay_range: float = starts(0.03, "s", "range of a delay that is a fault, to both sides", JUDGEMENT)
+    delay_range: float = starts(0.06, "s", "range of a delay that is a fault, to both sides", JUDGEMENT)
     delay_samples: float = starts(3.0, "1", "samples that this range holds at least", JUDGEMENT)
     stroke_range: tuple[float, float] = starts((0.8, 1.25), "1", "range of a gain of the stroke that is a fault", JUDGEMENT)
     fills_tried: tuple[float, float, float] = starts(
@@ -240,6 +245,9 @@ class Rules:
         "the like for other degradation parameters and for what is late: edges and sampling ask for a bit",
         DEVELOPMENT,
     )
+    idle: float = selection(
+        0.05, "1", "of the largest: records that hold less of the error stay in every resample", DEVELOPMENT
+    )
     sure: float = selection(
         0.9, "1", "interval by resampling the held-out records, in which the squared error must fall", STATISTICS
     )
@@ -265,7 +273,10 @@ class Rules:
     )
     first_fits: int = selection(7, "", "candidates fitted in the first round: those with the best starts", JUDGEMENT)
     further_fits: int = selection(4, "", "candidates fitted in further rounds", JUDGEMENT)
-    rounds: int = selection(3, "", "most causes", JUDGEMENT)
+    explains_more: float = selection(
+        0.2, "1", "of the squared error: an answer within the records that leaves less replaces another", DEVELOPMENT
+    )
+    rounds: int = selection(2, "", "most causes: what two leave is mostly their formulation", DEVELOPMENT)
     few_records: int = selection(2, "", "held-out records up to which a single record may decide", JUDGEMENT)
     acts: float = selection(1e-3, "1", "of its range: a strength below it is neutral", JUDGEMENT)
 
@@ -300,6 +311,7 @@ class Rules:
     logit_left: float = confidence(0.8, "1", "per share of the error that the best candidate leaves", LIKELIHOOD)
     logit_unexplained: float = confidence(0.9, "1", "of `unknown` where the verdict is `unexplained`", LIKELIHOOD)
 
+    followed_force: float = units(-1.4, "1", "log of the squared error over the squared force: half of it", JUDGEMENT)
     unit_gain: float = units(1.5, "1", "log-misfit per sample: an error twice as small is not a calibration", JUDGEMENT)
 
     line_alarm: float = line(1e-4, "1", "chance that white noise makes a line in a record", STATISTICS)

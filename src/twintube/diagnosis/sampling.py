@@ -8,14 +8,25 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from twintube.diagnosis.candidates import nuisances
+from twintube.diagnosis.candidates import nuisances, unfiltered, usual_delay
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import DELAY
 
 
 def with_sampling(problem: Problem) -> Problem:
-    """The problem with delay, zero and samples of its force channel as most of its records have them, `usual`."""
+    """The problem with delay, zero and samples of its force channel as most of its records have them, `usual`.
+
+    A delay that only a filter would have is a cause where the force was not filtered.
+    """
+    known = problem.with_usual(sampling(problem))
+    if unfiltered(known) and abs(known.usual[DELAY]) > usual_delay(known):
+        return known.with_usual(sampling(known))
+    return known
+
+
+def sampling(problem: Problem) -> dict[str, float]:
+    """Delay, zero and samples of the force channel as most records have them."""
     free = nuisances(problem)
     late = next(f for f in free if f.name == DELAY)
     linear = [f for f in free if f is not late]
@@ -31,7 +42,7 @@ def with_sampling(problem: Problem) -> Problem:
                 low, best = cost, values
         delays = np.clip(best[DELAY] + step * np.array([-0.5, 0.5]), late.low, late.high)
         step /= 2.0
-    return problem.with_usual(best)
+    return best
 
 
 def filtered(problem: Problem, point: dict[str, float], free: Sequence[Free]) -> tuple[float, dict[str, float]]:

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
+from twintube.diagnosis.calibration import best_calibration, calibration
 from twintube.diagnosis.candidates import (
     ALIKE,
     FACTORS,
@@ -20,7 +21,6 @@ from twintube.diagnosis.candidates import (
     RECALIBRATE,
     Candidate,
     best_start,
-    calibration,
     linear,
     nuisances,
 )
@@ -47,6 +47,7 @@ class Selector:
         self.history = history
         self.candidates = {c.name: c for c in candidates}
         self.calibration = calibration(whole)
+        self.point: dict[str, float] | None = None
         self.sampling: tuple[str, ...] = ()  # candidates that belong to every model, too short for the sampling
         self.limit = float(norm.isf(RULES.alarm / (len(candidates) + 1))) ** 2
         self.records = [record for fold in folds for record in fold.held.records]  # held out
@@ -61,7 +62,8 @@ class Selector:
         self.whole = whole.balanced(whole.misfits(whole.residual(first)))
         pairs = zip(folds, self.start.fits, strict=True)
         self.folds = [replace(fold, fitted=fold.fitted.balanced(fit.misfit)) for fold, fit in pairs]
-        self.sketches = [fold.fitted.sparse(RULES.start_records) for fold in self.folds]
+        fits = zip(self.folds, self.start.fits, strict=True)
+        self.sketches = [fold.fitted.sparse(RULES.start_records, fit.misfit) for fold, fit in fits]
 
     def logs(self, misfit: Array) -> Array:
         """Twice the negative log-likelihood (u,) of each held-out unit."""
@@ -216,11 +218,24 @@ class Selector:
 
     def single(self, progress: Callable[[str], None], label: str = "a single cause") -> tuple[Option, list[Option]]:
         """The calibration, and all models of a single cause that were fitted, best first."""
-        # Where the model as given is right there is nothing to calibrate.
-        right = self.start.score <= RULES.right * self.count
-        recalibrated = self.extended(self.start, RECALIBRATE, {} if right else None)
-        shown = (recalibrated,) if self.history else ()
-        return recalibrated, self.tried(self.start, label, RULES.first_fits, progress, shown)
+        options = self.tried(self.start, label, RULES.first_fits, progress)
+        # Where a model is right there is nothing to calibrate.
+        if self.start.score <= RULES.right * self.count:
+            recalibrated = self.extended(self.start, RECALIBRATE, {})
+        elif any(self.acts(o) and o.score <= RULES.right * self.count for o in options):
+            recalibrated = self.extended(self.start, RECALIBRATE)
+        else:
+            progress(f"{label}: degradation parameters")
+            recalibrated = self.extended(self.start, RECALIBRATE, self.calibrated())
+        shown = [recalibrated] if self.history else []
+        return recalibrated, sorted([*options, *shown], key=lambda o: (not self.acts(o), o.score))
+
+    def calibrated(self) -> dict[str, float]:
+        """Where a thorough search for the degradation parameters ends; noise read anew does not move it."""
+        if self.point is None:
+            fixed = [fit.values for fit in self.start.fits]
+            self.point = best_calibration(self.sketches, self.calibration, fixed)
+        return self.point
 
     def quieter(self, options: Sequence[Option]) -> bool:
         """Begin again with less noise where better models show that it is less."""
@@ -261,10 +276,8 @@ class Selector:
         calm = [o for o in near if o.total <= (1 - RULES.next_share) * best.total]
         return min(calm, key=lambda o: o.total, default=best)
 
-    def tried(
-        self, current: Option, label: str, most: int, progress: Callable[[str], None], known: Sequence[Option] = ()
-    ) -> list[Option]:
-        """The current model with a further cause, best first: the calibration and the `most` with the best starts."""
+    def tried(self, current: Option, label: str, most: int, progress: Callable[[str], None]) -> list[Option]:
+        """The current model with a further cause, best first, of those with the best starts the `most`."""
         begins = {}
         for name in self.candidates:
             if name not in current.names and not self.alike(name, current.names):
@@ -274,7 +287,7 @@ class Selector:
         enough = (1.0 - RULES.promise) * self.sketched(current)
         quick = [name for name in begins if name in MEASUREMENT]
         slow = sorted((name for name in begins if name not in quick), key=lambda name: begins[name][0])
-        options = list(known)
+        options = []
         for name in (*(name for name in slow[:most] if begins[name][0] < enough), *quick):
             progress(f"{label}: {name}")
             options.append(self.extended(current, name, begins[name][1]))

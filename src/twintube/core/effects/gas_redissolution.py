@@ -1,7 +1,7 @@
 """Gas freed by cavitation goes back into the oil: first-order decay of V_cav, the oil lost to gas.
 
-What comes back takes the place of gas in V1 and V2, in proportion to the gas they hold; beyond that it joins the reserve.
-Oil and V_cav together stay the same.
+A share of what comes back is in the reserve already; the rest takes the place of gas in V1 and V2, in proportion to the gas
+they hold, and beyond that joins the reserve, too. Oil and V_cav together stay the same.
 """
 
 import math
@@ -25,12 +25,16 @@ class Parameters(variables.Parameters):
     redissolution_rate: float = var("gas_redissolution", "", "1/s", "share of the freed gas that dissolves per second",
                                     lower=0, upper=2, source="first-order mass transfer (Henry's law)",
                                     default=0.0, role="strength")  # fmt: skip
+    reserve_share: float = var("gas_redissolution", "", "1", "share of it that dissolves in the reserve", lower=0, upper=1,
+                               source="where the bubbles are is not known", default=0.0, role="law")  # fmt: skip
 
 
 def gas_redissolution_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:
     """Turn gas back into oil."""
     back = s.V_cav * (1.0 - math.exp(-p.redissolution_rate * dt))
     s.V_cav -= back
+    s.V3_oil += p.reserve_share * back
+    back -= p.reserve_share * back
     gas = s.V1_gas + s.V2_gas
     if gas <= back:
         s.V1_oil += s.V1_gas
