@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations ded6dced5d99d07b, body 7e07cbee1727ed10; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 9d5a5448fc670df8, body 7f0fb9c90a81718c; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -98,6 +98,7 @@ struct kernel_Parameters {
     double wear_co;
     double bleed_re;
     double bleed_co;
+    double bleed_laminar;
 };
 
 struct kernel_Derived {
@@ -630,8 +631,14 @@ static double kernel_valve_force(struct kernel_Parameters* p, double u, double k
     return kernel_fluid_force(p, u) * ((u >= 0.0 ? k_re : k_co));
 }
 
-/* Force of one branch at the speed `u` > 0 [m/s] over that without leak [1]; the leak takes `b` sqrt(F). */
-static double kernel_valve_wear_share(double u, double b, array_double_1d velocities, array_double_1d forces)
+/* Speed [m/s] that a leak of `bleed` [m/s] takes at a force `F` >= 0 [N]. */
+static double kernel_valve_wear_leak(struct kernel_Parameters* p, double bleed, double F)
+{
+    return bleed * ((1.0 - p->bleed_laminar) * sqrt(F / 1000.0) + p->bleed_laminar * F / 1000.0);
+}
+
+/* Force of one branch at the speed `u` > 0 [m/s] over that without a leak of `bleed` [m/s] [1]. */
+static double kernel_valve_wear_share(struct kernel_Parameters* p, double u, double bleed, array_double_1d velocities, array_double_1d forces)
 {
     int64_t i;
     double v;
@@ -639,10 +646,11 @@ static double kernel_valve_wear_share(double u, double b, array_double_1d veloci
     double slope;
     double rest;
     double bend;
+    double more;
     double whole;
     double y;
     i = 0;
-    while((i < 20 - 1) && ((*cspan_at(&velocities, i)) + b * sqrt((*cspan_at(&forces, i))) < u))
+    while((i < 20 - 1) && ((*cspan_at(&velocities, i)) + kernel_valve_wear_leak(p, bleed, (*cspan_at(&forces, i))) < u))
     {
         i += 1;
     }
@@ -654,15 +662,16 @@ static double kernel_valve_wear_share(double u, double b, array_double_1d veloci
         F = (*cspan_at(&forces, i - 1));
     }
     slope = ((*cspan_at(&forces, i)) - F) / ((*cspan_at(&velocities, i)) - v);
-    /* y = sqrt(force): y^2 = F + slope (u - b y - v) has the positive root */
+    /* y = sqrt(force): y^2 = F + slope (u - v - orifice y - gap y^2) has the positive root */
     rest = F + slope * (u - v);
-    bend = slope * b;
+    bend = slope * bleed * (1.0 - p->bleed_laminar) / sqrt(1000.0);
+    more = 1.0 + slope * bleed * p->bleed_laminar / 1000.0;
     whole = kernel_branch(u, velocities, forces);
     if ((rest <= 0.0) || (whole <= 0.0))
     {
         return 1.0;
     }
-    y = 2.0 * rest / (bend + sqrt(bend * bend + 4.0 * rest));
+    y = 2.0 * rest / (bend + sqrt(bend * bend + 4.0 * more * rest));
     return y * y / whole;
 }
 
@@ -672,12 +681,12 @@ static double kernel_valve_wear_scale_valve(struct kernel_Parameters* p, double 
     double result;
     if (u > 0.0)
     {
-        result = (p->bleed_re > 0.0 ? kernel_valve_wear_share(u, p->bleed_re / sqrt(1000.0), p->v_re, p->F_re) : 1.0);
+        result = (p->bleed_re > 0.0 ? kernel_valve_wear_share(p, u, p->bleed_re, p->v_re, p->F_re) : 1.0);
         return result;
     }
     if (u < 0.0)
     {
-        result = (p->bleed_co > 0.0 ? kernel_valve_wear_share(-u, p->bleed_co / sqrt(1000.0), p->v_co, p->F_co) : 1.0);
+        result = (p->bleed_co > 0.0 ? kernel_valve_wear_share(p, -u, p->bleed_co, p->v_co, p->F_co) : 1.0);
         return result;
     }
     return 1.0;
@@ -1878,9 +1887,9 @@ static double kernel_valve_wear_bypass(struct kernel_Parameters* p, double F)
 {
     if (F >= 0.0)
     {
-        return p->bleed_re * sqrt(F / 1000.0);
+        return kernel_valve_wear_leak(p, p->bleed_re, F);
     }
-    return (-p->bleed_co) * sqrt((-F) / 1000.0);
+    return -kernel_valve_wear_leak(p, p->bleed_co, -F);
 }
 
 static double kernel_effects_bypass(struct kernel_Parameters* p, double F)

@@ -19,9 +19,9 @@ D = 2000.0  # [N s/m] of the dashpot
 
 
 @pytest.mark.parametrize("name", names())
-@pytest.mark.parametrize(("bleed_re", "bleed_co"), [(0.05, 0.02), (0.5, 0.5), (1e-4, 0.3)])
-def test_valves_and_leak_pass_what_the_piston_displaces(name: str, bleed_re: float, bleed_co: float) -> None:
-    p = load(name).with_(bleed_re=bleed_re, bleed_co=bleed_co).parameters
+@pytest.mark.parametrize(("bleed_re", "bleed_co", "laminar"), [(0.05, 0.02, 0.0), (0.5, 0.5, 1.0), (1e-4, 0.3, 0.4)])
+def test_valves_and_leak_pass_what_the_piston_displaces(name: str, bleed_re: float, bleed_co: float, laminar: float) -> None:
+    p = load(name).with_(bleed_re=bleed_re, bleed_co=bleed_co, bleed_laminar=laminar).parameters
     for u in (1e-9, 1e-3, 0.02, 0.1, 0.26, 1.0, 5.0, -1e-9, -0.005, -0.1, -0.5, -3.0):
         F = fluid_force(p, u) * effects_scale_valve(p, u)
         assert 0.0 < F / fluid_force(p, u) <= 1.0

@@ -196,7 +196,7 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
                 reason = "improves the held-out records most"
             elif not selector.acts(option):
                 reason = "is neutral, or not more than every measurement has"
-            elif options[0].names[-1] in selection.chosen:
+            elif options[0].names[-1] in selection.chosen and option.score >= options[0].score:
                 reason = "improves them less than the chosen candidate"
             else:
                 beaten = "improves them less than the best of its round" if k else "is superfluous beside the other causes"

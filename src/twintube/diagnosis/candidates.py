@@ -199,13 +199,13 @@ def faults(problem: Problem) -> list[Candidate]:
 def grid(candidate: Candidate, f: Free) -> list[float]:
     """Values from which to begin: a strength over its range with both signs, a length or time near its usual value.
 
-    A power or a share begins at its low end too, which is a law of its own.
+    A power or a share begins at its low end too, which is a law of its own; a share at the other end as well.
     """
     if f.name not in candidate.strength:
         if f.low < 0.0 < f.high:  # a place on either side
             return [float(x) for x in np.linspace(f.low, f.high, RULES.places + 2)[1:-1]]
         near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
-        near += [f.low] if f.name in candidate.laws else []
+        near += ([f.low, f.high] if f.high == 1.0 else [f.low]) if f.name in candidate.laws else []
         return sorted({min(max(x, f.low), f.high) for x in near})
     sides = [(sign, side) for sign, side in ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0]
     shares = np.geomspace(*RULES.shares_moving).tolist() if candidate.name in MOVING else RULES.shares

@@ -147,19 +147,26 @@ class Selector:
         error of which another cause explains some.
         """
         less, whole = before.total - after.total, self.excess(self.start)
-        if less >= RULES.rest_share * self.excess(before) and less >= RULES.little_share * whole:
+        if less >= RULES.rest_share * self.excess(before) and less >= RULES.little_share * whole and self.near(after):
             return ""
         if less < RULES.second_share * whole:
-            return f"explains less than {RULES.second_share:.0%} of the error and {RULES.rest_share:.0%} of what is left"
+            much, rest = RULES.second_share, RULES.rest_share
+            return (
+                f"explains less than {much:.0%} of the error and {rest:.0%} of what is left, or does not leave noise alone"
+            )
         left = removed(before.score, after.score, self.count)
-        much = left >= RULES.half and gained >= RULES.second_share * self.start.score
-        if (much and after.total <= before.total) or after.total <= (1 - RULES.next_share) * before.total:
+        clear = left >= RULES.half and gained >= RULES.second_share * self.start.score
+        if (clear and after.total <= before.total) or after.total <= (1 - RULES.next_share) * before.total:
             return ""
         return f"explains less than {RULES.next_share:.0%} of what the other causes leave, which may be their formulation"
 
     def excess(self, option: Option) -> float:
         """Sum of the squared weighted errors beyond noise."""
         return max(0.0, option.total - self.count)
+
+    def near(self, option: Option) -> bool:
+        """Whether what is left is near to noise alone."""
+        return option.total <= RULES.odd_right * self.count
 
     def enough(self, option: Option) -> bool:
         """Whether what is left is too little to hold a further cause."""

@@ -1,8 +1,9 @@
 """Worn or clogged valves: the F-v curve is scaled, and a leak lets oil past the valves, each direction by itself.
 
-The leak is an orifice parallel to the valves. At the force F it passes bleed sqrt(F / 1000 N), in terms of the speed of the
-piston, so that u = u_valve(F) + bleed sqrt(F / 1000 N): much force is lost at low speed, little at high speed. Within a
-segment of the F-v curve this is a quadratic equation for sqrt(F). The scale acts on what remains.
+The leak is parallel to the valves: an orifice, or a narrow gap in which the flow is laminar, or both. At the force F it
+passes bleed ((1 - laminar) sqrt(F / 1000 N) + laminar F / 1000 N), in terms of the speed of the piston, beside u_valve(F):
+much force is lost at low speed, little at high speed. Within a segment of the F-v curve this is a quadratic equation for
+sqrt(F). The scale acts on what remains.
 """
 
 import math
@@ -38,6 +39,8 @@ class Parameters(variables.Parameters):
     bleed_co: float = var("valve_wear", "", "m/s", "the same in compression", lower=0, upper=0.5,
                           source="turbulent orifice; Dixon, The Shock Absorber Handbook", default=0.0, role="strength",
                           nominal=0.05)  # fmt: skip
+    bleed_laminar: float = var("valve_wear", "", "1", "share of the leak at 1000 N that is laminar", lower=0, upper=1,
+                               source="gap of a worn piston ring", default=0.0, role="law")  # fmt: skip
 
 
 def valve_wear_scale_fluid(p: Parameters, s: Frame, v: float) -> float:
@@ -45,17 +48,24 @@ def valve_wear_scale_fluid(p: Parameters, s: Frame, v: float) -> float:
     return 1.0 + (p.wear_re if v >= 0.0 else p.wear_co)
 
 
+def valve_wear_leak(p: Parameters, bleed: float, F: float) -> float:
+    """Speed [m/s] that a leak of `bleed` [m/s] takes at a force `F` >= 0 [N]."""
+    return bleed * ((1.0 - p.bleed_laminar) * math.sqrt(F / F_BLEED) + p.bleed_laminar * F / F_BLEED)
+
+
 def valve_wear_bypass(p: Parameters, F: float) -> float:
     """Speed [m/s] in the direction of the force `F` [N] that passes beside the valves."""
     if F >= 0.0:
-        return p.bleed_re * math.sqrt(F / F_BLEED)
-    return -p.bleed_co * math.sqrt(-F / F_BLEED)
+        return valve_wear_leak(p, p.bleed_re, F)
+    return -valve_wear_leak(p, p.bleed_co, -F)
 
 
-def valve_wear_share(u: float, b: float, velocities: tuple[float, ...], forces: tuple[float, ...]) -> float:
-    """Force of one branch at the speed `u` > 0 [m/s] over that without leak [1]; the leak takes `b` sqrt(F)."""
+def valve_wear_share(
+    p: Parameters, u: float, bleed: float, velocities: tuple[float, ...], forces: tuple[float, ...]
+) -> float:
+    """Force of one branch at the speed `u` > 0 [m/s] over that without a leak of `bleed` [m/s] [1]."""
     i = 0
-    while i < FV_POINTS - 1 and velocities[i] + b * math.sqrt(forces[i]) < u:
+    while i < FV_POINTS - 1 and velocities[i] + valve_wear_leak(p, bleed, forces[i]) < u:
         i += 1
     v = 0.0
     F = 0.0
@@ -63,20 +73,21 @@ def valve_wear_share(u: float, b: float, velocities: tuple[float, ...], forces: 
         v = velocities[i - 1]
         F = forces[i - 1]
     slope = (forces[i] - F) / (velocities[i] - v)
-    # y = sqrt(force): y^2 = F + slope (u - b y - v) has the positive root
+    # y = sqrt(force): y^2 = F + slope (u - v - orifice y - gap y^2) has the positive root
     rest = F + slope * (u - v)
-    bend = slope * b
+    bend = slope * bleed * (1.0 - p.bleed_laminar) / math.sqrt(F_BLEED)
+    more = 1.0 + slope * bleed * p.bleed_laminar / F_BLEED
     whole = branch(u, velocities, forces)
     if rest <= 0.0 or whole <= 0.0:
         return 1.0
-    y = 2.0 * rest / (bend + math.sqrt(bend * bend + 4.0 * rest))
+    y = 2.0 * rest / (bend + math.sqrt(bend * bend + 4.0 * more * rest))
     return y * y / whole
 
 
 def valve_wear_scale_valve(p: Parameters, u: float) -> float:
     """Factor of the intact fluid force [1] that the leak leaves at the speed `u` [m/s]."""
     if u > 0.0:
-        return valve_wear_share(u, p.bleed_re / math.sqrt(F_BLEED), p.v_re, p.F_re) if p.bleed_re > 0.0 else 1.0
+        return valve_wear_share(p, u, p.bleed_re, p.v_re, p.F_re) if p.bleed_re > 0.0 else 1.0
     if u < 0.0:
-        return valve_wear_share(-u, p.bleed_co / math.sqrt(F_BLEED), p.v_co, p.F_co) if p.bleed_co > 0.0 else 1.0
+        return valve_wear_share(p, -u, p.bleed_co, p.v_co, p.F_co) if p.bleed_co > 0.0 else 1.0
     return 1.0
