@@ -25,6 +25,7 @@ def stretched(r: small.Run) -> Record:
     return replace(record, stroke=1.03 * record.stroke, velocity=1.03 * record.velocity)
 
 
+SHARP = {"bend_about": 0.0}  # no filter
 FAULTS: dict[str, tuple[float, Callable[[small.Run], Record]]] = {
     "force_offset": (40.0, lambda r: small.record(r, r.force + 40.0)),
     "force_gain": (0.95, lambda r: small.record(r, 0.95 * r.force)),
@@ -47,7 +48,7 @@ def test_every_fault_of_a_channel_is_tested_here(runs: list[small.Run]) -> None:
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_is_recovered_from_its_own_start(name: str, runs: list[small.Run]) -> None:
     value, measured = FAULTS[name]
-    problem = small.problem([measured(r) for r in runs])
+    problem = small.problem([measured(r) for r in runs]).with_usual(SHARP)
     candidate = fault(problem, name)
     cost, start = best_start([problem], candidate, [{}])
     f, *laws = candidate.free
@@ -93,7 +94,8 @@ def test_what_sampling_leaves_open_is_no_fault(runs: list[small.Run]) -> None:
     problem = small.problem(
         [small.record(small.run(v, turns=20, samples=29), seed=i, noise=0.002) for i, v in enumerate(SPEEDS)]
     )
-    assert usual_delay(problem) == pytest.approx(RULES.open_samples * period(problem))
+    assert usual_delay(problem) == pytest.approx(RULES.open_filtered * period(problem))
+    assert usual_delay(problem.with_usual(SHARP)) == pytest.approx(RULES.open_samples * period(problem))
     assert usual_delay(small.problem([small.record(runs[2])])) >= RULES.small_delay
     fit = problem.fit(nuisances(problem))
     assert fit.values["sample_mean"] < 0.1
