@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.diagnosis.candidates import FACTORS, RECALIBRATE, Candidate
+from twintube.diagnosis.candidates import FACTORS, LATE, RECALIBRATE, Candidate
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
@@ -58,6 +58,9 @@ def judge(
     proven = gain.heldout > 0.0 and min(lows) > 0.0 and extended < base and base > floor
     # Where noise alone is left, what is explained of little is known badly.
     enough = gain.heldout >= (RULES.half if right else RULES.explained)
+    if any(name in LATE for name in causes) and extended**2 > RULES.odd_right * floor**2:
+        # Play in a joint and a filter make a force late as well.
+        enough = gain.heldout >= RULES.explained_late
     if quiet:
         # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained. So
         # small an error, less than half of the noise, names a fault of the measurement at most.
