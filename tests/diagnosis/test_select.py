@@ -62,6 +62,16 @@ def changed(selector: Selector, names: tuple[str, ...], squares: list[float]) ->
     )
 
 
+def test_a_search_looks_at_the_records_that_are_wrong(problem: Problem) -> None:
+    count = len(problem.records)
+    for i in range(count):
+        misfit = np.where(np.arange(count) == i, 30.0, 1.0)
+        names = [record.name for record in problem.sparse(2, misfit).records]
+        assert problem.records[i].name in names and len(names) == 2
+    assert len(problem.sparse(2, np.full(count, 30.0)).records) == 2
+    assert problem.sparse(count, np.ones(count)) is problem
+
+
 def test_worth_is_what_most_records_gain(selector: Selector) -> None:
     start = selector.start
     assert selector.worth(start, changed(selector, ("valve_wear",), [0.2, 0.2, 0.2, 0.2]))

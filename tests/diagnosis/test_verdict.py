@@ -31,6 +31,8 @@ KNOWN = {
     for c in (
         candidate("valve_wear", "Change of the F-v curve"),
         candidate("fluid_lag", "Lag of the fluid force"),
+        candidate("side_load_friction", "Friction"),
+        candidate("position_friction", "Friction at a place"),
         candidate("force_gain", "Calibration of the force channel", fault=True),
     )
 }
@@ -164,6 +166,15 @@ def test_equal_candidates_are_ambiguous_and_unequal_candidates_are_not() -> None
     assert "lag of the fluid force" in sentence(judgement, KNOWN, [])
     assert judged(selection(final, far)).verdict == "cause"
     assert judged(replace(selection(final, near), neutral=("fluid_lag",))).verdict == "cause"
+
+
+@pytest.mark.parametrize(("other", "verdict"), [("position_friction", "cause"), ("fluid_lag", "ambiguous")])
+def test_a_friction_that_follows_a_good_part_of_another_is_no_rival(other: str, verdict: str) -> None:
+    score = 0.5 * SCORE
+    others = [option(other, score=(1.0 + 0.5 * RULES.law_apart) * score)]
+    chosen = selection(option("side_load_friction", score=score), *others)
+    assert judged(chosen, forces=(100.0, 20.0, 10.0)).verdict == verdict
+    assert judged(selection(option("side_load_friction", score=score), option(other, score=score))).verdict == "ambiguous"
 
 
 def test_a_signature_decides_where_it_is_a_good_part_of_the_error() -> None:

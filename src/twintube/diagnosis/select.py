@@ -219,6 +219,8 @@ class Selector:
                 break
             options = self.tried(current, f"a further cause, {len(rounds) + 1} in all", RULES.further_fits, progress)
         current = self.exchanged(self.pruned(current, progress), progress)
+        if RECALIBRATE in current.names and rounds[0][0].names[-1] == RECALIBRATE:
+            current = rounds[0][0]  # what a calibration leaves is its own formulation; else it had been superfluous
         chosen = [name for name in current.names if name not in self.sampling]
         neutral = tuple(option.names[-1] for option in rounds[0] if not self.acts(option))
         return Selection(self.start, rounds, chosen, current, recalibrated, self.count, self.limit, neutral)

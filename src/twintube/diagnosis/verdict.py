@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.diagnosis.candidates import FACTORS, LATE, RECALIBRATE, Candidate
+from twintube.diagnosis.candidates import FACTORS, FRICTION, LATE, RECALIBRATE, Candidate
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
@@ -117,11 +117,12 @@ def rivals(selection: Selection, left: bool) -> list[Option]:
     best, *others = selection.rounds[0]
     if best.names[-1] == RECALIBRATE or not selection.chosen:
         return []
-    margin = max(selection.limit, RULES.close * max(selection.start.score - best.score, 0.0))
-    if left and len(selection.chosen) == 1:
-        margin = max(margin, RULES.law_apart * best.score)
+    close = max(selection.limit, RULES.close * max(selection.start.score - best.score, 0.0))
+    wide = max(close, RULES.law_apart * best.score) if left and len(selection.chosen) == 1 else close
     others = [o for o in others if o.names[-1] not in (RECALIBRATE, *selection.neutral, *selection.chosen)]
-    near = [o for o in others if 0.0 <= o.score - best.score <= margin]
+    # One friction follows a good part of any other.
+    friction = best.names[-1] in FRICTION
+    near = [o for o in others if 0.0 <= o.score - best.score <= (close if friction and o.names[-1] in FRICTION else wide)]
     return near[: RULES.alternatives]
 
 
