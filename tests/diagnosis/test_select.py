@@ -144,3 +144,17 @@ def test_at_one_velocity_a_gain_is_no_second_cause_beside_heat(selector: Selecto
     assert not inside.alike("side_load_friction", ("oil_temperature",))
     assert not inside.alike("oil_temperature", ("force_gain",))
     assert len(inside.counts) == RULES.parts * len(single.records)
+
+
+def test_a_calibration_is_taken_where_it_is_best_by_both_measures(
+    selector: Selector, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def option(name: str, score: float, squares: float) -> Option:
+        return replace(selector.start, names=(name,), score=score, squares=np.full_like(selector.start.squares, squares))
+
+    monkeypatch.setattr(selector, "acts", lambda o: True)
+    monkeypatch.setattr(selector, "worth", lambda before, after: True)
+    calm, loud = option("foam_decay", 2.0, 1.0), option("foam_decay", 2.0, 9.0)
+    calibrated = option("recalibrate", 1.0, 5.0)
+    assert selector.taken(selector.start, [calibrated, calm]) is calm
+    assert selector.taken(selector.start, [calibrated, loud]) is calibrated

@@ -281,6 +281,8 @@ class Selector:
         if not worthy:
             return None
         best = worthy[0]
+        if best.names[-1] == RECALIBRATE:  # so many parameters must be better than any cause by either measure
+            best = next((o for o in worthy if o.total < best.total), best)
         near = [o for o in worthy if current.score - o.score >= RULES.near_best * (current.score - best.score)]
         calm = [o for o in near if o.total <= (1 - RULES.next_share) * best.total]
         return min(calm, key=lambda o: o.total, default=best)
