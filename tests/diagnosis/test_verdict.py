@@ -149,10 +149,10 @@ def test_a_doubt_is_said() -> None:
     assert "no known cause" in text and "at the end of its range, -0.8 to 1" in text
 
 
-def test_what_makes_the_force_late_must_explain_more_where_much_is_left() -> None:
+def test_what_follows_much_must_explain_more_where_much_is_left() -> None:
     for name, gain, left, verdict in (
         ("fluid_lag", 0.7, 50.0, "unexplained"), ("fluid_lag", 0.7, 12.0, "cause"), ("fluid_lag", 0.85, 50.0, "cause"),
-        ("valve_wear", 0.7, 50.0, "cause"),
+        ("valve_wear", 0.7, 50.0, "cause"), (RECALIBRATE, 0.7, 50.0, "unexplained"), (RECALIBRATE, 0.7, 12.0, "recalibrate"),
     ):  # fmt: skip
         chosen = selection(option(name, score=0.5 * SCORE))
         assert judged(chosen, gain=replace(GOOD, heldout=gain), forces=(100.0, left, 10.0)).verdict == verdict

@@ -285,8 +285,8 @@ class Rules:
         1.1, "1", "error of the base model over the noise floor, up to which nothing is missing", DEVELOPMENT
     )
     explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
-    explained_late: float = verdict(
-        0.8, "1", "the like of what makes the force late, where far more than noise is left", DEVELOPMENT
+    explained_most: float = verdict(
+        0.8, "1", "the like of what is late and of other parameters, where far more than noise is left", DEVELOPMENT
     )
     stiffer: float = verdict(
         0.4, "1", "factor of the force above 1, beyond which it is another damper or setting", JUDGEMENT

@@ -58,9 +58,9 @@ def judge(
     proven = gain.heldout > 0.0 and min(lows) > 0.0 and extended < base and base > floor
     # Where noise alone is left, what is explained of little is known badly.
     enough = gain.heldout >= (RULES.half if right else RULES.explained)
-    if any(name in LATE for name in causes) and extended**2 > RULES.odd_right * floor**2:
-        # Play in a joint and a filter make a force late as well.
-        enough = gain.heldout >= RULES.explained_late
+    if any(name in (*LATE, RECALIBRATE) for name in selection.chosen) and extended**2 > RULES.odd_right * floor**2:
+        # Play in a joint and a filter make a force late as well, and fourteen parameters follow a good part of any effect.
+        enough = gain.heldout >= RULES.explained_most
     if quiet:
         # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained. So
         # small an error, less than half of the noise, names a fault of the measurement at most.
