@@ -117,6 +117,13 @@ def test_no_cause_is_named_against_a_figure(name: str, figures: dict[str, object
     assert judged(chosen, **figures | {"forces": (10.5, 10.6, 10.0)}).verdict == "none"  # type: ignore[arg-type]
 
 
+def test_a_large_leak_is_no_stiffer_damper() -> None:
+    leak = replace(FOUND, value=0.45, low=0.44, high=0.46, unit="m/s")
+    assert judged(selection(option("valve_wear", score=0.0)), value=leak).verdict == "cause"
+    stiffer = judged(selection(option("valve_wear", score=0.0)), value=replace(leak, unit="1"))
+    assert stiffer.verdict == "unexplained" and "identify this damper first" in stiffer.doubts["valve_wear"]
+
+
 def test_whatever_the_figures_are_a_named_cause_agrees_with_them() -> None:
     rng = np.random.default_rng(7)
     named = 0

@@ -103,7 +103,9 @@ def doubtful(candidate: Candidate, values: Mapping[str, Estimate]) -> str:
     ends = [value.doubt for value in acting if value.at_bound]
     if ends:
         return f"its strength is {ends[0]}"
-    more = max(values[name].value - (values[name].neutral or 0.0) for name in candidate.strength if name in values)
+    # Factors of the force alone: a leak beside the valves makes it smaller.
+    factors = [values[name] for name in candidate.strength if name in values and values[name].unit == "1"]
+    more = max((factor.value - (factor.neutral or 0.0) for factor in factors), default=0.0)
     if candidate.name in FACTORS and more > RULES.stiffer:
         return f"no calibration, wear or lack of oil makes forces {more:.0%} larger: identify this damper first"
     return ""
