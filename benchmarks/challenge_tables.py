@@ -10,6 +10,7 @@ from twintube.lab.challenge.score import (
     Outcome,
     answered,
     contradictions,
+    nameable,
     named,
     right,
     truth_first,
@@ -43,6 +44,8 @@ def shares(outcomes: Sequence[Outcome]) -> str:
         ("the truth first, asserted or ambiguous, of the same", clear, truth_first),
         (f"right where effect/noise beyond the bench is {CLEAR} or more", beyond, right),
         ("the truth first, asserted or ambiguous, of the same", beyond, truth_first),
+        ("right of these without delays of less than a sample", list(filter(nameable, beyond)), right),
+        ("the truth first, asserted or ambiguous, of the same", list(filter(nameable, beyond)), truth_first),
         ("something named that was not hidden", outcomes, wrong_name),
         ("right where something is named", asserting, right),
         ("outside the catalogue, nothing named", outside, right),
@@ -75,10 +78,10 @@ def matrix(outcomes: Sequence[Outcome]) -> str:
     rows: dict[str, list[Outcome]] = defaultdict(list)
     for o in outcomes:
         rows[o["truth"]["hidden"]].append(o)
-    lines = ["| hidden | datasets | right | of those beyond the bench | answers |", "|---|---|---|---|---|"]
+    lines = ["| hidden | datasets | right | of those to be named | answers |", "|---|---|---|---|---|"]
     for name, some in sorted(rows.items()):
-        beyond = [o for o in some if o["truth"].get("effect_beyond_bench", 0.0) >= CLEAR]
-        own = f"{sum(map(right, beyond))} of {len(beyond)}" if some[0]["truth"]["kind"] not in ("none", "outside") else ""
+        clear = [o for o in some if nameable(o)]
+        own = f"{sum(map(right, clear))} of {len(clear)}" if some[0]["truth"]["kind"] not in ("none", "outside") else ""
         answers = ", ".join(f"{word} {count}" for word, count in Counter(answered(o["answer"]) for o in some).most_common())
         lines.append(f"| {name.replace('+', ' + ')} | {len(some)} | {sum(map(right, some))} | {own} | {answers} |")
     return "\n".join(lines)

@@ -71,6 +71,14 @@ def test_what_a_bench_hides_is_counted_apart() -> None:
     assert figures["right_share_clear"] == 0.5 and figures["right_share_beyond_bench"] == 1.0
 
 
+def test_a_delay_of_less_than_a_sample_need_not_be_named() -> None:
+    short, long = (outcome("fluid_lag", "effect", says(word, *names)) for word, *names in (["none"], ["cause", "fluid_lag"]))
+    short["truth"] |= {"effect_beyond_bench": 2.0, "late_samples": 0.4}
+    long["truth"] |= {"effect_beyond_bench": 2.0, "late_samples": 1.4}
+    figures = score([short, long])
+    assert figures["right_share_beyond_bench"] == 0.5 and figures["right_share_nameable"] == 1.0
+
+
 def test_tables_count_what_the_marks_do() -> None:
     alarm = outcome("none", "none", says("cause", "end_stop"), 0.0)
     quiet = outcome("none", "none", says("none"), 0.0)

@@ -11,8 +11,9 @@ from twintube.lab.challenge.changes import effects, rms
 from twintube.lab.challenge.generate import attempt, beyond_bench, runs_of, with_hidden
 from twintube.lab.challenge.oil import level_everywhere
 from twintube.lab.challenge.plan import Bench, bench_for
-from twintube.lab.challenge.run import Run, Step, begun, finished, marched
-from twintube.lab.challenge.tolerance import FILL, GAIN, SHIFTS, ZERO, Tolerances, beyond, tolerances
+from twintube.lab.challenge.run import Run, Step, begun, copied, finished, marched
+from twintube.lab.challenge.sensors import force_late
+from twintube.lab.challenge.tolerance import FILL, GAIN, SHIFTS, ZERO, Tolerances, beyond, late_samples, tolerances
 
 TIME = np.linspace(0.0, 1.0, 500)
 FORCES = [1000.0 * np.sin(2 * np.pi * f * TIME) for f in (3.0, 5.0)]
@@ -96,3 +97,11 @@ def test_of_two_causes_the_lesser_decides() -> None:
     both = replace(single, steps=[*single.steps, weak], runs=with_hidden(single.plain, [*single.steps, weak], single.bench))
     assert beyond_bench(single) > 0.0
     assert beyond_bench(both) < 1e-3 * beyond_bench(single)
+
+
+@pytest.mark.parametrize("samples", [0.2, 1.7])
+def test_a_delay_is_read_in_samples_of_the_bench(samples: float) -> None:
+    bench, plain = campaign()
+    delayed = [finished(copied(run), [Step("sensors", force_late, samples / bench.fs, {})]) for run in plain]
+    assert late_samples(delayed, plain, bench) == pytest.approx(samples, rel=0.05)
+    assert late_samples(plain, plain, bench) == 0.0, "nothing is late"

@@ -18,13 +18,14 @@ from twintube.lab.challenge.files import write_dataset
 from twintube.lab.challenge.plan import Bench, bench_for
 from twintube.lab.challenge.run import Run, Step, begun, copied, finished, marched
 from twintube.lab.challenge.sampling import logged, sampled
-from twintube.lab.challenge.tolerance import beyond, tolerances
+from twintube.lab.challenge.tolerance import beyond, late_samples, tolerances
 
 WEAKEST, STRONGEST = 0.2, 10.0  # effect over noise
 COARSER = 6.0  # steps of the search for the strength
 ATTEMPTS = 6  # campaigns drawn until the cause shows
 SEARCHED = 6  # records that it looks at where each strength needs a march
 ACTING = 0.02  # of the largest effect: a record on which the cause does not act
+LATE = ("channel_delay", "fluid_lag", "mount_compliance", "smooth_transition")  # make the force late
 # Causes by seed: each block of this many seeds holds all of them, in an order of its own.
 SINGLES = tuple(name for name in CAUSES if not name.startswith("none"))
 CYCLE = (*SINGLES, *("none",) * 8, *("none_history",) * 3, *("pair",) * 3)
@@ -68,6 +69,10 @@ def write(seed: int, folder: str | Path, cause: str | None = None) -> dict[str, 
     truth = truth_of(seed, names, chosen, steps, bench, noise, trial.changes, trial.force)
     if steps:
         truth["effect_beyond_bench"] = beyond_bench(trial) / noise
+    delays = [late_samples(with_hidden(trial.plain, [step], bench), trial.plain, bench)
+              for cause, step in zip(truth["causes"], steps, strict=False) if cause in LATE]  # fmt: skip
+    if delays:
+        truth["late_samples"] = min(delays)
     write_text(folder.with_name(folder.name + ".truth.json"), json.dumps(truth, indent=1) + "\n")
     return truth
 

@@ -73,6 +73,14 @@ def truth_first(outcome: Outcome) -> bool:
     return refused or first(outcome["answer"]) in outcome["truth"]["causes"]
 
 
+def nameable(outcome: Outcome) -> bool:
+    """Whether a known cause is clear beyond the bench, and not just a delay of less than a sample."""
+    truth = outcome["truth"]
+    sizes = (truth.get(key, math.inf) for key in ("effect_over_noise", "effect_beyond_bench"))
+    known = truth["kind"] not in ("none", "outside")
+    return known and min(sizes) >= CLEAR and truth.get("late_samples", math.inf) >= 1.0
+
+
 def share(outcomes: Sequence[Outcome], test: Callable[[Outcome], bool]) -> float:
     """Share that passes; NaN of none."""
     return sum(map(test, outcomes)) / len(outcomes) if outcomes else math.nan
@@ -172,6 +180,8 @@ def score(outcomes: Sequence[Outcome]) -> dict[str, Any]:
         "truth_first_share_clear": share(clear, truth_first),
         "right_share_beyond_bench": share(outside_tolerance, right),
         "truth_first_share_beyond_bench": share(outside_tolerance, truth_first),
+        "right_share_nameable": share([o for o in known if nameable(o)], right),
+        "truth_first_share_nameable": share([o for o in known if nameable(o)], truth_first),
         "wrong_name_share": share(outcomes, wrong_name),
         "outside_right_share": share([o for o in hidden if o["truth"]["kind"] == "outside"], right),
         "ambiguous_truth_first": sum(verdict_of(o["answer"]) == "ambiguous" and truth_first(o) for o in known),

@@ -22,6 +22,8 @@ FILL = 1e-3  # of the oil in degraded states: 0.3 mL, of drops on walls
 STROKE = 1e-3  # of the stroke: a good inductive sensor
 ZERO = 5e-3  # of the largest force, in each record: 0.05 % of the range (ISO 7500-1, class 0.5) of a cell ten times as large
 GAIN = 5e-3  # of the force, in all records alike (ISO 7500-1, class 0.5)
+FINE = 10.0  # times the rate of the bench, at which a delay is read
+ACTS = 0.02  # of the largest change in a record: below it the cause does not act
 SHIFTS = np.delete(np.linspace(-0.5, 0.5, 21), 10).tolist()  # samples: delays of the force, in all records alike
 
 
@@ -81,3 +83,19 @@ def left_of(changes: Sequence[Array], bench: Tolerances) -> list[Array]:
     target = np.linalg.solve(root, (columns / norm).T @ left)
     shares = lsq_linear(root.T, target, (-norm, norm)).x / norm
     return np.split(left - columns @ shares, np.cumsum(counts)[:-1])
+
+
+def late_samples(runs: Sequence[Run], plain: Sequence[Run], bench: Bench) -> float:
+    """The delay that a hidden cause amounts to, in samples of the bench, where it acts.
+
+    A step of the force by F that comes late by t, at once or bit by bit, changes the force by F t over time.
+    """
+    fine = replace(bench, fs=FINE * bench.fs)
+    points = replace(bench.sampling, kind="point")
+    changed = varied = 0.0
+    for base, change in zip(plain, effects(runs, plain, fine), strict=True):
+        force = sampled(base, fine.fs, points, None).force
+        acting = np.abs(change) > ACTS * np.abs(change).max()
+        changed += float(np.sum(np.abs(change[acting])))
+        varied += float(np.sum(np.abs(np.diff(force, prepend=force[0])[acting])))
+    return changed / varied / FINE if varied > 0.0 else 0.0
