@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 9d5a5448fc670df8, body 7f0fb9c90a81718c; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations cac92159a58508ae, body f74dc41d7c6d12b9; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -91,9 +91,10 @@ struct kernel_Parameters {
     double side_load;
     double v_side;
     double build_up;
-    double early_share;
     double tau_build;
+    double early_share;
     double carry_over;
+    double carry_turn;
     double wear_re;
     double wear_co;
     double bleed_re;
@@ -1639,7 +1640,7 @@ static double kernel_smooth_transition_depth(struct kernel_Parameters* p, struct
 /* Begin a direction at its own value `k`; where its chamber has no gas there is no step ahead. */
 static void kernel_smooth_transition_turn(struct kernel_Parameters* p, struct kernel_State* s, double side, double k)
 {
-    s->k_carried = (s->k_side != 0.0 ? p->carry_over * (s->k_last - k) : 0.0);
+    s->k_carried = (s->k_side != 0.0 ? p->carry_turn * (s->k_last - k) : 0.0);
     s->k_side = side;
     s->k_target = k;
     s->k_mixed = k;
@@ -1740,7 +1741,8 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
     turned = (v > 0.0 ? 1.0 : ((v < 0.0 ? -1.0 : s->k_side)));
     if (turned != s->k_side)
     {
-        /* The kernel has settled k_degr for the new direction. */
+        /* The kernel has settled k_degr for the new direction, the mean over the step belongs to the one before. */
+        s->k_last = (dz != 0.0 ? f->k_mean : s->k_last);
         kernel_smooth_transition_turn(p, s, turned, settled);
         s->k_degr = settled + s->k_carried;
         f->k_degr = s->k_degr;

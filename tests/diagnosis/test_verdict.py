@@ -45,7 +45,7 @@ def option(*names: str, score: float) -> Option:
 def selection(final: Option, *others: Option, start: float = SCORE) -> Selection:
     first = option(*(final.names[:1] or ("valve_wear",)), score=final.score)
     first_model = option(score=start)
-    return Selection(first_model, [[first, *others]], list(final.names), final, first_model, COUNT, 10.0, ())
+    return Selection(first_model, [[first, *others]], list(final.names), final, first_model, COUNT, 10.0, (), [])
 
 
 def judged(
@@ -237,3 +237,24 @@ def test_where_noise_is_left_a_cause_explains_half_at_least() -> None:
     forces = (11.5, 11.0, 10.0)
     assert judged(chosen, forces=forces, gain=replace(GOOD, heldout=0.55)).causes == ["valve_wear"]
     assert judged(chosen, forces=forces, gain=replace(GOOD, heldout=0.25)).verdict == "unexplained"
+
+
+def test_a_rival_of_one_of_two_causes_is_judged_beside_the_other() -> None:
+    pair = selection(option("side_load_friction", "valve_wear", score=1.0), option("position_friction", score=1.1))
+    rounds = [[option("side_load_friction", score=30.0), option("position_friction", score=30.5)]]
+    alike = replace(pair, rounds=rounds, beside=[option("valve_wear", "position_friction", score=2.0)])
+    apart = replace(pair, rounds=rounds, beside=[option("valve_wear", "position_friction", score=0.1 * SCORE)])
+    judgement = judged(alike)
+    assert judgement.verdict == "ambiguous" and [o.names[-1] for o in judgement.rivals] == ["position_friction"]
+    text = sentence(judgement, KNOWN, [])
+    assert "Two causes: change of the F-v curve; and friction or friction at a place, which" in text
+    assert judged(apart).verdict == "cause"
+
+
+def test_a_cause_is_not_named_where_other_parameters_explain_far_more() -> None:
+    chosen = selection(option("fluid_lag", score=10.0))
+    better = replace(option(RECALIBRATE, score=5.0), squares=np.full(1, 0.5))
+    judgement = judged(replace(chosen, recalibrated=better))
+    assert judgement.verdict == "unexplained"
+    assert "other values of the degradation parameters explain far more" in sentence(judgement, KNOWN, [])
+    assert judged(replace(chosen, recalibrated=replace(better, squares=np.full(1, 0.9)))).verdict == "cause"

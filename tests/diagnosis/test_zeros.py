@@ -87,6 +87,16 @@ def test_zeros_that_scatter_and_a_force_that_comes_with_the_loss_of_oil_do_not_m
         assert zero_change(problem) == (None, problem)
 
 
+def test_a_force_that_falls_in_one_direction_alone_is_no_zero(records: list[PreparedRecord]) -> None:
+    right = zeroed(records, np.zeros(len(records)))
+    later = right.spread(np.where(np.arange(len(records)) >= len(records) // 2, 20.0, 0.0))
+    rising = np.concatenate([record.velocity > 0.0 for record in records])
+    for change, moved in ((later, True), (np.where(rising, 2.0 * later, 0.0), False)):
+        pairs = zip(right.records, itertools.pairwise(right.starts), strict=True)
+        problem = right.with_records([replace(r, force=r.force + change[a:b]) for r, (a, b) in pairs])
+        assert (zero_change(problem)[0] is not None) == moved
+
+
 def test_few_records_give_a_scatter_of_zeros_that_a_good_load_cell_has(records: list[PreparedRecord]) -> None:
     some = records[:2] + records[5:7]
     drift = [zero_drift(zeroed(some, size * np.array([1.0, -1.0, -1.0, 1.0])))[0].drift for size in (1.0, 300.0)]

@@ -50,6 +50,7 @@ class Selection:
     count: int  # held-out samples
     limit: float  # c
     neutral: tuple[str, ...]  # candidates of the first round that are neutral or not more than every measurement has
+    beside: list[Option]  # of several causes: the final model with a rival in place of the first, the rival last
 
 
 def fitted(folds: Sequence[Fold], names: Sequence[str], frees: Sequence[Sequence[Free]]) -> Option:

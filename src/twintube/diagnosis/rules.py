@@ -166,7 +166,7 @@ class Rules:
     order_left: float = measurement(
         0.15, "1", "of the squared means of the records that a moving zero leaves at most", DEVELOPMENT
     )
-    order_state: float = measurement(0.5, "1", "the like in each state of filling", DEVELOPMENT)
+    order_state: float = measurement(0.5, "1", "the like in each state of filling, and in both directions", DEVELOPMENT)
     least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
 
     model_error: float = fitting(4e-4, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)

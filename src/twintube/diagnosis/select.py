@@ -28,6 +28,7 @@ from twintube.diagnosis.edges import less_noise
 from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.gains import bootstrap, removed
 from twintube.diagnosis.options import Fold, Option, Selection, counts_of, fitted, logs
+from twintube.diagnosis.rivals import beside
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import DELAY, MEASUREMENT
 from twintube.diagnosis.zeros import differ, step
@@ -223,7 +224,8 @@ class Selector:
             current = rounds[0][0]  # what a calibration leaves is its own formulation; else it had been superfluous
         chosen = [name for name in current.names if name not in self.sampling]
         neutral = tuple(option.names[-1] for option in rounds[0] if not self.acts(option))
-        return Selection(self.start, rounds, chosen, current, recalibrated, self.count, self.limit, neutral)
+        selection = Selection(self.start, rounds, chosen, current, recalibrated, self.count, self.limit, neutral, [])
+        return replace(selection, beside=beside(self, selection, progress)) if len(chosen) > 1 else selection
 
     def single(self, progress: Callable[[str], None], label: str = "a single cause") -> tuple[Option, list[Option]]:
         """The calibration, and all models of a single cause that were fitted, best first."""

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.diagnosis.candidates import FACTORS, FRICTION, LATE, RECALIBRATE, Candidate
+from twintube.diagnosis.candidates import FACTORS, LATE, RECALIBRATE, Candidate
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
+from twintube.diagnosis.rivals import rivals
 from twintube.diagnosis.rules import RULES
 
 NUMBERS = {2: "Two", 3: "Three"}
@@ -54,6 +55,8 @@ def judge(
     unlimited = [signature for signature in seen if signature.size == np.inf]
     causes = [name for name in selection.chosen if name != RECALIBRATE]
     doubts = {name: doubt for name in causes if (doubt := doubtful(candidates[name], estimates[name]))}
+    if beaten(selection):
+        doubts |= dict.fromkeys(causes, "other values of the degradation parameters explain far more of the records")
     lows = [gain.heldout_interval[0], *(a.interval[0] for a in attempts if a.decision == "chosen" and a.effect in causes)]
     proven = gain.heldout > 0.0 and min(lows) > 0.0 and extended < base and base > floor
     # Where noise alone is left, what is explained of little is known badly.
@@ -111,21 +114,11 @@ def doubtful(candidate: Candidate, values: Mapping[str, Estimate]) -> str:
     return ""
 
 
-def rivals(selection: Selection, left: bool) -> list[Option]:
-    """Options of the first round that are as good as the chosen candidate; `left` says that more than noise is left.
-
-    A law that leaves much may be that of another cause, which leaves little more.
-    """
-    best, *others = selection.rounds[0]
-    if best.names[-1] == RECALIBRATE or not selection.chosen:
-        return []
-    close = max(selection.limit, RULES.close * max(selection.start.score - best.score, 0.0))
-    wide = max(close, RULES.law_apart * best.score) if left and len(selection.chosen) == 1 else close
-    others = [o for o in others if o.names[-1] not in (RECALIBRATE, *selection.neutral, *selection.chosen)]
-    # One friction follows a good part of any other.
-    friction = best.names[-1] in FRICTION
-    near = [o for o in others if 0.0 <= o.score - best.score <= (close if friction and o.names[-1] in FRICTION else wide)]
-    return near[: RULES.alternatives]
+def beaten(selection: Selection) -> bool:
+    """Whether a calibration that may not be named, as the history of a record is not known, is better by either measure."""
+    other, final = selection.recalibrated, selection.final
+    less = other.total <= (1 - RULES.next_share) * final.total
+    return less and other.score < final.score and RECALIBRATE not in selection.chosen
 
 
 def sentence(judgement: Judgement, candidates: Mapping[str, Candidate], faults: Sequence[Fault]) -> str:
@@ -158,8 +151,13 @@ def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]
             return f"The simulation is wrong in a way that no known cause explains{nearest}."
         case "ambiguous":
             others = " or ".join(lower(candidates[o.names[-1]].title) for o in judgement.rivals)
+            if len(titles) == 1:
+                return f"These records do not tell apart: {titles[0]}, or {others}. The first removes {gain}."
+            sure = [name in judgement.rivals[0].names for name in judgement.causes]
+            known, open_ = titles[sure.index(True)], titles[sure.index(False)]
             return (
-                f"These records do not tell apart: {' together with '.join(titles)}, or {others}. The first removes {gain}."
+                f"Two causes: {known}; and {open_} or {others}, which these records do not tell apart. "
+                f"With the first of these they remove {gain}."
             )
     if len(titles) > 1:
         listed = "; ".join(f"({i}) {title}" for i, title in enumerate(titles, start=1))

@@ -54,6 +54,11 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
         fit, own = (x[some] - x[some].mean() for x in (fits[cut], means))
         if np.sum(fit**2) > 0.0 and np.sum((own - fit) ** 2) > RULES.order_state * np.sum(own**2):
             return None, problem
+    # A zero is the same in rebound and compression; a damper that is weaker in one more than in the other has a mean, too.
+    both = by_direction(problem)
+    apart = both - both.mean(axis=0)
+    if np.sum((apart - fits[cut][:, None]) ** 2) > RULES.order_state * np.sum(apart**2):
+        return None, problem
     shift = fits[cut] - fits[cut][0]
     still = problem.with_records(
         [replace(r, force=r.force + x) for r, x in zip(problem.records, shift.tolist(), strict=True)]
@@ -66,6 +71,17 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     names = tuple(record.name for record in problem.records[cut:])
     text = f"From {names[0]} on the force channel reads a constant that the records before do not have."
     return Fault("force_offset", "Zero of the load cell", text, size, "force_offset", "N", names), still
+
+
+def by_direction(problem: Problem) -> Array:
+    """Mean errors (r, 2) [N] of the model as given in rebound and compression."""
+    errors, columns = problem.errors({}), []
+    rising = np.concatenate([record.velocity > 0.0 for record in problem.records])
+    for some in (rising, ~rising):
+        power = np.where(some, problem.weight**2, 0.0)
+        pulled, sums = (np.add.reduceat(x, problem.starts[:-1]) for x in (power * errors, power))
+        columns.append(pulled / np.maximum(sums, np.finfo(float).tiny))
+    return np.column_stack(columns)
 
 
 def largest(records: Sequence[PreparedRecord]) -> float:

@@ -3,7 +3,8 @@
 Gas and oil do not part at a sharp level. While the driving chamber's gas is about to run out, at a depth g below `build_up`,
 the force has already risen by early_share (1 - g / build_up)^2 of the coming step, which is known from the last time. Of
 the step itself (1 - early_share) exp(-y) is missing after the gas has run out, with dy = |dz| / (build_up + tau_build |v|).
-Of every other change of k_degr, at a reversal or by foam and cavitation, the share `carry_over` is made up in the same way.
+Of every other change of k_degr the share `carry_over` is made up in the same way where foam or cavitation make it, the share
+`carry_turn` where a reversal does: the piston meets oil or gas there at once, unless the force itself follows late.
 """
 
 import math
@@ -28,11 +29,13 @@ class Parameters(variables.Parameters):
 
     build_up: float = var("smooth_transition", "", "m", "stroke over which k_degr builds up", lower=0, upper=0.03,
                           source="first-order relaxation over the stroke", default=0.0, role="strength")  # fmt: skip
-    early_share: float = var("smooth_transition", "", "1", "share of the rise before the gas has run out", lower=0, upper=1,
-                       source="mixing layer about the level", default=0.0, role="law")  # fmt: skip
     tau_build: float = var("smooth_transition", "", "s", "time over which k_degr builds up", lower=0, upper=0.05,
                            source="first-order relaxation over the time", default=0.0, role="strength")  # fmt: skip
-    carry_over: float = var("smooth_transition", "", "1", "gradual share of other changes of k_degr", lower=0, upper=1,
+    early_share: float = var("smooth_transition", "", "1", "share of the rise before the gas has run out", lower=0, upper=1,
+                       source="mixing layer about the level", default=0.0, role="law")  # fmt: skip
+    carry_over: float = var("smooth_transition", "", "1", "gradual share of changes by foam, cavitation", lower=0, upper=1,
+                            source="first-order relaxation", default=0.0, role="law")  # fmt: skip
+    carry_turn: float = var("smooth_transition", "", "1", "gradual share of changes at a reversal", lower=0, upper=1,
                             source="first-order relaxation", default=0.0, role="law")  # fmt: skip
 
 
@@ -65,7 +68,7 @@ def smooth_transition_fade(way: float) -> float:
 
 def smooth_transition_turn(p: Parameters, s: State, side: float, k: float) -> None:
     """Begin a direction at its own value `k`; where its chamber has no gas there is no step ahead."""
-    s.k_carried = p.carry_over * (s.k_last - k) if s.k_side != 0.0 else 0.0
+    s.k_carried = p.carry_turn * (s.k_last - k) if s.k_side != 0.0 else 0.0
     s.k_side = side
     s.k_target = k
     s.k_mixed = k
@@ -125,7 +128,8 @@ def smooth_transition_transition(p: Parameters, s: State, f: Flow, v: float, dz:
     s.k_degr = f.k_mean if dz != 0.0 else f.k_degr
     turned = 1.0 if v > 0.0 else -1.0 if v < 0.0 else s.k_side
     if turned != s.k_side:
-        # The kernel has settled k_degr for the new direction.
+        # The kernel has settled k_degr for the new direction, the mean over the step belongs to the one before.
+        s.k_last = f.k_mean if dz != 0.0 else s.k_last
         smooth_transition_turn(p, s, turned, settled)
         s.k_degr = settled + s.k_carried
         f.k_degr = s.k_degr
