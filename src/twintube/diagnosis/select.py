@@ -23,6 +23,7 @@ from twintube.diagnosis.candidates import (
     best_start,
     linear,
     nuisances,
+    period,
 )
 from twintube.diagnosis.edges import less_noise
 from twintube.diagnosis.fit import Fit, Free, Problem
@@ -194,10 +195,13 @@ class Selector:
         """Whether the new cause of an option is off its neutral value in every fold."""
         name = option.names[-1]
         candidate = self.known(name)
+        least = dict(candidate.least)
+        if name == DELAY and any(other not in self.sampling for other in option.names[:-1]):
+            # Whether the force was filtered is not known from a model that lacks the other causes.
+            least[DELAY] = max(least[DELAY], RULES.open_filtered * period(self.whole))
         start = {f.name: f.start for f in candidate.free}
         return all(
-            any(abs(fit.values.get(n, start[n]) - start[n]) > candidate.least[n] for n in candidate.strength)
-            for fit in option.fits
+            any(abs(fit.values.get(n, start[n]) - start[n]) > least[n] for n in candidate.strength) for fit in option.fits
         )
 
     def run(self, progress: Callable[[str], None]) -> Selection:
