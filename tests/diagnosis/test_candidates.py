@@ -11,10 +11,8 @@ from twintube.data import Record
 from twintube.diagnosis.calibration import best_calibration, calibration
 from twintube.diagnosis.candidates import (
     Candidate,
-    best_start,
     candidates,
     linear,
-    lowest,
     nuisances,
     period,
     usual_delay,
@@ -24,6 +22,7 @@ from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.sampling import with_sampling
 from twintube.diagnosis.seen import DELAY
+from twintube.diagnosis.starts import best_start, lowest
 
 KELVIN = {"fade_kelvin", "friction_kelvin", "gas_kelvin"}
 RETAINED = {"fade_heat", "cooling_time", "H_start", "gas_heat"}

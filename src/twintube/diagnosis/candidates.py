@@ -1,12 +1,10 @@
 """What may be the cause: the effects of the catalogue and the faults of the measurement."""
 
-import itertools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.polynomial import Polynomial
 
 from twintube.core import effects
 from twintube.core.hooks import Effect, sources
@@ -195,112 +193,3 @@ def faults(problem: Problem) -> list[Candidate]:
         )
         for name, unit, bounds, least, text, decides in several
     ]
-
-
-def grid(candidate: Candidate, f: Free) -> list[float]:
-    """Values from which to begin: a strength over its range with both signs, a length or time near its usual value.
-
-    A power or a share begins at its low end too, which is a law of its own; a share at the other end as well.
-    """
-    if f.name not in candidate.strength:
-        if f.low < 0.0 < f.high:  # a place on either side
-            return [float(x) for x in np.linspace(f.low, f.high, RULES.places + 2)[1:-1]]
-        near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
-        near += ([f.low, f.high] if f.high == 1.0 else [f.low]) if f.name in candidate.laws else []
-        return sorted({min(max(x, f.low), f.high) for x in near})
-    sides = [(sign, side) for sign, side in ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0]
-    shares = np.geomspace(*RULES.shares_moving).tolist() if candidate.name in MOVING else RULES.shares
-    shares = RULES.shares_calibration if candidate.name == RECALIBRATE else shares
-    return [f.start + sign * share * side for share in shares for sign, side in sides]
-
-
-def fills(most: float) -> list[float]:
-    """Errors of a fill [1] up to `most`, to either side, from which a search begins."""
-    fine, coarse, end = RULES.fills_tried
-    near, far = np.arange(fine, end, fine), np.arange(end, most, coarse)
-    return [*RULES.shares[:2], *near.tolist(), *far.tolist()]
-
-
-def clock_starts(problems: Sequence[Problem], fixed: Sequence[Mapping[str, float]]) -> list[float]:
-    """Errors of the clock that explain the records best, seen by moving the forces of the model without one.
-
-    Over a long record a clock drifts by whole oscillations, so that there are many local optima.
-    """
-    clocks = np.linspace(-RULES.clock_range, RULES.clock_range, RULES.clocks)
-    costs = np.zeros(len(clocks))
-    for problem, values in zip(problems, fixed, strict=True):
-        forces = problem.forces(values)
-        for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
-            elapsed = np.maximum(record.time - record.begin, 0.0)
-            weight, measured = (problem.weight * problem.share)[a:b], problem.measured[a:b]
-            for i, clock in enumerate(clocks):
-                moved = np.interp(record.time - clock * elapsed, record.time, forces[a:b])
-                costs[i] += float(np.sum((weight * (moved - measured)) ** 2))
-    inner = costs[1:-1]
-    lowest = 1 + np.flatnonzero((inner <= costs[:-2]) & (inner <= costs[2:]))
-    return [float(clocks[i]) for i in lowest[np.argsort(costs[lowest])][: RULES.clock_starts]] or [0.0]
-
-
-def best_start(
-    problems: Sequence[Problem], candidate: Candidate, fixed: Sequence[Mapping[str, float]]
-) -> tuple[float, dict[str, float]]:
-    """The point that explains the records best, and their sum of squares there; strength after strength joins if it helps.
-
-    A strength that does not help is not in the point: it stays neutral, as free it would follow the noise.
-
-    `fixed` holds the other values in each of the problems. The measurement is free: at the zero of the model without the
-    cause a residual spring would start as a loss, and behind the delay that stands in for a late effect it would not show.
-    """
-    free = [nuisances(problem) if candidate.name in LATENESS else linear(problem) for problem in problems]
-    grids = {f.name: grid(candidate, f) for f in candidate.free}
-    if candidate.single:  # a step of the force comes or goes with some thousandths of the oil
-        grids |= {f.name: [x for size in fills(f.high) for x in (size, -size)] for f in candidate.free}
-    if CLOCK in grids:
-        grids[CLOCK] = clock_starts(problems, fixed)
-    shapes = [f.name for f in candidate.free if f.name not in candidate.strength][: RULES.shapes]
-    best, low = {f.name: f.start for f in candidate.free}, np.inf
-
-    def costs(points: Sequence[Mapping[str, float]]) -> list[float]:
-        some = [
-            problem.costs([{**values, **point} for point in points], values, measured)
-            for problem, values, measured in zip(problems, fixed, free, strict=True)
-        ]
-        return [sum(cost) for cost in zip(*some, strict=True)]
-
-    neutral = costs([best])[0]
-    left = list(candidate.strength)
-    while left:
-        # Lengths and times are sought together with the first strength, then each by itself: a stop has an onset of its own.
-        some = [dict(zip(shapes, other, strict=True)) for other in itertools.product(*(grids[name] for name in shapes))]
-        if len(left) < len(candidate.strength):
-            some = [{}, *({name: x} for name in shapes for x in grids[name])]
-        rows = [(name, x, shape) for name in left for x in grids[name] for shape in some]
-        points = [best | {name: x} | shape for name, x, shape in rows]
-        scores = costs(points)
-        # Else a strength between two values of its grid loses against a value of another's.
-        for name in left:
-            own = [i for i, row in enumerate(rows) if row[0] == name]
-            top = min(own, key=lambda i: scores[i])
-            line = {best[name]: neutral} | {rows[i][1]: scores[i] for i in own if rows[i][2] == rows[top][2]}
-            if (x := lowest(line)) not in line:
-                points.append(points[top] | {name: x})
-        scores += costs(points[len(rows) :]) if len(points) > len(rows) else []
-        if min(scores) >= (1.0 - RULES.joins) * low:
-            break
-        point, low = points[int(np.argmin(scores))], min(scores)
-        left, neutral = [name for name in left if point[name] == best[name]], low
-        best = point
-        if candidate.single:
-            break
-    return float(low), {name: x for name, x in best.items() if name not in left}
-
-
-def lowest(costs: Mapping[float, float]) -> float:
-    """Where a parabola through the lowest of some costs and its two neighbours is lowest; the lowest at an end of them."""
-    x = np.array(sorted(costs))
-    y = np.array([costs[value] for value in x.tolist()])
-    i = int(np.argmin(y))
-    if not 0 < i < len(x) - 1:
-        return float(x[i])
-    slope = Polynomial.fit(x[i - 1 : i + 2], y[i - 1 : i + 2], 2).deriv()
-    return float(slope.roots()[0]) if slope.degree() == 1 and slope.coef[1] > 0.0 else float(x[i])
