@@ -258,3 +258,10 @@ def test_a_cause_is_not_named_where_other_parameters_explain_far_more() -> None:
     assert judgement.verdict == "unexplained"
     assert "other values of the degradation parameters explain far more" in sentence(judgement, KNOWN, [])
     assert judged(replace(chosen, recalibrated=replace(better, squares=np.full(1, 0.9)))).verdict == "cause"
+
+
+def test_what_became_superfluous_beside_a_cause_is_its_rival() -> None:
+    first, second = option("valve_wear", score=1.0), option("fluid_lag", score=2.0)
+    kept = replace(selection(second), rounds=[[first, second]])
+    judgement = judged(kept)
+    assert judgement.verdict == "ambiguous" and [o.names for o in judgement.rivals] == [("valve_wear",)]

@@ -34,8 +34,8 @@ FILLED = hooked("level")  # another fill than the recorded one, in all states al
 MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked("scale_fluid"), *FILLED))
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
 RECALIBRATE = "recalibrate"
-BOUND = (*MOVING, *(name for name in hooked("motion") if name not in LATE))  # what becomes of oil, freed gas and foam
-ALIKE = (LATE, FRICTION, BOUND)  # of each a second only mends the formulation of the first
+CONTENTS = (*MOVING, *(name for name in hooked("motion") if name not in LATE))  # what becomes of oil, freed gas and foam
+ALIKE = (LATE, FRICTION, CONTENTS)  # of each a second only mends the formulation of the first
 FADING = tuple(name for name in hooked("scale_fluid") if name in hooked("phases"))  # the force falls with what happened
 # At a single velocity, beside what fades, another temperature at the start.
 FACTORS = ("force_gain", STROKE_GAIN, *(name for name in hooked("scale_fluid") if name not in FADING))

@@ -22,7 +22,7 @@ from twintube.diagnosis.edges import less_noise
 from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.judge import Judge
 from twintube.diagnosis.options import Fold, Option, Selection, fitted
-from twintube.diagnosis.rivals import beside
+from twintube.diagnosis.rivals import leading, near
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import DELAY, MEASUREMENT
 from twintube.diagnosis.starts import best_start
@@ -139,7 +139,18 @@ class Selector(Judge):
         chosen = [name for name in current.names if name not in self.sampling]
         neutral = tuple(option.names[-1] for option in rounds[0] if not self.acts(option))
         selection = Selection(self.start, rounds, chosen, current, recalibrated, self.count, self.limit, neutral, [])
-        return replace(selection, beside=beside(self, selection, progress)) if len(chosen) > 1 else selection
+        return replace(selection, beside=self.beside(selection, progress)) if len(chosen) > 1 else selection
+
+    def beside(self, selection: Selection, progress: Callable[[str], None]) -> list[Option]:
+        """The final model of several causes with each rival of the leading cause in its place, the rival last."""
+        best, options = leading(selection), []
+        for rival in near(selection, left=True):
+            name, first = rival.names[-1], best.names[-1] if best else ""
+            progress(f"{name} instead of {first}")
+            names = [*(other for other in selection.final.names if other != first), name]
+            pairs = zip(selection.final.fits, rival.fits, strict=True)
+            options.append(self.option(names, [self.free(names, {**own.values, **fit.values}) for own, fit in pairs]))
+        return options
 
     def single(self, progress: Callable[[str], None], label: str = "a single cause") -> tuple[Option, list[Option]]:
         """The calibration, and all models of a single cause that were fitted, best first."""
