@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations cac92159a58508ae, body f74dc41d7c6d12b9; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 554ede660fcbe991, body 9270df3ef2381e04; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -1957,8 +1957,9 @@ static double kernel_fluid_lag_stored(double C, double way, double F_half, doubl
 }
 
 /* Carry one column over a step: its force at the end, and its part of `F_mean` and `W_step` of the state.
-   A column without force is pressed in the share `free` [1] of the step. Returns that share for the other column. */
-static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_State* s, double side, double k, double free, double dz, array_double_1d velocities, array_double_1d forces, double dt)
+   `k` and `k_end` are the degradation of the branch in the mean of the step and at its end. A column without force is
+   pressed in the share `free` [1] of the step. Returns that share for the other column. */
+static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_State* s, double side, double k, double k_end, double free, double dz, array_double_1d velocities, array_double_1d forces, double dt)
 {
     double held;
     double turn;
@@ -1975,6 +1976,7 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     double share;
     double before;
     double w;
+    double ends;
     double F;
     double after;
     double travelled;
@@ -2015,8 +2017,9 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     share = (settling > 0.0 ? kernel_end_weight(pressed / settling) : 1.0);
     before = C * held + way * held / (held + F_half);
     w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share;
-    u = (w > 0.0 ? kernel_fluid_lag_leaking(p, C, way, F_half, w, k, side, velocities, forces, share * pressed) : 0.0);
-    F = k * kernel_branch(u, velocities, forces);
+    ends = k + (2.0 * share - 1.0) * (k_end - k);
+    u = (w > 0.0 ? kernel_fluid_lag_leaking(p, C, way, F_half, w, ends, side, velocities, forces, share * pressed) : 0.0);
+    F = ends * kernel_branch(u, velocities, forces);
     after = C * F + way * F / (F + F_half);
     travelled = 0.5 * (begun + v1) * pressed;
     through = double_max(2, 0.0, travelled + before - after) / dt;
@@ -2063,11 +2066,20 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     return (before > after ? double_min(2, 1.0, double_max(2, 0.0, (bound - after) / (before - after))) : 0.0);
 }
 
+/* Force [N] behind late valves after `dt` > 0 [s] in which that of the columns went evenly to `F`, with a `mean` [N]. */
+static double kernel_fluid_lag_follow(struct kernel_Parameters* p, struct kernel_State* s, double mean, double F, double dt)
+{
+    double late;
+    late = 2.0 * (F - mean) * p->tau_fluid / dt;
+    return F - late + (s->F_late - 2.0 * mean + F + late) * exp((-dt) / p->tau_fluid);
+}
+
 /* The fluid force with the memory of the oil columns; a step without time leaves it, but for the first. */
 static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
 {
     double k_re;
     double k_co;
+    double k_end;
     double free;
     double Dummy_0000;
     double Dummy_0001;
@@ -2089,20 +2101,21 @@ static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_St
     /* The column that the piston leaves comes first. */
     if (s->goal_v1 >= 0.0)
     {
-        free = kernel_fluid_lag_press(p, s, -1.0, k_co, 1.0, dz, p->v_co, p->F_co, dt);
-        Dummy_0000 = kernel_fluid_lag_press(p, s, 1.0, k_re, free, dz, p->v_re, p->F_re, dt);
+        k_end = (s->goal_v1 > 0.0 ? s->k_re : k_re);
+        free = kernel_fluid_lag_press(p, s, -1.0, k_co, k_co, 1.0, dz, p->v_co, p->F_co, dt);
+        Dummy_0000 = kernel_fluid_lag_press(p, s, 1.0, k_re, k_end, free, dz, p->v_re, p->F_re, dt);
     }
     else
     {
-        free = kernel_fluid_lag_press(p, s, 1.0, k_re, 1.0, dz, p->v_re, p->F_re, dt);
-        Dummy_0001 = kernel_fluid_lag_press(p, s, -1.0, k_co, free, dz, p->v_co, p->F_co, dt);
+        free = kernel_fluid_lag_press(p, s, 1.0, k_re, k_re, 1.0, dz, p->v_re, p->F_re, dt);
+        Dummy_0001 = kernel_fluid_lag_press(p, s, -1.0, k_co, s->k_co, free, dz, p->v_co, p->F_co, dt);
     }
     s->F_fluid = s->F_held_re - s->F_held_co;
     s->F_valve = s->F_fluid;
     if (p->tau_fluid > 0.0)
     {
         mean = s->F_mean;
-        s->F_fluid = kernel_fluid_lag_felt(p, s, mean, dt);
+        s->F_fluid = kernel_fluid_lag_follow(p, s, mean, s->F_fluid, dt);
         s->F_mean += (s->F_late - s->F_fluid) * p->tau_fluid / dt;
         s->W_step += (s->F_mean - mean) * dz;
         s->F_late = s->F_fluid;

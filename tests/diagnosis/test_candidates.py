@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from tests.diagnosis import small
 from twintube.dampers import load
@@ -105,7 +106,7 @@ def test_an_effect_that_is_late_is_seen_behind_the_delay_that_stands_in_for_it(c
     problem = with_sampling(with_noise(small.problem(records)))
     assert abs(problem.usual[DELAY]) > 0.1 * usual_delay(problem), "a delay stands in for the spring"
     cost, point = best_start([problem], named(problem, "mount_compliance"), [problem.usual])
-    assert 0.1 * compliance < point["C_mount"] < compliance
+    assert 0.1 * compliance < point["C_mount"] < 1.1 * compliance
     assert cost < 0.8 * problem.costs([problem.usual], problem.usual, linear(problem))[0]
 
 
@@ -116,6 +117,31 @@ def test_a_strength_between_two_values_of_its_grid_is_not_lost() -> None:
     _, point = best_start([problem], wear, [{}])
     assert set(point) & set(wear.strength) == {"wear_re", "wear_co"}
     assert [point[name] for name in ("wear_re", "wear_co")] == pytest.approx([-0.015, -0.015], rel=0.25)
+
+
+def test_a_lag_is_seen_where_a_delay_as_long_stands_in_for_it() -> None:
+    """Its slope tells nothing of a delay so far off: 4 ms behind a first-order lag, with 2.4 ms to a sample."""
+
+    def late(r: small.Run) -> np.ndarray:
+        share = 1.0 - np.exp(-(r.time[1] - r.time[0]) / 0.004)
+        return r.force - r.fluid + lfilter([share], [1.0, share - 1.0], r.fluid)
+
+    speeds = (0.15, 0.3, 0.6, 1.0)
+    records = [small.record(r, late(r), seed=i) for i, r in enumerate(small.run(v, samples=200) for v in speeds)]
+    problem = with_sampling(with_noise(small.problem(records)))
+    assert abs(problem.usual[DELAY]) > 0.5 * period(problem), "a delay stands in for the lag"
+    cost, point = best_start([problem], named(problem, "fluid_lag"), [problem.usual])
+    assert point["tau_fluid"] == pytest.approx(0.004, rel=0.3) and point[DELAY] == 0.0
+    assert cost < 0.3 * problem.costs([problem.usual], problem.usual, nuisances(problem))[0]
+
+
+def test_a_second_strength_joins_the_first_at_its_size() -> None:
+    """Beside a first strength of a coarse grid a leak of the other branch came nearer than its wear."""
+    problem = small.problem(small.records(lambda r: r.force - np.where(r.velocity > 0, 0.15, 0.09) * r.fluid))
+    wear = named(problem, "valve_wear")
+    _, point = best_start([problem], wear, [{}])
+    assert set(point) & set(wear.strength) == {"wear_re", "wear_co"}
+    assert [point[name] for name in ("wear_re", "wear_co")] == pytest.approx([-0.15, -0.09], rel=0.15)
 
 
 def test_the_lowest_of_a_parabola() -> None:
@@ -149,3 +175,15 @@ def test_degradation_parameters_that_interact_are_sought_together() -> None:
     left = [float(np.sum(problem.residual(values) ** 2)) for values in ({}, singly, point)]
     assert left[2] < 0.1 * left[0] and left[2] < 0.5 * left[1]
     assert 0 < len(point) < len(candidate.strength), "what hardly helps keeps the given value"
+
+
+def test_no_candidate_changes_forces_while_its_strength_vanishes() -> None:
+    """A step in the strength would be seen as its effect: late valves had taken half a step of time whatever their lag."""
+    runs = [small.run(v, level, slow=2) for level in (small.INTACT, small.DEGRADED) for v in (0.15, 1.0)]
+    problem = small.problem([small.record(r, seed=i) for i, r in enumerate(runs)])
+    given, peak = problem.forces({}), max(record.peak for record in problem.records)
+    for candidate in candidates(problem):
+        for f in candidate.free:
+            if f.name in candidate.strength and f.high > f.start:
+                changed = problem.forces({f.name: f.start + 1e-9 * (f.high - f.start)})
+                assert np.abs(changed - given)[problem.used].max() < 1e-6 * peak, f.name

@@ -71,3 +71,19 @@ def test_a_calibration_is_no_wrong_unit(good: list[Record]) -> None:
     stroke = [replace(r, stroke=1.05 * r.stroke, velocity=1.05 * r.velocity) for r in good]
     assert unit_error(small.problem(stroke))[0] is None
     assert np.isfinite(small.problem(stroke).measured).all()
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_most_records_in_another_unit_are_put_right(good: list[Record], count: int) -> None:
+    """Too many to be odd records, and too few for the channel: a rig whose display was switched during the campaign."""
+    pounds = [replace(r, force=r.force / 4.4482216) for r in good[:count]]
+    fault, right = unit_error(small.problem([*pounds, *good[count:]]))
+    assert fault is not None and (fault.effect, fault.title) == ("unit_error", "Unit of the force: lbf for N")
+    assert fault.records == tuple(r.name for r in pounds)
+    true = small.problem(good)
+    assert right.measured == pytest.approx(true.measured)
+
+
+def test_a_damper_that_lost_most_of_its_force_holds_no_other_unit(good: list[Record]) -> None:
+    weak = [replace(r, force=0.4 * r.force) for r in good[:2]]
+    assert unit_error(small.problem([*weak, *good[2:]]))[0] is None

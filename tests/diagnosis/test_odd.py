@@ -12,6 +12,7 @@ from twintube.data import Record
 from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.odd import odd_records
+from twintube.diagnosis.zeros import zero_drift
 
 ODD = 2  # the number of the record that is changed
 
@@ -66,6 +67,14 @@ def test_a_single_file_of_another_gain_may_be_of_another_setting(
     assert fault is not None
     assert (fault.effect, fault.records) == ("odd_record", (good[ODD].name,))
     assert rest == [r.name for i, r in enumerate(good) if i != ODD]
+
+
+def test_a_record_of_another_preload_is_odd_however_its_zero_may_differ(good: list[Record]) -> None:
+    """A damper with another gas force: nearly a constant, of which a zero takes most away, and a spring."""
+    records = changed(good, lambda r: replace(r, force=r.force - 55.0 - 600.0 * r.stroke))
+    problem, _ = zero_drift(with_edges(with_noise(small.problem(records))))
+    fault, _ = odd_records(problem.with_drift(3.0))
+    assert fault is not None and (fault.effect, fault.records) == ("odd_record", (good[ODD].name,))
 
 
 def test_a_record_is_odd_by_its_gain_where_most_intervals_have_little_force(

@@ -12,7 +12,7 @@ from twintube.dampers import load
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.prepare import PreparedRecord
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.zeros import differ, step, zero_change, zero_drift
+from twintube.diagnosis.zeros import differ, scatter, step, zero_change, zero_drift
 
 SPEEDS = (0.131, 0.262, 0.524, 0.786, 1.048)  # [m/s]
 COUNT = 300  # draws of a rate of alarms
@@ -35,6 +35,14 @@ def test_the_scatter_of_the_records_zeros_is_not_that_of_a_wrong_model(records: 
     assert worn.drift < 0.01 * peak
     assert 0.01 * peak < drifting.drift < 0.04 * peak
     assert "differs from record to record" in remarks[0]
+
+
+def test_a_single_record_of_another_zero_does_not_make_all_zeros_scatter(records: list[PreparedRecord]) -> None:
+    several = [replace(records[0], top_speed=0.1 * (i + 1)) for i in range(8)]
+    zeros = np.random.default_rng(2).standard_normal((COUNT, 8))
+    usual = [scatter(several, row) for row in zeros]
+    assert np.median(usual) == pytest.approx(1.0, rel=0.3)
+    assert np.median([scatter(several, row + 60.0 * np.eye(8)[5]) for row in zeros]) < 1.5
 
 
 def test_errors_are_whitened_by_the_covariance_of_a_zero_of_every_record(records: list[PreparedRecord]) -> None:

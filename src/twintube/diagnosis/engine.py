@@ -120,10 +120,11 @@ def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
 def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
     """Whether another answer names all causes of an answer and further ones, or others that leave far less of the error.
 
-    Nothing that makes the force late is taken from it: between two samples a step of the force is late by chance, and
-    nothing of a record is left out there.
+    Other degradation parameters are an answer like a cause. Nothing that makes the force late is taken from
+    it: between two samples a step of the force is late by chance, and nothing of a record is left out there.
     """
     before, after = ({cause.effect for cause in some.causes} for some in (answered, closer))
+    after |= {RECALIBRATE} if closer.verdict == RECALIBRATE else set()
     if not after - before or (after - before) & set(LATE):
         return False
     first = {r.record.name: r for r in answered.records}

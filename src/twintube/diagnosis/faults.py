@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import PPoly
 
+from twintube.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.data import LoadedDataset, Record, check_dataset, load_dataset
 from twintube.diagnosis.fit import Problem
@@ -74,7 +75,7 @@ def read(path: str | Path) -> tuple[LoadedDataset, Fault | None]:
             return data, Fault("sign_flip", "Sign of the force channel", text, -1.0, records=names)
         # A channel that holds nothing but noise is no kN.
         part = Problem(other.damper, prepare(replace(data, records=added)))
-        if relative(part) < RULES.followed_force:
+        if relative(part).mean() < RULES.followed_force:
             text = f"The force channel{of} holds kN for N."
             return data, Fault("unit_error", "Unit of the force: kN for N", text, 1e3, records=names)
     return load_dataset(path), None
@@ -100,9 +101,9 @@ def really_turned(turned: Fault | None, problem: Problem) -> tuple[Fault | None,
     as_recorded = part.with_records([scaled(r, -1.0, 1.0) for r in part.records])
     stroke = part.with_records([scaled(r, 1.0, -1.0) for r in as_recorded.records])
     better: tuple[Fault | None, Problem] = min(
-        ((turned, part), (stroke_turned(turned), stroke)), key=lambda pair: relative(pair[1])
+        ((turned, part), (stroke_turned(turned), stroke)), key=lambda pair: float(relative(pair[1]).mean())
     )
-    if relative(better[1]) > relative(as_recorded) - RULES.unit_gain:
+    if relative(better[1]).mean() > relative(as_recorded).mean() - RULES.unit_gain:
         better = (None, as_recorded)
     fault, best = better
     changed = {record.name: record for record in best.records}
@@ -116,27 +117,52 @@ def stroke_turned(turned: Fault) -> Fault:
 
 
 def unit_error(problem: Problem) -> tuple[Fault | None, Problem]:
-    """The wrong unit of a channel that explains the records far better, if there is any, and the problem put right."""
+    """The wrong unit of a channel, in all files or in some, that explains the records far better; the problem put right."""
+    now = relative(problem)  # another unit changes the noise as well
+    units = sorted(rescaled(problem), key=lambda unit: float(unit.misfit.mean()))
+    for unit in units:
+        better, worse = now - unit.misfit >= RULES.unit_clear, unit.misfit - now >= RULES.unit_clear
+        # These records are explained as well as the others then, which the unit would spoil.
+        if better.any() and worse.any() and unit.misfit[better].max() <= now[~better].max() + RULES.unit_gain:
+            pairs = zip(problem.records, unit.problem.records, better, strict=True)
+            right = problem.with_records([other if wrong else record for record, other, wrong in pairs])
+            return unit.fault(tuple(r.name for r, wrong in zip(problem.records, better, strict=True) if wrong)), right
+    if units and now.mean() - units[0].misfit.mean() >= RULES.unit_gain:
+        return units[0].fault(()), units[0].problem
+    return None, problem
+
+
+@dataclass(frozen=True)
+class Rescaled:
+    """A problem with a channel of all records in another unit."""
+
+    channel: str
+    unit: str
+    factor: float
+    problem: Problem
+    misfit: Array  # (r,) of `relative`
+
+    def fault(self, names: tuple[str, ...]) -> Fault:
+        """The fault of the records with these names, of all where there are none."""
+        of = f" of {', '.join(names)}" if names else ""
+        text = f"The {self.channel} channel{of} holds {self.unit}."
+        return Fault(
+            "unit_error", f"Unit of the {self.channel}: {self.unit}", text, self.factor, records=names, channel=self.channel
+        )
+
+
+def rescaled(problem: Problem) -> list[Rescaled]:
+    """The problem in all units in which the stroke stays within the tube."""
     limit = tube_limit(problem.damper.parameters)
-    # Relative misfits, as another unit changes the noise as well.
-    best, chosen, name = relative(problem), problem, ""
-    first = best
+    several = []
     for channel, units in (("force", FORCE_UNITS), ("stroke", STROKE_UNITS)):
         for unit, factor in units.items():
-            records = [
-                scaled(r, factor if channel == "force" else 1.0, factor if channel == "stroke" else 1.0)
-                for r in problem.records
-            ]
-            if max(float(np.abs(r.stroke).max()) for r in records) > limit:
-                continue
-            other = problem.with_records(records)
-            misfit = relative(other)
-            if misfit < best:
-                best, chosen, name = misfit, other, f"{channel}: {unit}"
-    if not name or first - best < RULES.unit_gain:
-        return None, problem
-    factor = (FORCE_UNITS | STROKE_UNITS)[name.partition(": ")[2]]
-    return Fault("unit_error", f"Unit of the {name}", f"The {name.replace(': ', ' channel holds ')}.", factor), chosen
+            force, stroke = (factor, 1.0) if channel == "force" else (1.0, factor)
+            records = [scaled(r, force, stroke) for r in problem.records]
+            if max(float(np.abs(r.stroke).max()) for r in records) <= limit:
+                other = problem.with_records(records)
+                several.append(Rescaled(channel, unit, factor, other, relative(other)))
+    return several
 
 
 def force_averaging(records: Sequence[Record], problem: Problem) -> tuple[Fault | None, Problem, list[str]]:
@@ -151,15 +177,15 @@ def force_averaging(records: Sequence[Record], problem: Problem) -> tuple[Fault 
     windows = {block.name: block.averaged for block in through(blocks, seen)}
     other = problem.with_records([replace(r, averaged=windows.get(r.name, 0.0)) for r in problem.records])
     text = seen.text[0].upper() + seen.text[1:] + "."
-    if relative(other) >= relative(problem):
+    if relative(other).mean() >= relative(problem).mean():
         return None, problem, [f"{text} The parameter set is better without it: identify the damper from these records"]
     return Fault("force_averaging", "Averaged force channel", text, seen.share, "share_of_oscillation"), other, []
 
 
-def relative(problem: Problem) -> float:
-    """Mean over the records of the log of the squared error relative to the squared measured force."""
+def relative(problem: Problem) -> Array:
+    """The log (r,) of each record's squared error relative to its squared measured force."""
     errors = problem.errors({}) ** 2
     logs = []
     for a, b in zip(problem.starts[:-1] + 1, problem.starts[1:], strict=True):
         logs.append(np.log(errors[a:b].mean() / max((problem.measured[a:b] ** 2).mean(), 1e-12)))
-    return float(np.mean(logs))
+    return np.array(logs)

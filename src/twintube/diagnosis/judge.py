@@ -88,6 +88,10 @@ class Judge:
         """Whether what is left is near to noise alone."""
         return option.total <= RULES.odd_right * self.count
 
+    def right(self, option: Option) -> bool:
+        """Whether what is left is noise, in all held-out records together and in each."""
+        return option.score <= RULES.right * self.count and bool(np.all(option.misfit <= RULES.odd_right))
+
     def enough(self, option: Option) -> bool:
         """Whether what is left is too little to hold a further cause."""
         little = self.excess(option) < RULES.little_share * self.excess(self.start)

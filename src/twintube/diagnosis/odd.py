@@ -69,8 +69,9 @@ def shares(problem: Problem) -> list[float]:
 
 
 def spreads(problem: Problem) -> list[float]:
-    """Shares of the records' compared intervals in which the model is off."""
-    off = np.abs(problem.residual({})) > RULES.odd_off
+    """Shares of the records' compared intervals in which the model is off, beyond a zero as other records have."""
+    errors = problem.errors({})
+    off = np.abs((errors - problem.zeros(errors)) * problem.weight) > RULES.odd_off
     return [
         float(off[a:b][record.judged].mean()) if record.judged.any() else 0.0
         for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True)
@@ -80,7 +81,7 @@ def spreads(problem: Problem) -> list[float]:
 def own_unit(part: Problem, names: tuple[str, ...], usual: float = 1.0) -> Fault | None:
     """The other unit in which the model explains these records as well as others, whose misfits are up to `usual`."""
     wrong, put_right = unit_error(part)
-    if wrong is None or not right(put_right, {}, usual):
+    if wrong is None or wrong.records or not right(put_right, {}, usual):
         return None
     of = f"In {', '.join(names)}: {wrong.explanation[0].lower()}{wrong.explanation[1:]}"
     return Fault(wrong.effect, wrong.title, of, wrong.factor, records=names)

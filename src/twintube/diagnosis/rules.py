@@ -115,6 +115,9 @@ class Rules:
     odd_spread: float = records(
         0.5, "1", "of its intervals in which a record of something else is off: a moved step is not one", DEVELOPMENT
     )
+    odd_zero: float = records(
+        0.2, "1", "of the zeros' scatter, that is left without a single record: it is its own", JUDGEMENT
+    )
     odd_fills: tuple[float, float, float] = records(
         (0.25, 0.98, 0.002), "1", "fills at which a single record may have been taken: from, to, step", JUDGEMENT
     )
@@ -316,6 +319,9 @@ class Rules:
 
     followed_force: float = units(-1.4, "1", "log of the squared error over the squared force: half of it", JUDGEMENT)
     unit_gain: float = units(1.5, "1", "log-misfit per sample: an error twice as small is not a calibration", JUDGEMENT)
+    unit_clear: float = units(
+        3.0, "1", "the like of single records: no cause makes a force of the same shape so much smaller", JUDGEMENT
+    )
 
     line_alarm: float = line(1e-4, "1", "chance that white noise makes a line in a record", STATISTICS)
     line_records: int = line(3, "", "records that must show a line", JUDGEMENT)

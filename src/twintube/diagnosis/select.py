@@ -86,7 +86,7 @@ class Selector(Judge):
 
         From starts of their own the folds may end in different laws, of which a single law holds for the others' records.
         """
-        return best_start(self.sketches, self.known(name), [fit.values for fit in current.fits])
+        return best_start(self.sketches, self.known(name), [fit.values for fit in current.fits], self.whole)
 
     def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
         """The current model with a further cause, from its best start where no other is given."""
@@ -156,9 +156,9 @@ class Selector(Judge):
         """The calibration, and all models of a single cause that were fitted, best first."""
         options = self.tried(self.start, label, RULES.first_fits, progress)
         # Where a model is right there is nothing to calibrate.
-        if self.start.score <= RULES.right * self.count:
+        if self.right(self.start):
             recalibrated = self.extended(self.start, RECALIBRATE, {})
-        elif any(self.acts(o) and o.score <= RULES.right * self.count for o in options):
+        elif any(self.acts(o) and self.right(o) for o in options):
             recalibrated = self.extended(self.start, RECALIBRATE)
         else:
             progress(f"{label}: degradation parameters")
@@ -234,7 +234,7 @@ class Selector(Judge):
     def sketched(self, current: Option) -> float:
         """The sum of squares of a model, the measurement free, in the records that the searches for starts look at."""
         pairs = zip(self.sketches, current.fits, strict=True)
-        return sum(sketch.costs([fit.values], fit.values, linear(sketch))[0] for sketch, fit in pairs)
+        return sum(sketch.costs([fit.values], fit.values, linear(self.whole))[0] for sketch, fit in pairs)
 
     def alike(self, name: str, names: Sequence[str]) -> bool:
         """Whether a candidate would only mend the formulation of a chosen cause."""

@@ -9,7 +9,7 @@ from numpy.polynomial import Polynomial
 from twintube.diagnosis.candidates import LATENESS, MOVING, RECALIBRATE, Candidate, linear, nuisances
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import CLOCK
+from twintube.diagnosis.seen import CLOCK, DELAY
 
 
 def grid(candidate: Candidate, f: Free) -> list[float]:
@@ -57,7 +57,10 @@ def clock_starts(problems: Sequence[Problem], fixed: Sequence[Mapping[str, float
 
 
 def best_start(
-    problems: Sequence[Problem], candidate: Candidate, fixed: Sequence[Mapping[str, float]]
+    problems: Sequence[Problem],
+    candidate: Candidate,
+    fixed: Sequence[Mapping[str, float]],
+    whole: Problem | None = None,
 ) -> tuple[float, dict[str, float]]:
     """The point that explains the records best, and their sum of squares there; strength after strength joins if it helps.
 
@@ -65,8 +68,13 @@ def best_start(
 
     `fixed` holds the other values in each of the problems. The measurement is free: at the zero of the model without the
     cause a residual spring would start as a loss, and behind the delay that stands in for a late effect it would not show.
+    So that is sought without a delay, too: as far off as that its slope does not hold. `whole` has all records, of which the
+    problems may have a part only.
     """
-    free = [nuisances(problem) if candidate.name in LATENESS else linear(problem) for problem in problems]
+    late = candidate.name in LATENESS
+    free = (nuisances if late else linear)(whole or problems[0])
+    stands_in = late and any(abs(problem.usual.get(DELAY, 0.0)) > 0.0 for problem in problems)
+    delays = [{}, {DELAY: 0.0}] if stands_in else [{}]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     if candidate.single:  # a step of the force comes or goes with some thousandths of the oil
         grids |= {f.name: [x for size in fills(f.high) for x in (size, -size)] for f in candidate.free}
@@ -77,37 +85,53 @@ def best_start(
 
     def costs(points: Sequence[Mapping[str, float]]) -> list[float]:
         some = [
-            problem.costs([{**values, **point} for point in points], values, measured)
-            for problem, values, measured in zip(problems, fixed, free, strict=True)
+            problem.costs([{**values, **point} for point in points], values, free)
+            for problem, values in zip(problems, fixed, strict=True)
         ]
         return [sum(cost) for cost in zip(*some, strict=True)]
 
+    by_name = {f.name: f for f in candidate.free}
     neutral = costs([best])[0]
     left = list(candidate.strength)
     while left:
         # Lengths and times are sought together with the first strength, then each by itself: a stop has an onset of its own.
-        some = [dict(zip(shapes, other, strict=True)) for other in itertools.product(*(grids[name] for name in shapes))]
+        every = itertools.product(*(grids[name] for name in shapes))
+        some = [dict(zip(shapes, other, strict=True)) | delay for other in every for delay in delays]
         if len(left) < len(candidate.strength):
             some = [{}, *({name: x} for name in shapes for x in grids[name])]
         rows = [(name, x, shape) for name in left for x in grids[name] for shape in some]
         points = [best | {name: x} | shape for name, x, shape in rows]
         scores = costs(points)
-        # Else a strength between two values of its grid loses against a value of another's.
+        # Else a strength between two values of its grid, or beyond, loses against a value of another's.
         for name in left:
             own = [i for i, row in enumerate(rows) if row[0] == name]
-            top = min(own, key=lambda i: scores[i])
-            line = {best[name]: neutral} | {rows[i][1]: scores[i] for i in own if rows[i][2] == rows[top][2]}
-            if (x := lowest(line)) not in line:
-                points.append(points[top] | {name: x})
-        scores += costs(points[len(rows) :]) if len(points) > len(rows) else []
+            for shape in some:
+                line = {best[name]: neutral} | {rows[i][1]: scores[i] for i in own if rows[i][2] == shape}
+                points += [best | shape | {name: x}] if (x := lowest(line)) not in line else []
+            top = points[min(own, key=lambda i: scores[i])]
+            points += [top | {name: moved(by_name[name], top[name], by)} for by in RULES.factors_tried]
+        scores += costs(points[len(rows) :])
         if min(scores) >= (1.0 - RULES.joins) * low:
             break
         point, low = points[int(np.argmin(scores))], min(scores)
-        left, neutral = [name for name in left if point[name] == best[name]], low
-        best = point
+        left = [name for name in left if point[name] == best[name]]
+        # At a wrong size of the first strength another than the true one joins it.
+        for _ in range(RULES.moves):
+            joined = [name for name in candidate.strength if name not in left]
+            nearer = [point | {n: moved(by_name[n], point[n], by)} for n in joined for by in RULES.factors_tried]
+            scores = costs(nearer)
+            if min(scores, default=np.inf) >= (1.0 - RULES.joins) * low:
+                break
+            point, low = nearer[int(np.argmin(scores))], min(scores)
+        best, neutral = point, low
         if candidate.single:
             break
     return float(low), {name: x for name, x in best.items() if name not in left}
+
+
+def moved(f: Free, x: float, by: float) -> float:
+    """A strength `by` times as far from doing nothing, within its range."""
+    return min(max(f.start + by * (x - f.start), f.low), f.high)
 
 
 def lowest(costs: Mapping[float, float]) -> float:

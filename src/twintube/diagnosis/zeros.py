@@ -98,7 +98,18 @@ def states(records: Sequence[PreparedRecord]) -> list[list[int]]:
 
 
 def scatter(records: Sequence[PreparedRecord], means: Array) -> float:
-    """Standard deviation [N] of the zeros from the mean errors (r,) [N] of the records; 0 where there are too few."""
+    """Standard deviation [N] of the zeros from the mean errors (r,) [N] of the records; 0 where there are too few.
+
+    A single record far from all others, say of another damper, does not make their zeros scatter.
+    """
+    every, at = scatter_of(records, means), range(len(means))
+    others = [scatter_of([r for k, r in enumerate(records) if k != i], np.delete(means, i)) for i in at if len(at) > 2]
+    least = min(others, default=every)
+    return least if least < RULES.odd_zero * every else every
+
+
+def scatter_of(records: Sequence[PreparedRecord], means: Array) -> float:
+    """The like, whichever records there are."""
     several = states(records)
     bent = np.concatenate([np.diff(means[some], 2) for some in several])
     if len(bent) >= RULES.least_bends:

@@ -15,8 +15,10 @@ by segment of the F-v curve. The phases still follow the stroke. What a column s
 leaves with that oil and counts as dissipated. With an element in series that share is neglected: of the work, F C / 2 over
 the length of the column, 0.5 % at most with the compliance of oil.
 
+Where k_degr steps, a stiff column ends a step with the force of its end, a soft one with that of its mean.
+
 Valves that open and close late let the fluid force F follow that of the columns with a time constant of their own,
-tau_fluid dF/dt = F_columns - F, solved exactly for a step in which F_columns has its mean.
+tau_fluid dF/dt = F_columns - F, solved exactly for a step in which F_columns goes evenly, with its mean and its end.
 """
 
 import math
@@ -208,13 +210,20 @@ def fluid_lag_leaking(
     return u
 
 
+def fluid_lag_follow(p: Parameters, s: State, mean: float, F: float, dt: float) -> float:
+    """Force [N] behind late valves after `dt` > 0 [s] in which that of the columns went evenly to `F`, with a `mean` [N]."""
+    late = 2.0 * (F - mean) * p.tau_fluid / dt
+    return F - late + (s.F_late - 2.0 * mean + F + late) * math.exp(-dt / p.tau_fluid)
+
+
 def fluid_lag_press(
-    p: Parameters, s: State, side: float, k: float, free: float, dz: float, velocities: tuple[float, ...],
+    p: Parameters, s: State, side: float, k: float, k_end: float, free: float, dz: float, velocities: tuple[float, ...],
     forces: tuple[float, ...], dt: float,
 ) -> float:  # fmt: skip
     """Carry one column over a step: its force at the end, and its part of `F_mean` and `W_step` of the state.
 
-    A column without force is pressed in the share `free` [1] of the step. Returns that share for the other column.
+    `k` and `k_end` are the degradation of the branch in the mean of the step and at its end. A column without force is
+    pressed in the share `free` [1] of the step. Returns that share for the other column.
     """
     held = s.F_held_re if side > 0.0 else s.F_held_co
     turn = s.F_turn_re if side > 0.0 else s.F_turn_co
@@ -239,8 +248,9 @@ def fluid_lag_press(
     share = end_weight(pressed / settling) if settling > 0.0 else 1.0
     before = C * held + way * held / (held + F_half)
     w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share
-    u = fluid_lag_leaking(p, C, way, F_half, w, k, side, velocities, forces, share * pressed) if w > 0.0 else 0.0
-    F = k * branch(u, velocities, forces)
+    ends = k + (2.0 * share - 1.0) * (k_end - k)
+    u = fluid_lag_leaking(p, C, way, F_half, w, ends, side, velocities, forces, share * pressed) if w > 0.0 else 0.0
+    F = ends * branch(u, velocities, forces)
     after = C * F + way * F / (F + F_half)
     travelled = 0.5 * (begun + v1) * pressed
     through = max(0.0, travelled + before - after) / dt
@@ -285,16 +295,17 @@ def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> 
     s.W_step = 0.0
     # The column that the piston leaves comes first.
     if s.goal_v1 >= 0.0:
-        free = fluid_lag_press(p, s, -1.0, k_co, 1.0, dz, p.v_co, p.F_co, dt)
-        fluid_lag_press(p, s, 1.0, k_re, free, dz, p.v_re, p.F_re, dt)
+        k_end = s.k_re if s.goal_v1 > 0.0 else k_re
+        free = fluid_lag_press(p, s, -1.0, k_co, k_co, 1.0, dz, p.v_co, p.F_co, dt)
+        fluid_lag_press(p, s, 1.0, k_re, k_end, free, dz, p.v_re, p.F_re, dt)
     else:
-        free = fluid_lag_press(p, s, 1.0, k_re, 1.0, dz, p.v_re, p.F_re, dt)
-        fluid_lag_press(p, s, -1.0, k_co, free, dz, p.v_co, p.F_co, dt)
+        free = fluid_lag_press(p, s, 1.0, k_re, k_re, 1.0, dz, p.v_re, p.F_re, dt)
+        fluid_lag_press(p, s, -1.0, k_co, s.k_co, free, dz, p.v_co, p.F_co, dt)
     s.F_fluid = s.F_held_re - s.F_held_co
     s.F_valve = s.F_fluid
     if p.tau_fluid > 0.0:
         mean = s.F_mean
-        s.F_fluid = fluid_lag_felt(p, s, mean, dt)
+        s.F_fluid = fluid_lag_follow(p, s, mean, s.F_fluid, dt)
         s.F_mean += (s.F_late - s.F_fluid) * p.tau_fluid / dt
         s.W_step += (s.F_mean - mean) * dz
         s.F_late = s.F_fluid

@@ -18,7 +18,7 @@ NEEDS_TIME = True
 class Parameters(variables.Parameters):
     """Rate of the decay."""
 
-    foam_decay_rate: float = var("foam_decay", "", "1/s", "share of the foam that separates per second", lower=0, upper=2,
+    foam_decay_rate: float = var("foam_decay", "", "1/s", "share of the foam that separates per second", lower=0, upper=10,
                                  source="first-order foam decay; Bikerman, Foams", default=0.0, role="strength")  # fmt: skip
 
 
