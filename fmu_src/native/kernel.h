@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 554ede660fcbe991, body 9270df3ef2381e04; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 75ea66a319af1f8f, body 7a64b0d829f4ec08; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -161,6 +161,8 @@ struct kernel_State {
     double F_turn_re;
     double F_turn_co;
     double F_late;
+    double k_held_re;
+    double k_held_co;
     double x_mount;
     double v_piston;
     double u_valve;
@@ -432,6 +434,8 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->F_turn_re = 0.0;
     s->F_turn_co = 0.0;
     s->F_late = 0.0;
+    s->k_held_re = 1.0;
+    s->k_held_co = 1.0;
     s->x_mount = 0.0;
     s->v_piston = 0.0;
     s->u_valve = 0.0;
@@ -1847,6 +1851,27 @@ static int64_t kernel_fluid_lag_valves(double* result_0_0001, double* result_1, 
     return 0;
 }
 
+/* Speed [m/s] in the direction of the force `F` [N] that passes beside the valves. */
+static double kernel_valve_wear_bypass(struct kernel_Parameters* p, double F)
+{
+    if (F >= 0.0)
+    {
+        return kernel_valve_wear_leak(p, p->bleed_re, F);
+    }
+    return -kernel_valve_wear_leak(p, p->bleed_co, -F);
+}
+
+static double kernel_effects_bypass(struct kernel_Parameters* p, double F)
+{
+    double value;
+    value = 0.0;
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
+    {
+        value += kernel_valve_wear_bypass(p, F);
+    }
+    return value;
+}
+
 /* The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
    `C`, `way` and `F_half` are those of `fluid_lag_column`, `k` the degradation of the branch. */
 static double kernel_fluid_lag_inverse(double C, double way, double F_half, double w, double k, array_double_1d velocities, array_double_1d forces, double dt)
@@ -1882,27 +1907,6 @@ static double kernel_fluid_lag_inverse(double C, double way, double F_half, doub
     root = sqrt(b * b + 4.0 * a * c);
     found = (b > 0.0 ? 2.0 * c / (b + root) : (root - b) / (2.0 * a));
     return double_max(2, 0.0, w - (C + way / (found + F_half)) * found / dt);
-}
-
-/* Speed [m/s] in the direction of the force `F` [N] that passes beside the valves. */
-static double kernel_valve_wear_bypass(struct kernel_Parameters* p, double F)
-{
-    if (F >= 0.0)
-    {
-        return kernel_valve_wear_leak(p, p->bleed_re, F);
-    }
-    return -kernel_valve_wear_leak(p, p->bleed_co, -F);
-}
-
-static double kernel_effects_bypass(struct kernel_Parameters* p, double F)
-{
-    double value;
-    value = 0.0;
-    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
-    {
-        value += kernel_valve_wear_bypass(p, F);
-    }
-    return value;
 }
 
 /* As `fluid_lag_inverse`, with what passes beside the valves: secants for its speed between bounds that close in. */
@@ -1956,15 +1960,14 @@ static double kernel_fluid_lag_stored(double C, double way, double F_half, doubl
     return 0.5 * C * F * F + way * F_half * (log(1.0 + F / F_half) - F / (F + F_half));
 }
 
-/* Carry one column over a step: its force at the end, and its part of `F_mean` and `W_step` of the state.
-   `k` and `k_end` are the degradation of the branch in the mean of the step and at its end. A column without force is
-   pressed in the share `free` [1] of the step. Returns that share for the other column. */
-static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_State* s, double side, double k, double k_end, double free, double dz, array_double_1d velocities, array_double_1d forces, double dt)
+/* Carry one column over a part of a step: its force at the end, and its part of `F_mean` and `W_step` of the state.
+   The part takes `dt` [s] and ends at the stroke `z` [m] after a way of `dz` [m]; `v0` and `v1` [m/s] are the speeds in the
+   column's direction, `k` [1] the degradation of its branch. A column without force is pressed in the share `free` [1] of
+   the part. Returns that share for the other column. */
+static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_State* s, double side, double k, double free, double v0, double v1, double z, double dz, array_double_1d velocities, array_double_1d forces, double dt)
 {
     double held;
     double turn;
-    double v0;
-    double v1;
     double begun;
     double pressed;
     double C;
@@ -1972,12 +1975,14 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     double F_half;
     double u;
     double slope;
-    double settling;
-    double share;
+    double given;
     double before;
-    double w;
-    double ends;
+    double share;
     double F;
+    int64_t n;
+    double settling;
+    double w;
+    double end;
     double after;
     double travelled;
     double through;
@@ -1988,8 +1993,6 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     double bound;
     held = (side > 0.0 ? s->F_held_re : s->F_held_co);
     turn = (side > 0.0 ? s->F_turn_re : s->F_turn_co);
-    v0 = side * s->goal_v0;
-    v1 = side * s->goal_v1;
     begun = v0;
     pressed = dt;
     if (held <= 0.0)
@@ -2007,19 +2010,28 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     {
         return 1.0;
     }
-    kernel_fluid_lag_column(&C, &way, &F_half, p, side, s->z);
+    kernel_fluid_lag_column(&C, &way, &F_half, p, side, z);
     kernel_fluid_lag_valves(&u, &slope, held, k, velocities, forces);
     if (k >= 1e-12)
     {
         u += side * kernel_effects_bypass(p, side * held / k);
     }
-    settling = (C + way * F_half / ((held + F_half) * (held + F_half))) * slope;
-    share = (settling > 0.0 ? kernel_end_weight(pressed / settling) : 1.0);
+    given = C + way * F_half / ((held + F_half) * (held + F_half));
     before = C * held + way * held / (held + F_half);
-    w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share;
-    ends = k + (2.0 * share - 1.0) * (k_end - k);
-    u = (w > 0.0 ? kernel_fluid_lag_leaking(p, C, way, F_half, w, ends, side, velocities, forces, share * pressed) : 0.0);
-    F = ends * kernel_branch(u, velocities, forces);
+    share = 1.0;
+    F = 0.0;
+    n = 0;
+    /* Trapped air gets stiff while it is pressed: again with its mean compliance. */
+    while(n < ((way > 0.0 ? 2 : 1)))
+    {
+        settling = given * slope;
+        share = (settling > 0.0 ? kernel_end_weight(pressed / settling) : 1.0);
+        w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share;
+        end = (w > 0.0 ? kernel_fluid_lag_leaking(p, C, way, F_half, w, k, side, velocities, forces, share * pressed) : 0.0);
+        F = k * kernel_branch(end, velocities, forces);
+        given = C + way * F_half / ((held + F_half) * (F + F_half));
+        n += 1;
+    }
     after = C * F + way * F / (F + F_half);
     travelled = 0.5 * (begun + v1) * pressed;
     through = double_max(2, 0.0, travelled + before - after) / dt;
@@ -2031,7 +2043,7 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     s->W_step += mean * through * dt;
     if ((held > 0.0) && (p->column_share > 0.0))
     {
-        shorter = kernel_fluid_lag_length(p, side, s->z - dz) / kernel_fluid_lag_length(p, side, s->z) - 1.0;
+        shorter = kernel_fluid_lag_length(p, side, z - dz) / kernel_fluid_lag_length(p, side, z) - 1.0;
         s->W_step += shorter * kernel_fluid_lag_stored(C, way, F_half, held);
     }
     if (side > 0.0)
@@ -2074,16 +2086,59 @@ static double kernel_fluid_lag_follow(struct kernel_Parameters* p, struct kernel
     return F - late + (s->F_late - 2.0 * mean + F + late) * exp((-dt) / p->tau_fluid);
 }
 
+/* Carry the columns and the late valves over a part of a step, as `fluid_lag_press`, speeds with their sign.
+   `F_mean` and `W_step` of the state are those of the part then. */
+static void kernel_fluid_lag_part(struct kernel_Parameters* p, struct kernel_State* s, double k_re, double k_co, double v0, double v1, double z, double dz, double dt)
+{
+    double free;
+    double Dummy_0000;
+    double Dummy_0001;
+    double mean;
+    s->F_mean = 0.0;
+    s->W_step = 0.0;
+    /* The column that the piston leaves comes first. */
+    if (v1 >= 0.0)
+    {
+        free = kernel_fluid_lag_press(p, s, -1.0, k_co, 1.0, -v0, -v1, z, dz, p->v_co, p->F_co, dt);
+        Dummy_0000 = kernel_fluid_lag_press(p, s, 1.0, k_re, free, v0, v1, z, dz, p->v_re, p->F_re, dt);
+    }
+    else
+    {
+        free = kernel_fluid_lag_press(p, s, 1.0, k_re, 1.0, v0, v1, z, dz, p->v_re, p->F_re, dt);
+        Dummy_0001 = kernel_fluid_lag_press(p, s, -1.0, k_co, free, -v0, -v1, z, dz, p->v_co, p->F_co, dt);
+    }
+    s->F_fluid = s->F_held_re - s->F_held_co;
+    s->F_valve = s->F_fluid;
+    if (p->tau_fluid > 0.0)
+    {
+        mean = s->F_mean;
+        s->F_fluid = kernel_fluid_lag_follow(p, s, mean, s->F_fluid, dt);
+        s->F_mean += (s->F_late - s->F_fluid) * p->tau_fluid / dt;
+        s->W_step += (s->F_mean - mean) * dz;
+        s->F_late = s->F_fluid;
+    }
+}
+
 /* The fluid force with the memory of the oil columns; a step without time leaves it, but for the first. */
 static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
 {
     double k_re;
     double k_co;
-    double k_end;
-    double free;
-    double Dummy_0000;
-    double Dummy_0001;
+    double v0;
+    double v1;
+    double after;
+    double v_jump;
+    double later;
+    double k_begun_re;
+    double k_begun_co;
     double mean;
+    double work;
+    int64_t parts;
+    double begun;
+    int64_t i;
+    double ended;
+    double way;
+    double at;
     if (dt <= 0.0)
     {
         if (s->elapsed > 0.0)
@@ -2096,30 +2151,45 @@ static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_St
     }
     k_re = (dz > 0.0 ? s->k_mean : s->k_re);
     k_co = (dz < 0.0 ? s->k_mean : s->k_co);
-    s->F_mean = 0.0;
-    s->W_step = 0.0;
-    /* The column that the piston leaves comes first. */
-    if (s->goal_v1 >= 0.0)
+    v0 = s->goal_v0;
+    v1 = s->goal_v1;
+    /* In a step of a single direction the mean of k_degr tells when it jumped from its last value to that of the end. */
+    after = 0.0;
+    if ((dz > 0.0) && (v0 > 0.0) && (v1 > 0.0) && (s->k_re != s->k_held_re))
     {
-        k_end = (s->goal_v1 > 0.0 ? s->k_re : k_re);
-        free = kernel_fluid_lag_press(p, s, -1.0, k_co, k_co, 1.0, dz, p->v_co, p->F_co, dt);
-        Dummy_0000 = kernel_fluid_lag_press(p, s, 1.0, k_re, k_end, free, dz, p->v_re, p->F_re, dt);
+        after = (k_re - s->k_held_re) / (s->k_re - s->k_held_re);
     }
-    else
+    else if ((dz < 0.0) && (v0 < 0.0) && (v1 < 0.0) && (s->k_co != s->k_held_co))
     {
-        free = kernel_fluid_lag_press(p, s, 1.0, k_re, k_re, 1.0, dz, p->v_re, p->F_re, dt);
-        Dummy_0001 = kernel_fluid_lag_press(p, s, -1.0, k_co, s->k_co, free, dz, p->v_co, p->F_co, dt);
+        after = (k_co - s->k_held_co) / (s->k_co - s->k_held_co);
     }
-    s->F_fluid = s->F_held_re - s->F_held_co;
-    s->F_valve = s->F_fluid;
-    if (p->tau_fluid > 0.0)
+    if ((after <= 0.0) || (after >= 1.0))
     {
-        mean = s->F_mean;
-        s->F_fluid = kernel_fluid_lag_follow(p, s, mean, s->F_fluid, dt);
-        s->F_mean += (s->F_late - s->F_fluid) * p->tau_fluid / dt;
-        s->W_step += (s->F_mean - mean) * dz;
-        s->F_late = s->F_fluid;
+        kernel_fluid_lag_part(p, s, k_re, k_co, v0, v1, s->z, dz, dt);
+        return;
     }
+    v_jump = v1 + after * (v0 - v1);
+    later = after * dz * (v_jump + v1) / (v0 + v1);
+    k_begun_re = (dz > 0.0 ? s->k_held_re : k_re);
+    k_begun_co = (dz < 0.0 ? s->k_held_co : k_co);
+    kernel_fluid_lag_part(p, s, k_begun_re, k_begun_co, v0, v_jump, s->z - later, dz - later, (1.0 - after) * dt);
+    mean = (1.0 - after) * s->F_mean;
+    work = s->W_step;
+    /* Trapped air is dead stroke first and stiff then. */
+    parts = (p->V_air > 0.0 ? 8 : 1);
+    begun = v_jump;
+    for (i = 1; i < parts + 1; i += 1)
+    {
+        ended = v_jump + (double)(i) / (double)(parts) * (v1 - v_jump);
+        way = later / parts * (begun + ended) / (v_jump + v1);
+        at = s->z - later * (1.0 - (double)(i) / (double)(parts)) * (ended + v1) / (v_jump + v1);
+        kernel_fluid_lag_part(p, s, s->k_re, s->k_co, begun, ended, at, way, after * dt / parts);
+        mean += after / parts * s->F_mean;
+        work += s->W_step;
+        begun = ended;
+    }
+    s->F_mean = mean;
+    s->W_step = work;
 }
 
 /* The force that the rubber lets through, and the rubber's own loss. */
@@ -2158,9 +2228,11 @@ static void kernel_effects_force(struct kernel_Parameters* p, struct kernel_Stat
     return;
 }
 
-/* Remember the force where it is not that of the columns: at the start, or with another element in series. */
+/* Remember k_degr, and the force where it is not that of the columns: at the start, or with an element in series. */
 static void kernel_fluid_lag_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
 {
+    s->k_held_re = s->k_re;
+    s->k_held_co = s->k_co;
     if (s->elapsed <= 0.0)
     {
         s->F_late = s->F_valve;

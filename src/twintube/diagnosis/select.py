@@ -192,11 +192,17 @@ class Selector(Judge):
         return True
 
     def seen_through_sampling(self, options: Sequence[Option]) -> bool:
-        """Whether something too short for the sampling explains the records best; not a cause, it joins every model then."""
+        """Whether something too short for the sampling explains the records best; not a cause, it joins every model then.
+
+        A cause that explains nearly as much is preferred: a sharp delay beyond a sample is one beside a short lag, too.
+        """
         short = [o for o in options if not self.acts(o) and self.worth(self.start, o)]
         taken = self.taken(self.start, options)
         best = min(short, key=lambda o: o.score, default=None)
-        if best is None or (taken is not None and taken.score <= best.score):
+        if best is None:
+            return False
+        enough = self.start.score - RULES.near_sampling * (self.start.score - best.score)
+        if taken is not None and taken.score <= enough:
             return False
         self.sampling = best.names
         self.start = self.option(best.names, [self.free(best.names, fit.values) for fit in best.fits])

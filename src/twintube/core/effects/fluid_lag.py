@@ -15,7 +15,7 @@ by segment of the F-v curve. The phases still follow the stroke. What a column s
 leaves with that oil and counts as dissipated. With an element in series that share is neglected: of the work, F C / 2 over
 the length of the column, 0.5 % at most with the compliance of oil.
 
-Where k_degr steps, a stiff column ends a step with the force of its end, a soft one with that of its mean.
+A step in which k_degr jumps is divided there, so that the columns know when.
 
 Valves that open and close late let the fluid force F follow that of the columns with a time constant of their own,
 tau_fluid dF/dt = F_columns - F, solved exactly for a step in which F_columns goes evenly, with its mean and its end.
@@ -36,6 +36,7 @@ ABSENCE = "The measured F-v curve opens to a loop that the model does not have, 
 DECIDES = "small amplitudes at the same velocity: a lag grows with the frequency, a mount with the force"
 NEEDS_TIME = True
 P_ATM = 1e5  # [Pa]
+AIR_PARTS = 8  # of a step after a jump of k_degr
 FAINT = 1e-12  # [1, s] k_degr that makes no force, time in which nothing moves
 
 
@@ -74,6 +75,8 @@ class State(Frame):
     F_turn_re: float = var("fluid_lag", "F_Fl", "N", "force of the rebound column, last pressed by the piston", default=0.0)
     F_turn_co: float = var("fluid_lag", "F_Fl", "N", "the same of the compression column", default=0.0)
     F_late: float = var("fluid_lag", "F_Fl", "N", "force of both behind late valves", default=0.0)
+    k_held_re: float = var("fluid_lag", "k_degr", "1", "k_degr in rebound at the end of the last step", default=1.0)
+    k_held_co: float = var("fluid_lag", "k_degr", "1", "the same in compression", default=1.0)
 
 
 def fluid_lag_parts(p: Parameters, dt: float) -> int:
@@ -217,18 +220,17 @@ def fluid_lag_follow(p: Parameters, s: State, mean: float, F: float, dt: float) 
 
 
 def fluid_lag_press(
-    p: Parameters, s: State, side: float, k: float, k_end: float, free: float, dz: float, velocities: tuple[float, ...],
-    forces: tuple[float, ...], dt: float,
+    p: Parameters, s: State, side: float, k: float, free: float, v0: float, v1: float, z: float, dz: float,
+    velocities: tuple[float, ...], forces: tuple[float, ...], dt: float,
 ) -> float:  # fmt: skip
-    """Carry one column over a step: its force at the end, and its part of `F_mean` and `W_step` of the state.
+    """Carry one column over a part of a step: its force at the end, and its part of `F_mean` and `W_step` of the state.
 
-    `k` and `k_end` are the degradation of the branch in the mean of the step and at its end. A column without force is
-    pressed in the share `free` [1] of the step. Returns that share for the other column.
+    The part takes `dt` [s] and ends at the stroke `z` [m] after a way of `dz` [m]; `v0` and `v1` [m/s] are the speeds in the
+    column's direction, `k` [1] the degradation of its branch. A column without force is pressed in the share `free` [1] of
+    the part. Returns that share for the other column.
     """
     held = s.F_held_re if side > 0.0 else s.F_held_co
     turn = s.F_turn_re if side > 0.0 else s.F_turn_co
-    v0 = side * s.goal_v0
-    v1 = side * s.goal_v1
     begun = v0
     pressed = dt
     if held <= 0.0:
@@ -240,17 +242,24 @@ def fluid_lag_press(
         pressed *= free
     if pressed < FAINT:
         return 1.0
-    C, way, F_half = fluid_lag_column(p, side, s.z)
+    C, way, F_half = fluid_lag_column(p, side, z)
     u, slope = fluid_lag_valves(held, k, velocities, forces)
     if k >= FAINT:
         u += side * effects_bypass(p, side * held / k)
-    settling = (C + way * F_half / ((held + F_half) * (held + F_half))) * slope
-    share = end_weight(pressed / settling) if settling > 0.0 else 1.0
+    given = C + way * F_half / ((held + F_half) * (held + F_half))
     before = C * held + way * held / (held + F_half)
-    w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share
-    ends = k + (2.0 * share - 1.0) * (k_end - k)
-    u = fluid_lag_leaking(p, C, way, F_half, w, ends, side, velocities, forces, share * pressed) if w > 0.0 else 0.0
-    F = ends * branch(u, velocities, forces)
+    share = 1.0
+    F = 0.0
+    n = 0
+    # Trapped air gets stiff while it is pressed: again with its mean compliance.
+    while n < (2 if way > 0.0 else 1):
+        settling = given * slope
+        share = end_weight(pressed / settling) if settling > 0.0 else 1.0
+        w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share
+        end = fluid_lag_leaking(p, C, way, F_half, w, k, side, velocities, forces, share * pressed) if w > 0.0 else 0.0
+        F = k * branch(end, velocities, forces)
+        given = C + way * F_half / ((held + F_half) * (F + F_half))
+        n += 1
     after = C * F + way * F / (F + F_half)
     travelled = 0.5 * (begun + v1) * pressed
     through = max(0.0, travelled + before - after) / dt
@@ -261,7 +270,7 @@ def fluid_lag_press(
     s.F_mean += side * mean
     s.W_step += mean * through * dt
     if held > 0.0 and p.column_share > 0.0:
-        shorter = fluid_lag_length(p, side, s.z - dz) / fluid_lag_length(p, side, s.z) - 1.0
+        shorter = fluid_lag_length(p, side, z - dz) / fluid_lag_length(p, side, z) - 1.0
         s.W_step += shorter * fluid_lag_stored(C, way, F_half, held)
     if side > 0.0:
         s.F_held_re = F
@@ -281,26 +290,22 @@ def fluid_lag_press(
     return min(1.0, max(0.0, (bound - after) / (before - after))) if before > after else 0.0
 
 
-def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:
-    """The fluid force with the memory of the oil columns; a step without time leaves it, but for the first."""
-    if dt <= 0.0:
-        if s.elapsed > 0.0:
-            s.F_valve = s.F_held_re - s.F_held_co
-            s.F_fluid = s.F_late if p.tau_fluid > 0.0 else s.F_valve
-            s.F_mean = s.F_fluid
-        return
-    k_re = s.k_mean if dz > 0.0 else s.k_re
-    k_co = s.k_mean if dz < 0.0 else s.k_co
+def fluid_lag_part(
+    p: Parameters, s: State, k_re: float, k_co: float, v0: float, v1: float, z: float, dz: float, dt: float
+) -> None:
+    """Carry the columns and the late valves over a part of a step, as `fluid_lag_press`, speeds with their sign.
+
+    `F_mean` and `W_step` of the state are those of the part then.
+    """
     s.F_mean = 0.0
     s.W_step = 0.0
     # The column that the piston leaves comes first.
-    if s.goal_v1 >= 0.0:
-        k_end = s.k_re if s.goal_v1 > 0.0 else k_re
-        free = fluid_lag_press(p, s, -1.0, k_co, k_co, 1.0, dz, p.v_co, p.F_co, dt)
-        fluid_lag_press(p, s, 1.0, k_re, k_end, free, dz, p.v_re, p.F_re, dt)
+    if v1 >= 0.0:
+        free = fluid_lag_press(p, s, -1.0, k_co, 1.0, -v0, -v1, z, dz, p.v_co, p.F_co, dt)
+        fluid_lag_press(p, s, 1.0, k_re, free, v0, v1, z, dz, p.v_re, p.F_re, dt)
     else:
-        free = fluid_lag_press(p, s, 1.0, k_re, k_re, 1.0, dz, p.v_re, p.F_re, dt)
-        fluid_lag_press(p, s, -1.0, k_co, s.k_co, free, dz, p.v_co, p.F_co, dt)
+        free = fluid_lag_press(p, s, 1.0, k_re, 1.0, v0, v1, z, dz, p.v_re, p.F_re, dt)
+        fluid_lag_press(p, s, -1.0, k_co, free, -v0, -v1, z, dz, p.v_co, p.F_co, dt)
     s.F_fluid = s.F_held_re - s.F_held_co
     s.F_valve = s.F_fluid
     if p.tau_fluid > 0.0:
@@ -311,8 +316,53 @@ def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> 
         s.F_late = s.F_fluid
 
 
+def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> None:
+    """The fluid force with the memory of the oil columns; a step without time leaves it, but for the first."""
+    if dt <= 0.0:
+        if s.elapsed > 0.0:
+            s.F_valve = s.F_held_re - s.F_held_co
+            s.F_fluid = s.F_late if p.tau_fluid > 0.0 else s.F_valve
+            s.F_mean = s.F_fluid
+        return
+    k_re = s.k_mean if dz > 0.0 else s.k_re
+    k_co = s.k_mean if dz < 0.0 else s.k_co
+    v0 = s.goal_v0
+    v1 = s.goal_v1
+    # In a step of a single direction the mean of k_degr tells when it jumped from its last value to that of the end.
+    after = 0.0
+    if dz > 0.0 and v0 > 0.0 and v1 > 0.0 and s.k_re != s.k_held_re:
+        after = (k_re - s.k_held_re) / (s.k_re - s.k_held_re)
+    elif dz < 0.0 and v0 < 0.0 and v1 < 0.0 and s.k_co != s.k_held_co:
+        after = (k_co - s.k_held_co) / (s.k_co - s.k_held_co)
+    if after <= 0.0 or after >= 1.0:
+        fluid_lag_part(p, s, k_re, k_co, v0, v1, s.z, dz, dt)
+        return
+    v_jump = v1 + after * (v0 - v1)
+    later = after * dz * (v_jump + v1) / (v0 + v1)
+    k_begun_re = s.k_held_re if dz > 0.0 else k_re
+    k_begun_co = s.k_held_co if dz < 0.0 else k_co
+    fluid_lag_part(p, s, k_begun_re, k_begun_co, v0, v_jump, s.z - later, dz - later, (1.0 - after) * dt)
+    mean = (1.0 - after) * s.F_mean
+    work = s.W_step
+    # Trapped air is dead stroke first and stiff then.
+    parts = AIR_PARTS if p.V_air > 0.0 else 1
+    begun = v_jump
+    for i in range(1, parts + 1):
+        ended = v_jump + i / parts * (v1 - v_jump)
+        way = later / parts * (begun + ended) / (v_jump + v1)
+        at = s.z - later * (1.0 - i / parts) * (ended + v1) / (v_jump + v1)
+        fluid_lag_part(p, s, s.k_re, s.k_co, begun, ended, at, way, after * dt / parts)
+        mean += after / parts * s.F_mean
+        work += s.W_step
+        begun = ended
+    s.F_mean = mean
+    s.W_step = work
+
+
 def fluid_lag_finish(p: Parameters, s: State, dt: float) -> None:
-    """Remember the force where it is not that of the columns: at the start, or with another element in series."""
+    """Remember k_degr, and the force where it is not that of the columns: at the start, or with an element in series."""
+    s.k_held_re = s.k_re
+    s.k_held_co = s.k_co
     if s.elapsed <= 0.0:
         s.F_late = s.F_valve
     if s.F_valve != s.F_held_re - s.F_held_co:
