@@ -272,7 +272,7 @@ class Rules:
     )
     near_best: float = selection(0.75, "1", "of the best gain, from which a third less squared error decides", TRIALS)
     near_sampling: float = selection(
-        0.9, "1", "of the gain of what is too short for the sampling: a cause that explains it is preferred", DEVELOPMENT
+        0.9, "1", "of the gain of what makes the force late, that something too short for the sampling has, too", DEVELOPMENT
     )
     promise: float = selection(
         0.005, "1", "of the squared error that the start of a candidate takes away, for it to be fitted", DEVELOPMENT

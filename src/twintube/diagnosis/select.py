@@ -192,25 +192,31 @@ class Selector(Judge):
         return True
 
     def seen_through_sampling(self, options: Sequence[Option]) -> bool:
-        """Whether something too short for the sampling explains the records best; not a cause, it joins every model then.
-
-        A cause that explains nearly as much is preferred: a sharp delay beyond a sample is one beside a short lag, too.
-        """
-        short = [o for o in options if not self.acts(o) and self.worth(self.start, o)]
+        """Whether something too short for the sampling explains the records best; not a cause, it joins every model then."""
+        short = [o for o in options if self.short(o) and self.worth(self.start, o)]
         taken = self.taken(self.start, options)
         best = min(short, key=lambda o: o.score, default=None)
-        if best is None:
-            return False
-        enough = self.start.score - RULES.near_sampling * (self.start.score - best.score)
-        if taken is not None and taken.score <= enough:
+        if best is None or (taken is not None and taken.score <= best.score):
             return False
         self.sampling = best.names
         self.start = self.option(best.names, [self.free(best.names, fit.values) for fit in best.fits])
         return True
 
+    def short(self, option: Option) -> bool:
+        """Whether the new cause of an option is not more than sampling leaves open, nor the delay beside it at its limit."""
+        late = next(f for f in nuisances(self.whole) if f.name == DELAY)
+        known = (1.0 - RULES.at_bound) * late.high
+        return not self.acts(option) and all(abs(fit.values.get(DELAY, 0.0)) < known for fit in option.fits)
+
+    def sampled(self, current: Option, option: Option, options: Sequence[Option]) -> bool:
+        """Whether an option makes the force late as something too short for the sampling does that explains as much."""
+        gained = RULES.near_sampling * (current.score - option.score)
+        others = [o for o in options if o.names[-1] in LATE and self.short(o)] if option.names[-1] in LATE else []
+        return any(current.score - o.score >= gained for o in others)
+
     def taken(self, current: Option, options: Sequence[Option]) -> Option | None:
         """The option that becomes the next model: the best, or a nearly equal option that predicts forces far better."""
-        worthy = [o for o in options if self.acts(o) and self.worth(current, o)]
+        worthy = [o for o in options if self.acts(o) and self.worth(current, o) and not self.sampled(current, o, options)]
         if not worthy:
             return None
         best = worthy[0]
