@@ -74,7 +74,6 @@ def best_start(
     late = candidate.name in LATENESS
     free = (nuisances if late else linear)(whole or problems[0])
     stands_in = late and any(abs(problem.usual.get(DELAY, 0.0)) > 0.0 for problem in problems)
-    delays = [{}, {DELAY: 0.0}] if stands_in else [{}]
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     if candidate.single:  # a step of the force comes or goes with some thousandths of the oil
         grids |= {f.name: [x for size in fills(f.high) for x in (size, -size)] for f in candidate.free}
@@ -96,7 +95,7 @@ def best_start(
     while left:
         # Lengths and times are sought together with the first strength, then each by itself: a stop has an onset of its own.
         every = itertools.product(*(grids[name] for name in shapes))
-        some = [dict(zip(shapes, other, strict=True)) | delay for other in every for delay in delays]
+        some = [dict(zip(shapes, other, strict=True)) for other in every] + [{DELAY: 0.0}] * stands_in
         if len(left) < len(candidate.strength):
             some = [{}, *({name: x} for name in shapes for x in grids[name])]
         rows = [(name, x, shape) for name in left for x in grids[name] for shape in some]
