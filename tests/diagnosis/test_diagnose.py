@@ -278,6 +278,8 @@ def test_records_in_which_an_answer_leaves_more_than_noise(good: list[Record]) -
         (("valve_wear",), ("fluid_lag",), 0.1, False),
         ((), (), 0.1, False),
         ((), ("fluid_lag",), 0.1, False),
+        ((), ("recalibrate",), 0.9, True),
+        (("valve_wear",), ("recalibrate",), 0.9, False),
         (("valve_wear",), ("valve_wear", "channel_delay"), 0.1, False),
     ],
 )
@@ -288,6 +290,8 @@ def test_an_answer_within_records_must_name_more_or_leave_far_less(
         row = SimpleNamespace(
             record=SimpleNamespace(name="a"), measured=np.zeros(9), extended=np.full(9, error), weight=np.ones(9)
         )
-        return cast(Diagnosis, SimpleNamespace(causes=[SimpleNamespace(effect=name) for name in names], records=[row]))
+        verdict = "recalibrate" if "recalibrate" in names else "cause"
+        causes = [SimpleNamespace(effect=name) for name in names if name != "recalibrate"]
+        return cast(Diagnosis, SimpleNamespace(verdict=verdict, causes=causes, records=[row]))
 
     assert says_more(answer(before, 1.0), answer(after, left)) == more

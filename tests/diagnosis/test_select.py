@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from tests.diagnosis import small
-from twintube.diagnosis.candidates import candidates
+from twintube.diagnosis.candidates import candidates, nuisances
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.options import Fold, Option
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.seen import DELAY
 from twintube.diagnosis.select import Selector
 
 
@@ -132,6 +133,34 @@ def test_what_is_too_short_for_the_sampling_joins_every_model_and_is_no_cause(pr
     (lag,) = (f for f in seen.free(("fluid_lag",), short.fits[0].values) if f.name == "tau_fluid")
     assert lag.high == pytest.approx(seen.candidates["fluid_lag"].least["tau_fluid"])
     assert not seen.alike("channel_delay", seen.sampling)  # a true delay may still be a cause
+
+
+def test_what_something_too_short_for_the_sampling_explains_as_well_is_no_cause(problem: Problem) -> None:
+    """A filter that the model without the first cause had not shown, beside it; a delay at its limit tells nothing of it."""
+    seen = crossed(problem)
+    late = next(f.high for f in nuisances(problem) if f.name == DELAY)
+
+    def option(name: str, left: float, **values: float) -> Option:
+        fits = tuple(replace(fit, values={**fit.values, **values}) for fit in seen.start.fits)
+        return replace(changed(seen, (name,), [left] * 4), fits=fits)
+
+    lag = option("fluid_lag", 0.30, tau_fluid=3.0 * seen.candidates["fluid_lag"].least["tau_fluid"])
+    short, limit = option(DELAY, 0.31, channel_delay=0.5 * late), option("fluid_lag", 0.31, channel_delay=late)
+    wear = option("valve_wear", 0.30, wear_re=-0.1)
+    assert seen.sampled(seen.start, lag, [lag, short])
+    assert not seen.sampled(seen.start, lag, [lag, limit]), "the delay does not end within the sampling"
+    assert not seen.sampled(seen.start, lag, [lag, option(DELAY, 0.6, channel_delay=0.5 * late)])
+    assert not seen.sampled(seen.start, wear, [wear, short])
+    assert not seen.short(limit) and seen.short(short)
+
+
+def test_a_single_record_beyond_noise_is_not_right(selector: Selector) -> None:
+    """Noise that is estimated too large in the others does not make up for it."""
+    misfit = np.array([0.5, 0.5, 0.5, 2.5])
+    quiet = replace(selector.start, misfit=misfit, score=float(selector.logs(misfit).sum()))
+    assert quiet.score < 0.0 and not selector.right(quiet)
+    calm = np.minimum(misfit, 1.0)
+    assert selector.right(replace(selector.start, misfit=calm, score=float(selector.logs(calm).sum())))
 
 
 def test_at_one_velocity_a_gain_is_no_second_cause_beside_heat(selector: Selector, problem: Problem) -> None:
