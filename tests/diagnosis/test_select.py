@@ -175,6 +175,25 @@ def test_at_one_velocity_a_gain_is_no_second_cause_beside_heat(selector: Selecto
     assert len(inside.counts) == RULES.parts * len(single.records)
 
 
+def test_of_two_frictions_that_explain_nearly_as_much_the_simpler_is_taken(
+    selector: Selector, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(selector, "acts", lambda o: True)
+    monkeypatch.setattr(selector, "worth", lambda before, after: True)
+    start, (fit, *others) = selector.start, selector.start.fits
+
+    def option(name: str, gained: float) -> Option:
+        free = (fit.free[0],) * (4 if name == "position_friction" else 2)
+        fits = (replace(fit, free=free), *others)
+        return replace(start, names=(name,), score=start.score * (1.0 - gained), fits=fits)
+
+    simple, rich, wear = option("side_load_friction", 0.60), option("position_friction", 0.61), option("valve_wear", 0.60)
+    assert selector.taken(start, [rich, wear, simple]) is simple
+    much = option("position_friction", 0.90)
+    assert selector.taken(start, [much, wear, simple]) is much
+    assert selector.taken(start, [rich, wear]) is rich
+
+
 def test_a_calibration_is_taken_where_it_is_best_by_both_measures(
     selector: Selector, monkeypatch: pytest.MonkeyPatch
 ) -> None:

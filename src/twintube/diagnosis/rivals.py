@@ -42,11 +42,16 @@ def near(selection: Selection, left: bool) -> list[Option]:
 
 
 def richer(option: Option, than: Option) -> bool:
-    """Whether an option is no better, though its new cause can do what the other's does and has more parameters.
+    """Whether an option is no better, though its new cause can do what the other's does and has more parameters."""
+    return option.score >= than.score and general(option, than)
+
+
+def general(option: Option, than: Option) -> bool:
+    """Whether the new cause of an option can do what the other's does, with more parameters.
 
     Friction that depends on the position may be the same everywhere, and wear of the valves that of all branches alike.
     """
     new, old = ({*some.names} - {*other.names} for some, other in ((option, than), (than, option)))
     alike = any((new | old) <= {*group} for group in (FRICTION, FACTORS))
     more = [len(some.fits[0].free) if some.fits else 0 for some in (option, than)]
-    return alike and option.score >= than.score and more[0] > more[1]
+    return alike and more[0] > more[1]

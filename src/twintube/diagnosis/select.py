@@ -22,7 +22,7 @@ from twintube.diagnosis.edges import less_noise
 from twintube.diagnosis.fit import Fit, Free, Problem
 from twintube.diagnosis.judge import Judge
 from twintube.diagnosis.options import Fold, Option, Selection, fitted
-from twintube.diagnosis.rivals import leading, near
+from twintube.diagnosis.rivals import general, leading, near
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import DELAY, MEASUREMENT
 from twintube.diagnosis.starts import best_start
@@ -220,6 +220,9 @@ class Selector(Judge):
         if not worthy:
             return None
         best = worthy[0]
+        # Of two that explain nearly as much the simpler, of which the other is a generalisation.
+        enough = current.score - (1.0 - RULES.close) * (current.score - best.score)
+        best = next((o for o in worthy if o.score <= enough and general(best, o)), best)
         if best.names[-1] == RECALIBRATE:  # so many parameters must be better than any cause by either measure
             best = next((o for o in worthy if o.total < best.total), best)
         near = [o for o in worthy if current.score - o.score >= RULES.near_best * (current.score - best.score)]
