@@ -171,7 +171,7 @@ def test_late_valves_do_not_show_in_the_steady_force(dashpot: Damper) -> None:
     [({"tau_fluid": 6e-4}, 5e-4), ({"C_fluid": 6e-7}, 5e-4), ({"C_fluid": 2e-6}, 5e-4), ({"V_air": 1.5e-7}, 5e-3)],
 )
 def test_a_jump_of_the_fluid_force_does_not_depend_on_the_step(sa8: Damper, element: dict[str, float], most: float) -> None:
-    """Gas that is used up lets the force jump within a step. Without its place in the step this was off by 0.2 to 3 %."""
+    """Gas that is used up lets the force jump within a step. Without its place in the step this was off by 0.2 to 2 %."""
     omega = 1.0 / 0.045
     t = np.linspace(0.0, 6 * np.pi / omega, 3 * 4800 + 1)
     z, v = -0.045 * np.cos(omega * t), np.sin(omega * t)
