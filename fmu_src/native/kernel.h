@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 75ea66a319af1f8f, body 7a64b0d829f4ec08; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 5f2431a4f728a87e, body 1e5af2a8726445cb; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -99,6 +99,9 @@ struct kernel_Parameters {
     double wear_co;
     double bleed_re;
     double bleed_co;
+    double opening_re;
+    double opening_co;
+    double opening_speed;
     double bleed_laminar;
 };
 
@@ -336,7 +339,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0) || (p->opening_re != 0.0) || (p->opening_co != 0.0))
     {
         return 1;
     }
@@ -701,7 +704,7 @@ static double kernel_effects_scale_valve(struct kernel_Parameters* p, double u)
 {
     double value;
     value = 1.0;
-    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0) || (p->opening_re != 0.0) || (p->opening_co != 0.0))
     {
         value *= kernel_valve_wear_scale_valve(p, u);
     }
@@ -1772,10 +1775,25 @@ static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, st
     return thin + (1.0 - laminar) * (1.0 - thin);
 }
 
+/* Factor [1] of the force `F` [N] at the speed `u` >= 0 [m/s] where the open blow-off has `lost` force [N]. */
+static double kernel_valve_wear_opening(struct kernel_Parameters* p, double u, double lost, double F)
+{
+    double opened;
+    opened = double_min(2, 1.0, double_max(2, 0.0, u / p->opening_speed - 0.5));
+    return ((opened > 0.0) && (F > 0.0) ? double_max(2, 0.0, 1.0 - opened * lost / F) : 1.0);
+}
+
 /* Factor of the fluid force [1] in the direction of `v`. */
 static double kernel_valve_wear_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
 {
-    return 1.0 + ((v >= 0.0 ? p->wear_re : p->wear_co));
+    double opened;
+    if (v >= 0.0)
+    {
+        opened = (p->opening_re > 0.0 ? kernel_valve_wear_opening(p, v, p->opening_re, kernel_branch(v, p->v_re, p->F_re)) : 1.0);
+        return (1.0 + p->wear_re) * opened;
+    }
+    opened = (p->opening_co > 0.0 ? kernel_valve_wear_opening(p, -v, p->opening_co, kernel_branch(-v, p->v_co, p->F_co)) : 1.0);
+    return (1.0 + p->wear_co) * opened;
 }
 
 static double kernel_effects_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
@@ -1786,7 +1804,7 @@ static double kernel_effects_scale_fluid(struct kernel_Parameters* p, struct ker
     {
         value *= kernel_oil_temperature_scale_fluid(p, s, v);
     }
-    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0) || (p->opening_re != 0.0) || (p->opening_co != 0.0))
     {
         value *= kernel_valve_wear_scale_fluid(p, s, v);
     }
@@ -1865,7 +1883,7 @@ static double kernel_effects_bypass(struct kernel_Parameters* p, double F)
 {
     double value;
     value = 0.0;
-    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0))
+    if ((p->wear_re != 0.0) || (p->wear_co != 0.0) || (p->bleed_re != 0.0) || (p->bleed_co != 0.0) || (p->opening_re != 0.0) || (p->opening_co != 0.0))
     {
         value += kernel_valve_wear_bypass(p, F);
     }
@@ -2279,6 +2297,7 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     double scale;
     double bled;
     double F_1;
+    double speed;
     bool done;
     if (dt <= 1e-09)
     {
@@ -2316,7 +2335,8 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     s->F_friction = s->F_friction * kernel_effects_scale_friction(p, s, s->z, v) + kernel_effects_rub(p, s->z, v);
     s->F_gas += kernel_effects_elastic(p, s, s->z);
     /* As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end. */
-    s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, (dt > 0.0 ? dz / dt : dz));
+    speed = 0.5 * fabs(s->goal_v0 + v);
+    s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, (dz >= 0.0 ? speed : -speed));
     s->F_mean = 0.5 * (kernel_fluid_force(p, s->goal_v0) * kernel_effects_scale_valve(p, s->goal_v0) + F_1) * s->k_mean;
     s->W_step = s->F_mean * dz;
     s->F_valve = s->F_fluid;

@@ -187,3 +187,17 @@ def test_no_candidate_changes_forces_while_its_strength_vanishes() -> None:
             if f.name in candidate.strength and f.high > f.start:
                 changed = problem.forces({f.name: f.start + 1e-9 * (f.high - f.start)})
                 assert np.abs(changed - given)[problem.used].max() < 1e-6 * peak, f.name
+
+
+@pytest.mark.parametrize("power", [0.0, 0.5, 1.0, 1.5, 2.0])
+def test_oil_that_leaked_in_a_record_is_missing_in_those_after_it(power: float) -> None:
+    film, damper = 2e-7, load("SA8")
+    runs = [small.run(speed, fill) for fill, speed in ((small.INTACT, 0.3), (small.DEGRADED, 0.1), (small.DEGRADED, 0.6))]
+    problem = small.problem([small.record(r) for r in runs])
+    lost = [film * 0.1 ** (1.0 - power) * float(np.trapezoid(np.abs(r.velocity) ** power, r.time)) for r in runs]
+    missing = (problem.states[:, 0] - problem.leaked(film, power)[:, 0]) * damper.parameters.V_oil
+    assert missing == pytest.approx([0.0, lost[0], lost[0] + lost[1]], rel=0.03)
+    leak = named(problem, "seal_leak")
+    assert "leak_carried" in leak.laws and "leak_carried" not in leak.strength
+    alone = small.problem([small.record(r) for r in runs[:1]])
+    assert "leak_carried" not in {f.name for f in named(alone, "seal_leak").free}

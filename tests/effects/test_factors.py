@@ -70,6 +70,19 @@ def test_wear_scales_each_branch_and_its_work() -> None:
     assert worn.k_degr.max() == pytest.approx(1.2)
 
 
+def test_a_weak_blow_off_takes_a_constant_force_where_it_is_open(sa8: Damper) -> None:
+    block = harmonic_block(1.048)
+    v = block.velocity
+    for speed in (0.2, 1.0):
+        weak = sa8.with_(opening_re=60.0, opening_co=25.0, opening_speed=speed)
+        plain, worn = (simulate(x, block.stroke, v).F_fluid for x in (sa8, weak))
+        opened = np.clip(np.abs(v) / speed - 0.5, 0.0, 1.0)
+        assert plain - worn == pytest.approx(opened * np.where(v >= 0.0, 60.0, -25.0), abs=1e-6)
+    # No spring pulls: at most all of the force is lost.
+    none = simulate(sa8.with_(opening_re=1000.0, opening_speed=0.02), block.stroke, v).F_fluid[v > 0.0]
+    assert none.min() == 0.0
+
+
 @pytest.mark.parametrize(
     ("recorded", "error", "true"), [(0.6, -0.1, 0.5), (1.0, -0.1, 0.9), (0.9, 0.3, 1.0), (0.2, -0.3, 0.0)]
 )

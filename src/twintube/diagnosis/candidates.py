@@ -10,7 +10,7 @@ from twintube.core import effects
 from twintube.core.hooks import Effect, sources
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import BENDS, CLOCK, DELAY, LINEAR, SETTLING, STROKE_GAIN
+from twintube.diagnosis.seen import BENDS, CARRIED, CLOCK, DELAY, LEAK, LINEAR, SETTLING, STROKE_GAIN
 
 FAULT_TITLES = {
     "force_offset": "Zero of the load cell",
@@ -39,6 +39,7 @@ ALIKE = (LATE, FRICTION, CONTENTS)  # of each a second only mends the formulatio
 FADING = tuple(name for name in hooked("scale_fluid") if name in hooked("phases"))  # the force falls with what happened
 # At a single velocity, beside what fades, another temperature at the start.
 FACTORS = ("force_gain", STROKE_GAIN, *(name for name in hooked("scale_fluid") if name not in FADING))
+SCALING = (*FACTORS, *FADING)  # of which a second may only mend the formulation of the first
 
 
 @dataclass(frozen=True)
@@ -122,12 +123,16 @@ def candidates(problem: Problem) -> list[Candidate]:
                 usual = {"s": time, "N": RULES.small_force * peak}
                 least[item.name] = usual.get(meta["unit"], RULES.acts * (high - low))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}
+        carried = any(f.name == LEAK for f in free) and any(record.before[0] > 0.0 for record in problem.records)
+        free += [Free(CARRIED, 0.0, 0.0, 1.0)] if carried else []
+        units |= {CARRIED: "1"} if carried else {}
         fills = problem.fills() if effect.name in FILLED else {}
         for name in fills if len(fills) > 1 else ():
             like = free[0]
             free.append(replace(like, name=name))
             least[name], units[name] = least[like.name], units[like.name]
         laws = tuple(item.name for item in effect.parameters if item.metadata["role"] == "law" and item.name not in unknown)
+        laws += (CARRIED,) if carried else ()
         several.append(
             Candidate(
                 effect.name,

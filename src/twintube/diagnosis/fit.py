@@ -103,6 +103,7 @@ class Problem(SeenRecords):
         kept = [i for i in order if i in worst or i in [rest[k] for k in spread]]
         other = self.with_records([self.records[i] for i in kept])
         other.share = np.concatenate([self.share[self.starts[i] : self.starts[i + 1]] for i in kept])
+        other.parts = RULES.steps_sketched
         return other
 
     def balanced(self, misfit: Array) -> "Problem":

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import LATE, RECALIBRATE
+from twintube.diagnosis.candidates import LATE, RECALIBRATE, SCALING
 from twintube.diagnosis.gains import bootstrap, removed
 from twintube.diagnosis.options import Fold, Option, counts_of, logs
 from twintube.diagnosis.rules import RULES
@@ -66,6 +66,9 @@ class Judge:
         Many records a little better and some far worse is a formulation, not a second cause. So is a small part of the
         error of which another cause explains some.
         """
+        scaling = [name for name in after.names if name in SCALING]
+        if len(scaling) > 1 and scaling[-1] == after.names[-1] and not self.near(after):
+            return "makes the fluid force larger or smaller as another cause does, and does not leave noise alone"
         less, whole = before.total - after.total, self.excess(self.start)
         if less >= RULES.rest_share * self.excess(before) and less >= RULES.little_share * whole and self.near(after):
             return ""

@@ -51,6 +51,7 @@ class PreparedRecord:
     gas_pressure: float | None  # gauge [Pa], where known
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through
     tenth: NDArray[np.int64] | None = None  # (n,) of its intervals, where every second tenth is compared
+    before: tuple[float, float, float] = (0.0, 0.0, 0.0)  # `travelled` in the records before it in the dataset
 
     @property
     def intact(self) -> bool:
@@ -172,7 +173,19 @@ def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
     """All records of a dataset; raises InputError where a stroke leaves the tube."""
     begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
     usual = float(np.median(begins)) if begins else 0.0
-    return [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
+    ready = [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
+    past = np.zeros(3)
+    for i, record in enumerate(ready):
+        duration, way, square = past.tolist()
+        ready[i] = replace(record, before=(duration, way, square))
+        past += travelled(record)
+    return ready
+
+
+def travelled(record: PreparedRecord) -> Array:
+    """Integrals (3,) of the speed over the time of a record to the powers 0, 1 and 2: duration [s], way [m], and [m2/s]."""
+    speed, span = np.abs(record.velocity), np.diff(record.time, prepend=record.time[0])
+    return np.array([float(np.sum(span * speed**power)) for power in (0, 1, 2)])
 
 
 def beginning_temperature(record: Record) -> float | None:

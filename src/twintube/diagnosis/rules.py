@@ -176,6 +176,9 @@ class Rules:
     steps_per_interval: int = fitting(
         4, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
     )
+    steps_sketched: int = fitting(
+        2, "", "the like in the records that a search for a start looks at: it only ranks starts", JUDGEMENT
+    )
     pull: float = fitting(
         0.5, "1", "of the range: standard deviation of a weak pull that keeps idle parameters in place", JUDGEMENT
     )

@@ -25,7 +25,7 @@ from twintube.diagnosis.options import Fold, Option, Selection, fitted
 from twintube.diagnosis.rivals import general, leading, near
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import DELAY, MEASUREMENT
-from twintube.diagnosis.starts import best_start
+from twintube.diagnosis.starts import best_start, measured, start_cost
 from twintube.fitting.splits import distinct
 
 
@@ -44,6 +44,7 @@ class Selector(Judge):
         self.candidates = {c.name: c for c in candidates}
         self.calibration = calibration(whole)
         self.point: dict[str, float] | None = None
+        self.begun: dict[tuple[tuple[str, ...], str, tuple[str, ...]], dict[str, float]] = {}  # where candidates begin
         self.begin(whole, folds)
 
     def begin(self, whole: Problem, folds: Sequence[Fold]) -> None:
@@ -85,8 +86,14 @@ class Selector(Judge):
         """Where a further cause begins in all folds, and the sum of squares there.
 
         From starts of their own the folds may end in different laws, of which a single law holds for the others' records.
+        A search is not repeated where only the noise of the same records is known better.
         """
-        return best_start(self.sketches, self.known(name), [fit.values for fit in current.fits], self.whole)
+        fixed = [fit.values for fit in current.fits]
+        key = (current.names, name, tuple(record.name for sketch in self.sketches for record in sketch.records))
+        if key not in self.begun:
+            low, self.begun[key] = best_start(self.sketches, self.known(name), fixed, self.whole)
+            return low, self.begun[key]
+        return start_cost(self.sketches, self.begun[key], fixed, measured(name, self.whole)), self.begun[key]
 
     def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
         """The current model with a further cause, from its best start where no other is given."""
@@ -247,9 +254,8 @@ class Selector(Judge):
         return sorted(options, key=lambda o: (not self.acts(o), o.score))
 
     def sketched(self, current: Option) -> float:
-        """The sum of squares of a model, the measurement free, in the records that the searches for starts look at."""
-        pairs = zip(self.sketches, current.fits, strict=True)
-        return sum(sketch.costs([fit.values], fit.values, linear(self.whole))[0] for sketch, fit in pairs)
+        """The sum of squares of a model in these records."""
+        return start_cost(self.sketches, {}, [fit.values for fit in current.fits], linear(self.whole))
 
     def alike(self, name: str, names: Sequence[str]) -> bool:
         """Whether a candidate would only mend the formulation of a chosen cause."""

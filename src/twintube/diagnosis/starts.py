@@ -56,6 +56,19 @@ def clock_starts(problems: Sequence[Problem], fixed: Sequence[Mapping[str, float
     return [float(clocks[i]) for i in lowest[np.argsort(costs[lowest])][: RULES.clock_starts]] or [0.0]
 
 
+def measured(name: str, whole: Problem) -> tuple[Free, ...]:
+    """What of the measurement is free where a candidate begins."""
+    return (nuisances if name in LATENESS else linear)(whole)
+
+
+def start_cost(
+    problems: Sequence[Problem], point: Mapping[str, float], fixed: Sequence[Mapping[str, float]], free: Sequence[Free]
+) -> float:
+    """The sum of squares of a point in all problems, `free` of the measurement; `fixed` are the other values in each."""
+    pairs = zip(problems, fixed, strict=True)
+    return sum(problem.costs([{**values, **point}], values, free)[0] for problem, values in pairs)
+
+
 def best_start(
     problems: Sequence[Problem],
     candidate: Candidate,
@@ -71,9 +84,8 @@ def best_start(
     So that is sought without a delay, too: as far off as that its slope does not hold. `whole` has all records, of which the
     problems may have a part only.
     """
-    late = candidate.name in LATENESS
-    free = (nuisances if late else linear)(whole or problems[0])
-    stands_in = late and any(abs(problem.usual.get(DELAY, 0.0)) > 0.0 for problem in problems)
+    free = measured(candidate.name, whole or problems[0])
+    stands_in = candidate.name in LATENESS and any(abs(problem.usual.get(DELAY, 0.0)) > 0.0 for problem in problems)
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     if candidate.single:  # a step of the force comes or goes with some thousandths of the oil
         grids |= {f.name: [x for size in fills(f.high) for x in (size, -size)] for f in candidate.free}
@@ -98,13 +110,18 @@ def best_start(
         some = [dict(zip(shapes, other, strict=True)) for other in every] + [{DELAY: 0.0}] * stands_in
         if len(left) < len(candidate.strength):
             some = [{}, *({name: x} for name in shapes for x in grids[name])]
-        rows = [(name, x, shape) for name in left for x in grids[name] for shape in some]
+        # A length or a power that belongs to another strength changes nothing: it need not be tried with this one.
+        rows = [(name, grids[name][len(grids[name]) // 2], shape) for name in left for shape in some]
+        scores = costs([best | {name: x} | shape for name, x, shape in rows])
+        seen = {(name, score): shape for (name, _, shape), score in zip(reversed(rows), reversed(scores), strict=True)}
+        fewer = {name: [shape for key, shape in seen.items() if key[0] == name] for name in left}
+        rows = [(name, x, shape) for name in left for x in grids[name] for shape in fewer[name]]
         points = [best | {name: x} | shape for name, x, shape in rows]
         scores = costs(points)
         # Else a strength between two values of its grid, or beyond, loses against a value of another's.
         for name in left:
             own = [i for i, row in enumerate(rows) if row[0] == name]
-            for shape in some:
+            for shape in fewer[name]:
                 line = {best[name]: neutral} | {rows[i][1]: scores[i] for i in own if rows[i][2] == shape}
                 points += [best | shape | {name: x}] if (x := lowest(line)) not in line else []
             top = points[min(own, key=lambda i: scores[i])]

@@ -4,7 +4,7 @@ from dataclasses import fields
 
 from twintube.core.effects import EFFECTS, Parameters
 from twintube.diagnosis.candidates import FAULT_TITLES, RECALIBRATE
-from twintube.diagnosis.seen import FILL
+from twintube.diagnosis.seen import CARRIED, FILL
 from twintube.diagnosis.verdict import lower
 
 
@@ -26,6 +26,7 @@ MEASURED = {
     "channel_delay": "by which the force is later than the stroke",
     "zero_drift": "rise of the zero with time, at first",
     "zero_settling": "rate at which this rise settles; 0: it goes on",
+    CARRIED: "of the oil lost in the records before that was not refilled",
     "clock_error": "by which the clock of the force is fast",
 }
 

@@ -1,4 +1,7 @@
-"""Worn or clogged valves: the F-v curve is scaled, and a leak lets oil past the valves, each direction by itself.
+"""Worn or clogged valves: the F-v curve is scaled, its blow-off opens at less force, and a leak lets oil past the valves.
+
+Each direction by itself. A blow-off spring that has lost preload takes a constant force away where the valve is open. It
+opens gradually, between half of `opening_speed` and one and a half of it.
 
 The leak is parallel to the valves: an orifice, or a narrow gap in which the flow is laminar, or both. At the force F it
 passes bleed ((1 - laminar) sqrt(F / 1000 N) + laminar F / 1000 N), in terms of the speed of the piston, beside u_valve(F):
@@ -39,13 +42,31 @@ class Parameters(variables.Parameters):
     bleed_co: float = var("valve_wear", "", "m/s", "the same in compression", lower=0, upper=0.5,
                           source="turbulent orifice; Dixon, The Shock Absorber Handbook", default=0.0, role="strength",
                           nominal=0.05)  # fmt: skip
+    opening_re: float = var("valve_wear", "", "N", "force that the open blow-off has lost, rebound", lower=0, upper=1000,
+                            source="preload of the valve's spring; Dixon, The Shock Absorber Handbook", default=0.0,
+                            role="strength")  # fmt: skip
+    opening_co: float = var("valve_wear", "", "N", "the same in compression", lower=0, upper=1000,
+                            source="preload of the valve's spring; Dixon, The Shock Absorber Handbook", default=0.0,
+                            role="strength")  # fmt: skip
+    opening_speed: float = var("valve_wear", "", "m/s", "speed at which the blow-off is half open", lower=0.02, upper=2,
+                               source="knee of the F-v curve", default=0.2, role="scale")  # fmt: skip
     bleed_laminar: float = var("valve_wear", "", "1", "share of the leak at 1000 N that is laminar", lower=0, upper=1,
                                source="gap of a worn piston ring", default=0.0, role="law")  # fmt: skip
 
 
+def valve_wear_opening(p: Parameters, u: float, lost: float, F: float) -> float:
+    """Factor [1] of the force `F` [N] at the speed `u` >= 0 [m/s] where the open blow-off has `lost` force [N]."""
+    opened = min(1.0, max(0.0, u / p.opening_speed - 0.5))
+    return max(0.0, 1.0 - opened * lost / F) if opened > 0.0 and F > 0.0 else 1.0
+
+
 def valve_wear_scale_fluid(p: Parameters, s: Frame, v: float) -> float:
     """Factor of the fluid force [1] in the direction of `v`."""
-    return 1.0 + (p.wear_re if v >= 0.0 else p.wear_co)
+    if v >= 0.0:
+        opened = valve_wear_opening(p, v, p.opening_re, branch(v, p.v_re, p.F_re)) if p.opening_re > 0.0 else 1.0
+        return (1.0 + p.wear_re) * opened
+    opened = valve_wear_opening(p, -v, p.opening_co, branch(-v, p.v_co, p.F_co)) if p.opening_co > 0.0 else 1.0
+    return (1.0 + p.wear_co) * opened
 
 
 def valve_wear_leak(p: Parameters, bleed: float, F: float) -> float:
