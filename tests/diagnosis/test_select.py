@@ -98,10 +98,22 @@ def test_a_further_cause_must_take_a_good_part_of_what_is_left(selector: Selecto
     assert selector.worth(first, much)
 
 
+def test_a_second_factor_of_the_force_leaves_noise_alone(selector: Selector) -> None:
+    mean = float(selector.start.misfit.mean())
+    first = changed(selector, ("valve_wear",), [0.5] * 4)
+    for name, left, worth in (("oil_temperature", 4.0, False), ("oil_temperature", 1.0, True), ("gas_spring", 4.0, True)):
+        both = changed(selector, ("valve_wear", name), [left / mean] * 4)
+        assert selector.worth(first, both) == worth
+    assert "as another cause does" in selector.against(
+        first, changed(selector, ("valve_wear", "force_gain"), [4.0 / mean] * 4)
+    )
+
+
 def test_a_cause_and_its_start_are_those_of_the_truth(selector: Selector) -> None:
     cost, point = selector.beginning(selector.start, "valve_wear")
     assert cost < (1 - RULES.promise) * selector.sketched(selector.start)
-    assert {name: np.sign(x) for name, x in point.items() if x} == {"wear_re": -1.0, "wear_co": -1.0}
+    strengths = selector.known("valve_wear").strength
+    assert {name: np.sign(x) for name, x in point.items() if name in strengths} == {"wear_re": -1.0, "wear_co": -1.0}
     worn = selector.extended(selector.start, "valve_wear", point)
     assert selector.acts(worn) and selector.worth(selector.start, worn)
     values = selector.refitted(worn, thorough=True).values

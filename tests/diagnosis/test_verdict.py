@@ -39,7 +39,7 @@ KNOWN = {
 
 
 def option(*names: str, score: float) -> Option:
-    return Option(names, (), (), np.ones(1), np.zeros(1), np.ones(1), score)
+    return Option(names, (), (), np.ones(1), np.zeros(1), np.ones(1), score, np.ones(1))
 
 
 def selection(final: Option, *others: Option, start: float = SCORE) -> Selection:
@@ -54,12 +54,14 @@ def judged(
     value: Estimate = FOUND,
     seen: Sequence[Signature] = (),
     forces: tuple[float, float, float] = (100.0, 20.0, 10.0),
+    works: tuple[float, float, float] = (0.0, 0.0, 0.0),
     gain: Gain = GOOD,
     faults: Sequence[Fault] = (),
     attempts: Sequence[Tried] = (),
 ) -> Judgement:
-    """The verdict; `forces` [N] are the held-out errors of base and extended model and of noise."""
-    errors = {name: Errors(x, 0.0) for name, x in zip(("base", "extended", "noise_floor"), forces, strict=True)}
+    """The verdict; `forces` [N] and `works` [J] are the held-out errors of base and extended model and of noise."""
+    names = ("base", "extended", "noise_floor")
+    errors = {name: Errors(force, work) for name, force, work in zip(names, forces, works, strict=True)}
     estimates = {name: {"strength": value} for name in KNOWN}
     return judge(chosen, KNOWN, estimates, list(seen), errors, gain, list(faults), attempts)
 
@@ -237,6 +239,13 @@ def test_where_noise_is_left_a_cause_explains_half_at_least() -> None:
     forces = (11.5, 11.0, 10.0)
     assert judged(chosen, forces=forces, gain=replace(GOOD, heldout=0.55)).causes == ["valve_wear"]
     assert judged(chosen, forces=forces, gain=replace(GOOD, heldout=0.25)).verdict == "unexplained"
+
+
+def test_within_noise_a_cause_halves_the_error_of_the_work() -> None:
+    chosen, forces = selection(option("valve_wear", score=20.0)), (10.8, 10.2, 10.0)
+    assert judged(chosen, forces=forces, works=(1.0, 0.3, 0.0)).causes == ["valve_wear"]
+    assert judged(chosen, forces=forces, works=(1.0, 0.6, 0.0)).verdict == "none"
+    assert judged(chosen, forces=forces, works=(1.0, 0.3, 0.0), gain=replace(GOOD, heldout=0.25)).verdict == "none"
 
 
 def test_a_rival_of_one_of_two_causes_is_judged_beside_the_other() -> None:
