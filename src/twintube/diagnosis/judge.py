@@ -34,6 +34,10 @@ class Judge:
         """Twice the negative log-likelihood (u,) of each held-out unit."""
         return logs(self.counts, misfit)
 
+    def improved(self, before: Option, after: Option) -> int:
+        """How many held-out units are explained better, each by more than noise gives."""
+        return int(np.sum(self.logs(before.misfit) - self.logs(after.misfit) > self.limit))
+
     def worth(self, before: Option, after: Option) -> bool:
         """Whether an improvement of the held-out misfit is more than noise, numerics and formulation give."""
         return not self.against(before, after)

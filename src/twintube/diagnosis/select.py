@@ -232,6 +232,11 @@ class Selector(Judge):
         best = next((o for o in worthy if o.score <= enough and general(best, o)), best)
         if best.names[-1] == RECALIBRATE:  # so many parameters must be better than any cause by either measure
             best = next((o for o in worthy if o.total < best.total), best)
+        if best.names[-1] == RECALIBRATE:  # and in most of the records
+            least, enough = self.improved(current, best) / RULES.half, current.score - best.score
+            wider = (o for o in worthy if self.improved(current, o) >= least)
+            best = next((o for o in wider if current.score - o.score >= RULES.near_best * enough), best)
+            worthy = [best] if best.names[-1] != RECALIBRATE else worthy
         near = [o for o in worthy if current.score - o.score >= RULES.near_best * (current.score - best.score)]
         calm = [o for o in near if o.total <= (1 - RULES.next_share) * best.total]
         return min(calm, key=lambda o: o.total, default=best)
