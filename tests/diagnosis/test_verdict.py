@@ -245,6 +245,8 @@ def test_within_noise_a_cause_halves_the_error_of_the_work() -> None:
     chosen, forces = selection(option("valve_wear", score=20.0)), (10.8, 10.2, 10.0)
     assert judged(chosen, forces=forces, works=(1.0, 0.3, 0.0)).causes == ["valve_wear"]
     assert judged(chosen, forces=forces, works=(1.0, 0.6, 0.0)).verdict == "none"
+    late = selection(option("fluid_lag", score=20.0))
+    assert judged(late, forces=forces, works=(1.0, 0.3, 0.0)).verdict == "none"
     assert judged(chosen, forces=forces, works=(1.0, 0.3, 0.0), gain=replace(GOOD, heldout=0.25)).verdict == "none"
 
 

@@ -67,11 +67,13 @@ def judge(
     if quiet:
         # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained. So
         # small an error, less than half of the noise, names a fault of the measurement at most, and what halves the error
-        # of the work of an oscillation, which knows neither noise nor where between two samples the force steps.
+        # of the work of an oscillation, which knows neither noise nor where between two samples the force steps. What makes
+        # the force late moves its steps, as sampling does.
         faulty = all(candidates[name].fault for name in causes)
         clear = faulty and selection.final.score <= (1 - RULES.half) * selection.start.score
         works = [errors[name].work_rmse_J for name in ("extended", "base")]
-        enough = clear or (enough and works[0] < (1 - RULES.half) * works[1])
+        lasting = works[0] < (1 - RULES.half) * works[1] and not any(name in LATE for name in causes)
+        enough = clear or (enough and lasting)
     close = rivals(selection, extended > RULES.quiet * floor)
     solved = bool(selection.chosen) and proven and enough and not doubts
     if outside and not (solved and extended <= RULES.quiet * floor):
