@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 5f2431a4f728a87e, body 1e5af2a8726445cb; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 4ba8637d7391b2e1, body e511bc719cff1768; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -2335,7 +2335,7 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     s->F_friction = s->F_friction * kernel_effects_scale_friction(p, s, s->z, v) + kernel_effects_rub(p, s->z, v);
     s->F_gas += kernel_effects_elastic(p, s, s->z);
     /* As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end. */
-    speed = 0.5 * fabs(s->goal_v0 + v);
+    speed = fabs(s->goal_v0 + v) / 2.0;
     s->k_mean = f->k_mean * kernel_effects_scale_fluid(p, s, (dz >= 0.0 ? speed : -speed));
     s->F_mean = 0.5 * (kernel_fluid_force(p, s->goal_v0) * kernel_effects_scale_valve(p, s->goal_v0) + F_1) * s->k_mean;
     s->W_step = s->F_mean * dz;

@@ -70,8 +70,8 @@ def test_wear_scales_each_branch_and_its_work() -> None:
     assert worn.k_degr.max() == pytest.approx(1.2)
 
 
-def test_a_weak_blow_off_takes_a_constant_force_where_it_is_open(sa8: Damper) -> None:
-    block = harmonic_block(1.048)
+def test_a_weak_blow_off_takes_a_constant_force_where_it_is_open() -> None:
+    block, sa8 = harmonic_block(1.048), load("SA8")
     v = block.velocity
     for speed in (0.2, 1.0):
         weak = sa8.with_(opening_re=60.0, opening_co=25.0, opening_speed=speed)

@@ -22,6 +22,7 @@ the kernel's subset of Python. Every parameter says its role (ROLES); an effect 
     felt            (p, s, F, dt) -> force [N]        after the step, if the fluid force at the valves is F
     force           (p, s, v, dz, dt)                 s.F_fluid, s.F_valve, s.F_mean, s.W_step of a force with memory
     finish          (p, s, dt)                        what follows from forces and work
+    lost            (p, duration, way, square)        oil [m3] that a record takes along, for those after it; not in a step
 """
 
 import ast
@@ -55,6 +56,7 @@ HOOKS = {
     "felt": ("p: Parameters, s: State, value: float, dt: float", "float", "chain"),
     "force": ("p: Parameters, s: State, v: float, dz: float, dt: float", "None", "call"),
     "finish": ("p: Parameters, s: State, dt: float", "None", "call"),
+    "lost": ("p: Parameters, duration: float, way: float, square: float", "float", "sum"),
 }
 FIRST = {"call": "", "chain": "", "sum": "    value = 0.0\n", "product": "    value = 1.0\n", "most": "    value = 1\n"}
 LINE = {

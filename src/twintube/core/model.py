@@ -116,7 +116,7 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     s.F_friction = s.F_friction * effects_scale_friction(p, s, s.z, v) + effects_rub(p, s.z, v)
     s.F_gas += effects_elastic(p, s, s.z)
     # As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end.
-    speed = 0.5 * abs(s.goal_v0 + v)
+    speed = abs(s.goal_v0 + v) / 2.0
     s.k_mean = f.k_mean * effects_scale_fluid(p, s, speed if dz >= 0.0 else -speed)
     s.F_mean = 0.5 * (fluid_force(p, s.goal_v0) * effects_scale_valve(p, s.goal_v0) + F_1) * s.k_mean
     s.W_step = s.F_mean * dz

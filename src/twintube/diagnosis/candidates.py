@@ -10,7 +10,7 @@ from twintube.core import effects
 from twintube.core.hooks import Effect, sources
 from twintube.diagnosis.fit import Free, Problem
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import BENDS, CARRIED, CLOCK, DELAY, LEAK, LINEAR, SETTLING, STROKE_GAIN
+from twintube.diagnosis.seen import BENDS, CARRIED, CLOCK, DELAY, LINEAR, SETTLING, STROKE_GAIN
 
 FAULT_TITLES = {
     "force_offset": "Zero of the load cell",
@@ -32,6 +32,7 @@ LATE = (*LATENESS, DELAY, CLOCK)  # and faults that do
 FILLED = hooked("level")  # another fill than the recorded one, in all states alike or in one
 # What changes volumes alone moves steps of the force, or brings them about.
 MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked("scale_fluid"), *FILLED))
+LOSING = hooked("lost")  # oil that is lost in a record is missing in those after it
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
 RECALIBRATE = "recalibrate"
 CONTENTS = (*MOVING, *(name for name in hooked("motion") if name not in LATE))  # what becomes of oil, freed gas and foam
@@ -123,7 +124,7 @@ def candidates(problem: Problem) -> list[Candidate]:
                 usual = {"s": time, "N": RULES.small_force * peak}
                 least[item.name] = usual.get(meta["unit"], RULES.acts * (high - low))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}
-        carried = any(f.name == LEAK for f in free) and any(record.before[0] > 0.0 for record in problem.records)
+        carried = effect.name in LOSING and any(record.before[0] > 0.0 for record in problem.records)
         free += [Free(CARRIED, 0.0, 0.0, 1.0)] if carried else []
         units |= {CARRIED: "1"} if carried else {}
         fills = problem.fills() if effect.name in FILLED else {}

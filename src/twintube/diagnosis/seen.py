@@ -11,6 +11,7 @@ from twintube.core import effects
 from twintube.dampers import Damper
 from twintube.diagnosis.prepare import PreparedRecord
 from twintube.diagnosis.rules import RULES
+from twintube.engine import compiled
 from twintube.fitting.averaging import averaged_means
 from twintube.fitting.simulation import SimulatedRecords
 
@@ -26,8 +27,7 @@ ADDED = ("force_offset", "force_gain", "zero_drift", SETTLING, *SAMPLING)
 STROKE_GAIN, DELAY, CLOCK = "stroke_gain", "channel_delay", "clock_error"
 MOTION = (STROKE_GAIN, DELAY, CLOCK)
 FILL = "fill_of_state_"  # with the per cent of a state: its true oil level beyond the recorded one
-LEAK = "leak_film"
-CARRIED = "leak_carried"  # share of the oil lost in the records before, in the order of the dataset, that is not refilled
+CARRIED = "loss_carried"  # share of the oil lost in the records before, in the order of the dataset, that is not refilled
 MEASUREMENT = (*ADDED, *MOTION)
 REMEMBERED = 32  # latest simulations
 MOVED = 4  # latest delays and clocks: that of the sampling is in every model
@@ -63,7 +63,7 @@ class SeenRecords(SimulatedRecords):
             if values.get(n, neutral) != neutral
         }
         named |= {n: x for n, x in values.items() if n.startswith(FILL) and x != 0.0}
-        named |= {CARRIED: values[CARRIED]} if values.get(CARRIED, 0.0) * values.get(LEAK, 0.0) > 0.0 else {}
+        named |= {CARRIED: values[CARRIED]} if values.get(CARRIED, 0.0) > 0.0 else {}
         return tuple(sorted(named.items()))
 
     def fills(self) -> dict[str, Array]:
@@ -78,15 +78,15 @@ class SeenRecords(SimulatedRecords):
             states[of, 0] = np.clip(states[of, 0] + errors.get(name, 0.0), 0.0, 1.0)
         return states
 
-    def leaked(self, film: float, power: float) -> Array:
-        """Degraded states (r, 4) without what a leak of `film` [m2] took in the records before, see effects/seal_leak.py."""
-        logs = np.log(np.maximum(np.array([record.before for record in self.records]), 1e-12))  # (r, 3)
-        # Between the powers 0, 1 and 2 the integral of the speed's power is a smooth curve of its logarithm.
-        shares = np.array([(power - 1.0) * (power - 2.0) / 2.0, power * (2.0 - power), power * (power - 1.0) / 2.0])
-        lost = film * 0.1 ** (1.0 - power) * np.exp(logs @ shares)
+    def drained(self, changes: Mapping[str, float], carried: float) -> Array:
+        """Degraded states (r, 4) without the share `carried` of the oil that was lost in the records before."""
+        row = self.rows()[0]
+        for name, value in changes.items():
+            row[name] = value
+        lost = np.array([compiled.module().effects_lost(row, *record.before) for record in self.records])
         states = self.states.copy()
         degraded = states[:, 1] == 0
-        states[degraded, 0] = np.clip(states[degraded, 0] - lost[degraded] / self.given.parameters.V_oil, 0.0, 1.0)
+        states[degraded, 0] = np.clip(states[degraded, 0] - carried * lost[degraded] / row["V_oil"], 0.0, 1.0)
         return states
 
     def simulate(self, changes: Sequence[tuple[str, float]]) -> tuple[Array, Array]:
@@ -97,7 +97,8 @@ class SeenRecords(SimulatedRecords):
         fills = {name: values.pop(name) for name in list(values) if name.startswith(FILL)}
         states = self.refilled(fills) if fills else self.states
         if CARRIED in values:
-            states = self.leaked(values.pop(CARRIED) * values[LEAK], values.get("leak_power", 1.0))
+            carried = values.pop(CARRIED)
+            states = self.drained(values, carried)
         force, point, _ = self.sampled(self.rows(), values.items(), (z / gain, v / gain), states)
         force = self.averaged_samples(force)
         for record, a, b in zip(self.records, self.starts[:-1], self.starts[1:], strict=True):

@@ -65,3 +65,16 @@ def seal_leak_phases(p: Parameters, s: State, way: float, dt: float) -> None:
         s.V1_oil -= oil
         s.V1_gas += oil
         s.V_lost += oil
+
+
+def seal_leak_lost(p: Parameters, duration: float, way: float, square: float) -> float:
+    """Oil [m3] lost in a `duration` [s] of a `way` [m], where the squared speed has the integral `square` [m2/s].
+
+    That of the speed to a power between those of the three is taken by the parabola of their logarithms.
+    """
+    if duration <= 0.0 or way <= 0.0 or square <= 0.0:
+        return 0.0
+    n = p.leak_power
+    low = 0.5 * (n - 1.0) * (n - 2.0) * math.log(duration)
+    high = 0.5 * n * (n - 1.0) * math.log(square)
+    return p.leak_film * 0.1 * math.exp(low + n * (2.0 - n) * math.log(way) + high - n * math.log(0.1))
