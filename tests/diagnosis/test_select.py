@@ -218,3 +218,23 @@ def test_a_calibration_is_taken_where_it_is_best_by_both_measures(
     calibrated = option("recalibrate", 1.0, 5.0)
     assert selector.taken(selector.start, [calibrated, calm]) is calm
     assert selector.taken(selector.start, [calibrated, loud]) is calibrated
+
+
+def test_a_calibration_that_explains_few_records_is_not_preferred_to_a_cause_in_most(
+    selector: Selector, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A step that falls otherwise in two records holds much of the squared error."""
+    monkeypatch.setattr(selector, "acts", lambda o: True)
+    monkeypatch.setattr(selector, "worth", lambda before, after: True)
+    start = selector.start
+    few, most = (
+        changed(selector, ("recalibrate",), [0.001, 1, 1, 1]),
+        changed(selector, ("gas_spring",), [0.2, 0.2, 0.2, 0.2]),
+    )
+    some = changed(selector, ("gas_spring",), [0.9, 0.9, 0.9, 0.9])
+    gained = {option.names: start.score - option.score for option in (few, most)}
+    assert selector.improved(start, few) == 1 and selector.improved(start, most) == 4
+    several = sorted((few, most), key=lambda o: o.score)
+    assert gained["gas_spring",] > RULES.near_best * gained["recalibrate",]
+    assert selector.taken(start, several) is most
+    assert selector.taken(start, [few, some]) is few, "it explains far less"
