@@ -39,7 +39,7 @@ KNOWN = {
 
 
 def option(*names: str, score: float) -> Option:
-    return Option(names, (), (), np.ones(1), np.zeros(1), np.ones(1), score, np.ones(1))
+    return Option(names, (), (), np.ones(1), np.zeros(1), np.ones(1), score)
 
 
 def selection(final: Option, *others: Option, start: float = SCORE) -> Selection:

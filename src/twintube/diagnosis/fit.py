@@ -135,15 +135,6 @@ class Problem(SeenRecords):
         """Mean error (r,) [N] of each record from weighted errors (n,)."""
         return np.asarray(np.add.reduceat(weighted * self.weight, self.starts[:-1]) / self.power)
 
-    def works(self, errors: Array) -> Array:
-        """Work [J] (r,) per oscillation of errors (n,) [N], in the intervals that are compared.
-
-        Steps that fall a bit earlier or later change it little, and noise averages out.
-        """
-        ways = np.diff(self.z, prepend=self.z[0]) * self.used
-        turns = [max(1, len(np.unique(record.cycle[record.cycle >= 0]))) for record in self.records]
-        return np.asarray(np.add.reduceat(errors * ways, self.starts[:-1]) / np.array(turns))
-
     def zeros(self, errors: Array) -> Array:
         """The expected zero [N] of each sample's record (n,) for errors (n,) [N] of a model.
 

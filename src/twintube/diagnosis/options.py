@@ -31,7 +31,6 @@ class Option:
     means: Array  # (h,) mean errors [N] of the held-out records
     squares: Array  # (u,) sums of squared weighted errors
     score: float  # twice the negative log-likelihood of the held-out records
-    works: Array  # (h,) errors of the work per oscillation [J] of the held-out records
 
     @property
     def total(self) -> float:
@@ -62,9 +61,8 @@ def fitted(folds: Sequence[Fold], names: Sequence[str], frees: Sequence[Sequence
     held = [(fold.held, values) for fold, values in zip(folds, seen, strict=True)]
     misfit = np.concatenate([judge.unit_misfits(judge.residual(values)) for judge, values in held])
     means = np.concatenate([judge.means(judge.errors(values) * judge.weight) for judge, values in held])
-    works = np.concatenate([judge.works(judge.errors(values)) for judge, values in held])
     counts = counts_of(folds)
-    return Option(tuple(names), fits, seen, misfit, means, counts * misfit, float(logs(counts, misfit).sum()), works)
+    return Option(tuple(names), fits, seen, misfit, means, counts * misfit, float(logs(counts, misfit).sum()))
 
 
 def counts_of(folds: Sequence[Fold]) -> Array:
