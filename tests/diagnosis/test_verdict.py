@@ -241,13 +241,15 @@ def test_where_noise_is_left_a_cause_explains_half_at_least() -> None:
     assert judged(chosen, forces=forces, gain=replace(GOOD, heldout=0.25)).verdict == "unexplained"
 
 
-def test_within_noise_a_cause_halves_the_error_of_the_work() -> None:
-    chosen, forces = selection(option("valve_wear", score=20.0)), (10.8, 10.2, 10.0)
-    assert judged(chosen, forces=forces, works=(1.0, 0.3, 0.0)).causes == ["valve_wear"]
-    assert judged(chosen, forces=forces, works=(1.0, 0.6, 0.0)).verdict == "none"
-    late = selection(option("fluid_lag", score=20.0))
-    assert judged(late, forces=forces, works=(1.0, 0.3, 0.0)).verdict == "none"
-    assert judged(chosen, forces=forces, works=(1.0, 0.3, 0.0), gain=replace(GOOD, heldout=0.25)).verdict == "none"
+def test_within_noise_an_effect_is_named_by_what_it_explains_and_a_fault_by_half_of_the_misfit() -> None:
+    forces = (10.8, 10.05, 10.0)
+    wear, late = selection(option("valve_wear", score=20.0)), selection(option("fluid_lag", score=20.0))
+    assert judged(wear, forces=forces).causes == ["valve_wear"]
+    assert judged(wear, forces=forces, gain=replace(GOOD, heldout=0.25)).verdict == "none"
+    assert judged(late, forces=forces, gain=replace(GOOD, heldout=0.85)).causes == ["fluid_lag"]
+    assert judged(late, forces=forces, gain=replace(GOOD, heldout=0.75)).verdict == "none", "sampling moves steps, too"
+    for score, causes in ((0.6 * SCORE, []), (0.4 * SCORE, ["force_gain"])):
+        assert judged(selection(option("force_gain", score=score)), forces=forces).causes == causes
 
 
 def test_a_rival_of_one_of_two_causes_is_judged_beside_the_other() -> None:

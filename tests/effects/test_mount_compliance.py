@@ -26,6 +26,23 @@ def test_the_piston_lacks_the_deflection(dashpot: Damper) -> None:
     assert s.z == pytest.approx(0.045, abs=1e-6)
 
 
+def test_a_progressive_mount_gives_less_under_more(dashpot: Damper) -> None:
+    p, d, s, f = (
+        dashpot.with_(C_mount=1e-5, tau_mount=0.0, hardening=1e5).parameters,
+        blank(Derived),
+        blank(State),
+        blank(Flow),
+    )
+    model.set_up(p, d)
+    model.start(p, d, s, 0.0)
+    for i in range(1, 16):
+        model.advance(p, d, s, f, 0.003 * i, 0.3, 0.3, 0.01)
+    # 600 N are 6 mm of the linear mount.
+    assert s.F_fluid == pytest.approx(600.0, rel=1e-3)
+    assert s.x_mount < 3.5e-3
+    assert s.x_mount * (1.0 + 1e5 * s.x_mount**2) / 1e-5 == pytest.approx(600.0, rel=1e-3)
+
+
 def test_a_step_without_time_changes_nothing(sa8: Damper) -> None:
     p, d, s, f = sa8.with_(C_mount=1e-5).parameters, blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)

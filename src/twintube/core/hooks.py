@@ -73,6 +73,7 @@ ROLES = {
     "place": "a position within the stroke [m]",
     "scale": "a length, time, mass or energy about its default",
     "law": "a power or share whose lower bound is a law of its own",
+    "start": "what a record begins with, the same in none of them unless its temperature is known",
 }
 
 

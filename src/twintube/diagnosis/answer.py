@@ -93,7 +93,7 @@ def simulated(problem: Problem, split: str, models: Sequence[Mapping[str, float]
     hide that.
     """
     measured = problem.measured
-    forces = [problem.forces(values) for values in models]
+    forces = [problem.begun_forces(values) for values in models]
     zeros = problem.zeros(measured - forces[-1])
     base, recalibrated, extended = (force + zeros for force in forces)
     return [

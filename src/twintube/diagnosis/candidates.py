@@ -157,7 +157,8 @@ def unsought(effect: Effect, problem: Problem) -> tuple[str, ...]:
     kelvin = tuple(item.name for item in effect.parameters if item.metadata["unit"] == "1/K")
     if kelvin and any(np.ptp(record.warm) > RULES.warm for record in problem.records):
         return tuple(item.name for item in effect.parameters if item.metadata["unit"] in ("1/J", "J", "s"))
-    return () if np.ptp(np.concatenate([record.warm for record in problem.records])) > RULES.warm else kelvin
+    begun = np.array([record.warm[0] for record in problem.records])
+    return () if np.ptp(begun) > RULES.begun_warm else kelvin
 
 
 def faults(problem: Problem) -> list[Candidate]:

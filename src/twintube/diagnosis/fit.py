@@ -14,6 +14,8 @@ from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import ADDED, DELAY, MEASUREMENT, REMEMBERED, SeenRecords
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
 
+TINY = 1e-300  # so that nothing can be divided by
+
 
 @dataclass(frozen=True)
 class Free:
@@ -119,9 +121,35 @@ class Problem(SeenRecords):
         """Simulated less measured force (n,) [N]."""
         return np.asarray(self.forces(values) - self.measured)
 
-    def residual(self, values: Mapping[str, float]) -> Array:
-        """Weighted errors (n,), white where every record has a zero of its own."""
-        return self.white(self.errors(values) * self.weight)
+    def residual(self, values: Mapping[str, float], near: Mapping[str, float] | None = None) -> Array:
+        """Weighted errors (n,), white where every record has a zero and a beginning of its own.
+
+        What another beginning changes is taken from the values `near` these, where given.
+        """
+        weighted = self.white(self.errors(values) * self.weight)
+        column, size = self.open_beginnings(near or values)
+        if column is None:
+            return weighted
+        along = np.add.reduceat(column * weighted, self.starts[:-1]) / np.maximum(size, TINY)
+        return np.asarray(weighted - self.spread((1.0 - 1.0 / np.sqrt(1.0 + size)) * along) * column)
+
+    def open_beginnings(self, values: Mapping[str, float]) -> tuple[Array | None, Array]:
+        """White weighted changes (n,) by other beginnings of the records, and their sums of squares (r,); None without."""
+        change = self.beginnings(values)
+        if change is None:
+            return None, np.zeros(len(self.records))
+        column = self.white(change * self.weight)
+        return column, np.asarray(np.add.reduceat(column**2, self.starts[:-1]))
+
+    def begun_forces(self, values: Mapping[str, float]) -> Array:
+        """Predicted forces (n,) [N] with the beginning that is to be expected of each record by its own errors."""
+        forces = self.forces(values)
+        column, size = self.open_beginnings(values)
+        if column is None:
+            return forces
+        pull = np.add.reduceat(column * self.white((forces - self.measured) * self.weight), self.starts[:-1])
+        change = self.beginnings(values)
+        return forces if change is None else np.asarray(forces - self.spread(pull / (1.0 + size)) * change)
 
     def white(self, weighted: Array) -> Array:
         """Weighted errors (n,) times the inverse root of their covariance, to which each record's zero contributes.
@@ -178,17 +206,19 @@ class Problem(SeenRecords):
         """A value (r,) of each record for all of its samples (n,)."""
         return np.repeat(values, np.diff(self.starts))
 
-    def shared(self, values: Mapping[str, float]) -> Array:
-        """Weighted errors (n,) with the records balanced."""
-        return self.residual(values) * self.share
+    def shared(self, values: Mapping[str, float], near: Mapping[str, float] | None = None) -> Array:
+        """Weighted errors (n,) with the records balanced; `near` as in `residual`."""
+        return self.residual(values, near) * self.share
 
-    def residuals(self, many: Sequence[Mapping[str, float]]) -> list[Array]:
-        """Balanced errors of several parameter sets, their simulations shared out to threads."""
+    def residuals(self, many: Sequence[Mapping[str, float]], near: Mapping[str, float] | None = None) -> list[Array]:
+        """Balanced errors of several parameter sets, their simulations shared out to threads; `near` as in `residual`."""
         errors: list[Array] = []
-        for first in range(0, len(many), REMEMBERED):
-            some = many[first : first + REMEMBERED]
-            list(self.threads.map(self.simulated, {self.damping(values) for values in some}))
-            errors += [self.shared(values) for values in some]
+        for first in range(0, len(many), REMEMBERED // 2):
+            some = many[first : first + REMEMBERED // 2]
+            others = [self.begun(values) for values in some] if near is None else []
+            wanted = [*some, *(values for values in others if values is not None)]
+            list(self.threads.map(self.simulated, {self.damping(values) for values in wanted}))
+            errors += [self.shared(values, near) for values in some]
         return errors
 
     def costs(self, many: Sequence[Mapping[str, float]], now: Mapping[str, float], free: Sequence[Free]) -> list[float]:
@@ -206,9 +236,11 @@ class Problem(SeenRecords):
         """Mean squared weighted error (r,) per record."""
         return np.asarray(np.add.reduceat(residual**2, self.starts[:-1]) / self.counts)
 
-    def unit_misfits(self, residual: Array) -> Array:
-        """The like (u,) per unit."""
-        return np.asarray(np.bincount(self.unit, residual[self.used] ** 2) / self.unit_counts)
+    def unit_misfits(self, values: Mapping[str, float]) -> Array:
+        """The like (u,) per unit; that each record may have a beginning of its own has its price in the likelihood."""
+        _, size = self.open_beginnings(values)
+        squares = self.residual(values) ** 2 + self.spread(np.log1p(size) / np.maximum(self.counts, 1))
+        return np.asarray(np.bincount(self.unit, squares[self.used]) / self.unit_counts)
 
     def fit(self, free: Sequence[Free], *, thorough: bool = True) -> Fit:
         """Least squares for the free parameters, from their starts; `thorough` seeks a better optimum where forces step."""
@@ -225,7 +257,8 @@ class Problem(SeenRecords):
             return np.concatenate([self.shared(values(u)), held * (u - u0) / RULES.pull])
 
         def slopes(u: Array) -> Array:
-            J = derivatives(lambda U: self.residuals([values(row) for row in U]), u, np.zeros(len(u)), np.ones(len(u)))
+            here = values(u)
+            J = derivatives(lambda U: self.residuals([values(row) for row in U], here), u, np.zeros(len(u)), np.ones(len(u)))
             return np.vstack([J, np.diag(held / RULES.pull)])
 
         if free:

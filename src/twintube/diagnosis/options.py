@@ -59,7 +59,7 @@ def fitted(folds: Sequence[Fold], names: Sequence[str], frees: Sequence[Sequence
     linear = [[f for f in nuisances(fold.held) if f.name in LINEAR and f.name not in names] for fold in folds]
     seen = tuple(fold.held.adjusted(fit.values, some) for fold, fit, some in zip(folds, fits, linear, strict=True))
     held = [(fold.held, values) for fold, values in zip(folds, seen, strict=True)]
-    misfit = np.concatenate([judge.unit_misfits(judge.residual(values)) for judge, values in held])
+    misfit = np.concatenate([judge.unit_misfits(values) for judge, values in held])
     means = np.concatenate([judge.means(judge.errors(values) * judge.weight) for judge, values in held])
     counts = counts_of(folds)
     return Option(tuple(names), fits, seen, misfit, means, counts * misfit, float(logs(counts, misfit).sum()))

@@ -50,6 +50,7 @@ class PreparedRecord:
     warm: Array  # (n,) [K] warmer than records usually begin, 0 where no temperature is known
     gas_pressure: float | None  # gauge [Pa], where known
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through
+    warmth_known: bool = False  # whether its temperature at the beginning is
     tenth: NDArray[np.int64] | None = None  # (n,) of its intervals, where every second tenth is compared
     before: tuple[float, float, float] = (0.0, 0.0, 0.0)  # `travelled` in the records before it in the dataset
 
@@ -218,7 +219,7 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
     held = np.maximum(1, np.diff(at, prepend=at[0] - 1))  # measured samples per interval
     begin = beginning_temperature(record)
     along = record.temperature[at] if record.temperature is not None else np.full(len(at), usual if begin is None else begin)
-    ready = replace(ready, samples=held, warm=along - usual)
+    ready = replace(ready, samples=held, warm=along - usual, warmth_known=begin is not None)
     return replace(ready, noise=noise(ready, ready.force))
 
 

@@ -147,7 +147,14 @@ class Rules:
     open_filtered: float = measurement(1.1, "1", "where a filter shows: 1.04 of order 4 at 0.4 of its rate", DEVELOPMENT)
     bent: float = measurement(0.03, "1", "of a bend of the force, which a filter takes from a sample at least", DEVELOPMENT)
     open_step: float = measurement(0.05, "1", "of a sample, by which a step of the force is known no better", DEVELOPMENT)
-    warm: float = measurement(3.0, "K", "change of temperature that shows in forces", JUDGEMENT)
+    warm: float = measurement(3.0, "K", "change of temperature along a record that shows in its forces", JUDGEMENT)
+    begun: float = measurement(
+        0.25, "1", "of its range: standard deviation of what records begin with, from one to another", JUDGEMENT
+    )
+    begun_step: float = measurement(0.1, "1", "of it, for the slope of the force", NUMERICS)
+    begun_warm: float = measurement(
+        0.3, "K", "the like from where a record begins to another: a thermometer tells a tenth", DEVELOPMENT
+    )
     open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
     open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", DEVELOPMENT)
     delay_step: float = measurement(

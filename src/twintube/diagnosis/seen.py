@@ -29,6 +29,13 @@ MOTION = (STROKE_GAIN, DELAY, CLOCK)
 FILL = "fill_of_state_"  # with the per cent of a state: its true oil level beyond the recorded one
 CARRIED = "loss_carried"  # share of the oil lost in the records before, in the order of the dataset, that is not refilled
 MEASUREMENT = (*ADDED, *MOTION)
+# What records begin with, and the strengths without which it does nothing.
+BEGUN = {
+    item.name: (item.metadata, effect.strength)
+    for effect in effects.EFFECTS.values()
+    for item in effect.parameters
+    if item.metadata["role"] == "start"
+}
 REMEMBERED = 32  # latest simulations
 MOVED = 4  # latest delays and clocks: that of the sampling is in every model
 
@@ -48,6 +55,7 @@ class SeenRecords(SimulatedRecords):
         self.shifted = {by: np.clip(np.arange(len(self.z)) + by, first, last) for by in range(-2, 3)}
         self.elapsed = np.concatenate([r.time - r.begin for r in records])
         self.used = np.concatenate([r.judged for r in records])
+        self.open = np.concatenate([np.full(len(r.time), not r.warmth_known) for r in records])
         self.known = {item.name for item in fields(effects.Parameters)}
         # The measurement's parameters need no simulation of their own.
         self.simulated: Callable[[tuple[tuple[str, float], ...]], tuple[Array, Array]] = lru_cache(REMEMBERED)(self.simulate)
@@ -127,6 +135,21 @@ class SeenRecords(SimulatedRecords):
         moved = -np.expm1(-settling * self.elapsed) / settling if settling > 0.0 else self.elapsed
         zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * moved
         return np.asarray(values.get("force_gain", 1.0) * seen + zero)
+
+    def begun(self, values: Mapping[str, float]) -> dict[str, float] | None:
+        """The values with another beginning of the records, a part of its usual scatter away; None where none is open."""
+        for name, (meta, strengths) in BEGUN.items():
+            if self.open.any() and any(values.get(strength, 0.0) != 0.0 for strength in strengths):
+                step = RULES.begun_step * RULES.begun * (meta["upper"] - meta["lower"])
+                return {**values, name: values.get(name, meta["default"]) + step}
+        return None
+
+    def beginnings(self, values: Mapping[str, float]) -> Array | None:
+        """What the forces (n,) [N] change by where a record begins the usual scatter away; None where none is open."""
+        other = self.begun(values)
+        if other is None:
+            return None
+        return np.where(self.open, (self.forces(other) - self.forces(values)) / RULES.begun_step, 0.0)
 
     def parts_of_samples(self, force: Array, point: Array, names: Container[str] = SAMPLING) -> dict[str, Array]:
         """What each of SAMPLING that is among `names` adds to the forces of samples that are points (n,) [N].

@@ -61,19 +61,14 @@ def judge(
     proven = gain.heldout > 0.0 and min(lows) > 0.0 and extended < base and base > floor
     # Where noise alone is left, what is explained of little is known badly.
     enough = gain.heldout >= (RULES.half if right else RULES.explained)
-    if any(name in (*LATE, RECALIBRATE) for name in selection.chosen) and extended**2 > RULES.odd_right * floor**2:
+    late = any(name in LATE for name in causes)
+    much = extended**2 > RULES.odd_right * floor**2
+    if (late and (much or quiet)) or (RECALIBRATE in selection.chosen and much):
         # Play in a joint and a filter make a force late as well, and fourteen parameters follow a good part of any effect.
         enough = gain.heldout >= RULES.explained_most
-    if quiet:
-        # The floor is the best model's error where noise is a bit larger than estimated: that noise is not explained. So
-        # small an error, less than half of the noise, names a fault of the measurement at most, and what halves the error
-        # of the work of an oscillation, which knows neither noise nor where between two samples the force steps. What makes
-        # the force late moves its steps, as sampling does.
-        faulty = all(candidates[name].fault for name in causes)
-        clear = faulty and selection.final.score <= (1 - RULES.half) * selection.start.score
-        works = [errors[name].work_rmse_J for name in ("extended", "base")]
-        lasting = works[0] < (1 - RULES.half) * works[1] and not any(name in LATE for name in causes)
-        enough = clear or (enough and lasting)
+    if quiet and all(candidates[name].fault for name in causes):
+        # So little is within what a careful bench is off by, which an effect of the damper is not.
+        enough = selection.final.score <= (1 - RULES.half) * selection.start.score
     close = rivals(selection, extended > RULES.quiet * floor)
     solved = bool(selection.chosen) and proven and enough and not doubts
     if outside and not (solved and extended <= RULES.quiet * floor):

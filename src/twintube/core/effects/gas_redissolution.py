@@ -23,7 +23,7 @@ class Parameters(variables.Parameters):
     """Rate of the return."""
 
     redissolution_rate: float = var("gas_redissolution", "", "1/s", "share of the freed gas that dissolves per second",
-                                    lower=0, upper=2, source="first-order mass transfer (Henry's law)",
+                                    lower=0, upper=10, source="first-order mass transfer (Henry's law)",
                                     default=0.0, role="strength")  # fmt: skip
     reserve_share: float = var("gas_redissolution", "", "1", "share of it that dissolves in the reserve", lower=0, upper=1,
                                source="where the bubbles are is not known", default=0.0, role="law")  # fmt: skip

@@ -1,10 +1,10 @@
 """A rubber mount in series: the piston sees less stroke than the rig measures (Kelvin-Voigt element before the rod's mass).
 
-The rubber carries damper and rod: (x + tau_mount dx/dt) / C_mount = F_Fl + F_Fr + F_S - F_S(0) + m_rod a, x being the
-deflection. The speed at the valves solves this at the end of the step; the left side falls and the right side rises with it,
-so there is one root. The mean rate of a step is weighted so that the linear decay is exact (`frame.end_weight`). What k_degr
-will be at the end is not known before the phases have followed the piston: where it steps, the rest of the step is balanced
-again, and the phases catch up in the next.
+The rubber carries damper and rod: (x + hardening x^3 + tau_mount dx/dt) / C_mount = F_Fl + F_Fr + F_S - F_S(0) + m_rod a, x
+being the deflection. A bushing becomes stiffer the further it deflects. The speed at the valves solves this at the end of
+the step; the left side falls and the right side rises with it, so there is one root. The mean rate of a step is weighted so
+that the linear decay is exact (`frame.end_weight`). What k_degr will be at the end is not known before the phases have
+followed the piston: where it steps, the rest of the step is balanced again, and the phases catch up in the next.
 """
 
 from dataclasses import dataclass
@@ -41,6 +41,9 @@ class Parameters(variables.Parameters):
                          role="strength")  # fmt: skip
     tau_mount: float = var("mount_compliance", "", "s", "damping of the mount over its stiffness", lower=0, upper=0.02,
                            source="loss factor of rubber about 0.1 to 0.2 at 10 Hz", default=1e-3, role="scale")  # fmt: skip
+    hardening: float = var("mount_compliance", "", "1/m2", "cubic part of the mount's stiffness over the linear", lower=0,
+                           upper=1e6, source="progressive bushing; Blundell and Harty, Multibody Systems Approach",
+                           default=0.0, role="law")  # fmt: skip
     m_rod: float = var("mount_compliance", "", "kg", "mass of rod and piston behind the mount", lower=0, upper=5,
                        source="weighed; 1 to 3 kg in a passenger car", default=0.0, role="scale")  # fmt: skip
 
@@ -95,13 +98,18 @@ def mount_compliance_excess(p: Parameters, d: Derived, s: State, v: float, dt: f
     friction = effects_scale_friction(p, s, goal, v) * s.rubbing * dahl(p, d, s.F_D_begun, goal - s.z_begun)
     gas = d.c_gas * goal + effects_elastic(p, s, goal) - s.F_middle
     return (
-        (x + p.tau_mount * rate) / p.C_mount
+        (x * (1.0 + p.hardening * x * x) + p.tau_mount * rate) / p.C_mount
         - s.F_mount
         - friction
         - effects_rub(p, goal, v)
         - gas
         - p.m_rod * (s.goal_v1 - s.v_piston) / dt
     )
+
+
+def mount_compliance_harder(p: Parameters, s: State) -> float:
+    """Slope of the rubber's force over that of the undeflected rubber [1]."""
+    return 1.0 + 3.0 * p.hardening * s.x_mount * s.x_mount
 
 
 def mount_compliance_begin(p: Parameters, d: Derived, s: State, z: float, v: float, rate: float, dt: float) -> None:
@@ -114,14 +122,14 @@ def mount_compliance_begin(p: Parameters, d: Derived, s: State, z: float, v: flo
     s.F_D_begun = s.F_D
     s.F_middle = effects_elastic(p, s, 0.0)
     s.rubbing = stribeck(p, v)
-    settling = p.tau_mount + p.C_mount * s.felt_slope / s.moved
+    settling = (p.tau_mount + p.C_mount * s.felt_slope / s.moved) / mount_compliance_harder(p, s)
     s.end_share = end_weight(dt / settling) if settling > 0.0 else 1.0
     s.x_begun = s.x_mount + (1.0 - s.end_share) * rate * dt
 
 
 def mount_compliance_solve(p: Parameters, d: Derived, s: State, v: float, dt: float) -> None:
     """The speed at the valves for which rubber and damper agree: secants between bounds that close in on it."""
-    stiffness = 1.0 / p.C_mount + d.c_gas + s.rubbing * p.sigma_0
+    stiffness = mount_compliance_harder(p, s) / p.C_mount + d.c_gas + s.rubbing * p.sigma_0
     slope = s.moved * (stiffness * s.end_share * dt + p.tau_mount / p.C_mount + p.m_rod / dt) + s.felt_slope
     low = -FASTEST
     high = FASTEST

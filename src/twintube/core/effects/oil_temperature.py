@@ -37,7 +37,7 @@ class Parameters(variables.Parameters):
                               source="Newton's law of cooling, lumped", default=300.0, role="scale")  # fmt: skip
     H_start: float = var("oil_temperature", "", "J", "heat at the start beyond that of the F-v curve's temperature",
                          lower=-2000, upper=2000, source="some kelvins of a rig's room", default=0.0,
-                         role="scale")  # fmt: skip
+                         role="start")  # fmt: skip
     fade_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of fluid force per kelvin measured", lower=0,
                              upper=0.08, source="Reynolds 1886 (viscosity)", default=0.0, role="strength")  # fmt: skip
     friction_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of friction per kelvin measured", lower=0,
