@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 4ba8637d7391b2e1, body e511bc719cff1768; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 1d2d0b419b698645, body 9971268ae0193dad; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -70,6 +70,7 @@ struct kernel_Parameters {
     double F_residual;
     double C_mount;
     double tau_mount;
+    double hardening;
     double m_rod;
     double displaced_share;
     double level_error;
@@ -723,6 +724,12 @@ static double kernel_stribeck(struct kernel_Parameters* p, double v)
     return p->k_high + (1.0 - p->k_high) * exp((-fabs(v)) / p->v_S);
 }
 
+/* Slope of the rubber's force over that of the undeflected rubber [1]. */
+static double kernel_mount_compliance_harder(struct kernel_Parameters* p, struct kernel_State* s)
+{
+    return 1.0 + 3.0 * p->hardening * s->x_mount * s->x_mount;
+}
+
 /* Weight [1] of the rate at the end of a step of `q` time constants: the linear decay is met exactly (0.5 at 0, 1 late).
    Exponentially fitted theta method: Liniger and Willoughby 1970, SIAM Journal on Numerical Analysis 7. */
 static double kernel_end_weight(double q)
@@ -748,7 +755,7 @@ static void kernel_mount_compliance_begin(struct kernel_Parameters* p, struct ke
     s->F_D_begun = s->F_D;
     s->F_middle = kernel_effects_elastic(p, s, 0.0);
     s->rubbing = kernel_stribeck(p, v);
-    settling = p->tau_mount + p->C_mount * s->felt_slope / s->moved;
+    settling = (p->tau_mount + p->C_mount * s->felt_slope / s->moved) / kernel_mount_compliance_harder(p, s);
     s->end_share = (settling > 0.0 ? kernel_end_weight(dt / settling) : 1.0);
     s->x_begun = s->x_mount + (1.0 - s->end_share) * rate * dt;
 }
@@ -959,7 +966,7 @@ static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct
     goal = s->z_end - x;
     friction = kernel_effects_scale_friction(p, s, goal, v) * s->rubbing * kernel_dahl(p, d, s->F_D_begun, goal - s->z_begun);
     gas = d->c_gas * goal + kernel_effects_elastic(p, s, goal) - s->F_middle;
-    return (x + p->tau_mount * rate) / p->C_mount - s->F_mount - friction - kernel_effects_rub(p, goal, v) - gas - p->m_rod * (s->goal_v1 - s->v_piston) / dt;
+    return (x * (1.0 + p->hardening * x * x) + p->tau_mount * rate) / p->C_mount - s->F_mount - friction - kernel_effects_rub(p, goal, v) - gas - p->m_rod * (s->goal_v1 - s->v_piston) / dt;
 }
 
 /* The speed at the valves for which rubber and damper agree: secants between bounds that close in on it. */
@@ -976,7 +983,7 @@ static void kernel_mount_compliance_solve(struct kernel_Parameters* p, struct ke
     double r_before;
     double F;
     double speed;
-    stiffness = 1.0 / p->C_mount + d->c_gas + s->rubbing * p->sigma_0;
+    stiffness = kernel_mount_compliance_harder(p, s) / p->C_mount + d->c_gas + s->rubbing * p->sigma_0;
     slope = s->moved * (stiffness * s->end_share * dt + p->tau_mount / p->C_mount + p->m_rod / dt) + s->felt_slope;
     low = -50.0;
     high = 50.0;

@@ -44,9 +44,10 @@ def test_heat_acts_by_the_temperature_where_it_was_measured_and_by_the_work_else
     rising = [replace(r, temperature=22.0 + 20.0 * r.time / r.time[-1]) for r in good]
     names = {f.name for f in named(small.problem(rising), "oil_temperature").free}
     assert names.isdisjoint(RETAINED) and "fade_kelvin" in names
-    apart = [replace(r, start_temperature=22.0 + 0.5 * i) for i, r in enumerate(good)]
-    names = {f.name for f in named(small.problem(apart), "oil_temperature").free}
-    assert {"fade_kelvin", "fade_heat"} <= names, "where it begins is known, and what its work adds is not"
+    for each, kelvin in ((0.5, {"fade_kelvin"}), (2.0, KELVIN)):
+        apart = [replace(r, start_temperature=22.0 + each * i) for i, r in enumerate(good)]
+        names = {f.name for f in named(small.problem(apart), "oil_temperature").free}
+        assert names & KELVIN == kelvin and "fade_heat" in names, "where it begins is known, and what its work adds is not"
     even = [replace(r, temperature=np.full(len(r.time), 22.0)) for r in good]
     assert {f.name for f in named(small.problem(even), "oil_temperature").free}.isdisjoint(KELVIN)
 

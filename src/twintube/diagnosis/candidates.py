@@ -157,8 +157,10 @@ def unsought(effect: Effect, problem: Problem) -> tuple[str, ...]:
     kelvin = tuple(item.name for item in effect.parameters if item.metadata["unit"] == "1/K")
     if kelvin and any(np.ptp(record.warm) > RULES.warm for record in problem.records):
         return tuple(item.name for item in effect.parameters if item.metadata["unit"] in ("1/J", "J", "s"))
-    begun = np.array([record.warm[0] for record in problem.records])
-    return () if np.ptp(begun) > RULES.begun_warm else kelvin
+    apart = float(np.ptp([record.warm[0] for record in problem.records]))
+    if apart > RULES.warm:
+        return ()
+    return kelvin[1:] if apart > RULES.begun_warm else kelvin  # so little shows in the fluid force, the first, alone
 
 
 def faults(problem: Problem) -> list[Candidate]:

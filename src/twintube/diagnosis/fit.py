@@ -287,7 +287,7 @@ class Problem(SeenRecords):
                 step = free[i].size(here[free[i].name]) / free[i].width * np.eye(len(free))[i]
                 points += [u + (factor - 1.0) * step for factor in RULES.factors_tried]
             several = np.clip(points, RULES.inside, 1 - RULES.inside)
-            costs = [float(np.sum(r**2)) for r in self.residuals([values(row) for row in several])]
+            costs = [float(np.sum(r**2)) for r in self.residuals([values(row) for row in several], here)]
             if min(costs) >= cost * (1.0 - RULES.fit_ends):
                 break
             u, cost = several[int(np.argmin(costs))], min(costs)
