@@ -26,7 +26,6 @@ from twintube.diagnosis.seen import DELAY
 from twintube.diagnosis.starts import best_start, lowest
 
 KELVIN = {"fade_kelvin", "friction_kelvin", "gas_kelvin"}
-RETAINED = {"fade_heat", "cooling_time", "H_start", "gas_heat"}
 
 
 def named(problem: Problem, name: str) -> Candidate:
@@ -38,12 +37,12 @@ def good() -> list[Record]:
     return small.records()
 
 
-def test_heat_acts_by_the_temperature_where_it_was_measured_and_by_the_work_elsewhere(good: list[Record]) -> None:
+def test_heat_acts_by_the_work_and_by_the_temperature_where_it_was_measured(good: list[Record]) -> None:
     names = {f.name for f in named(small.problem(good), "oil_temperature").free}
     assert names.isdisjoint(KELVIN) and "fade_heat" in names
     rising = [replace(r, temperature=22.0 + 20.0 * r.time / r.time[-1]) for r in good]
     names = {f.name for f in named(small.problem(rising), "oil_temperature").free}
-    assert names.isdisjoint(RETAINED) and "fade_kelvin" in names
+    assert names >= KELVIN | {"fade_heat"}, "a thermometer on the tube lags behind the oil that the work warms"
     for each, kelvin in ((0.5, {"fade_kelvin"}), (2.0, KELVIN)):
         apart = [replace(r, start_temperature=22.0 + each * i) for i, r in enumerate(good)]
         names = {f.name for f in named(small.problem(apart), "oil_temperature").free}

@@ -38,23 +38,13 @@ def test_a_force_that_fades_with_its_measured_temperature_is_heat(tmp_path: Path
     fade = answer.causes[0].parameters["fade_kelvin"]
     assert fade.value == pytest.approx(0.009, rel=0.2)
     assert answer.causes[0].gain.heldout > 0.9
-    assert "fade_heat" not in answer.causes[0].parameters  # the temperature was measured
+    ahead = answer.causes[0].parameters.get("fade_heat")  # of the oil, of a thermometer on the tube: here there is no such
+    assert ahead is None or ahead.low == 0.0
     assert answer.errors["heldout"]["extended"].force_rmse_N < answer.errors["heldout"]["base"].force_rmse_N / 4
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "gun",
-    [
-        500.0,
-        pytest.param(
-            100.0,
-            marks=pytest.mark.xfail(
-                strict=True, reason="the middle of the first temperatures, 12 K too warm, is taken for that of the F-v curve"
-            ),
-        ),
-    ],
-)
+@pytest.mark.parametrize("gun", [500.0, 100.0])
 def test_records_that_begin_hotter_and_hotter_are_heat_alone(gun: float, tmp_path: Path) -> None:
     """The F-v curve is that of the first temperature, whatever the damper has become by the other records."""
     speeds = (0.1, 0.3, 0.5, 0.8)

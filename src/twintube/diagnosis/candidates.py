@@ -153,12 +153,13 @@ def candidates(problem: Problem) -> list[Candidate]:
 
 
 def unsought(effect: Effect, problem: Problem) -> tuple[str, ...]:
-    """Parameters of heat for which the records have no temperature, or which a temperature along them makes needless."""
+    """Parameters of heat for which the records have no temperature.
+
+    Those of the heat of the work are always sought: it warms the oil before the tube, where thermometers are.
+    """
     kelvin = tuple(item.name for item in effect.parameters if item.metadata["unit"] == "1/K")
-    if kelvin and any(np.ptp(record.warm) > RULES.warm for record in problem.records):
-        return tuple(item.name for item in effect.parameters if item.metadata["unit"] in ("1/J", "J", "s"))
     apart = float(np.ptp([record.warm[0] for record in problem.records]))
-    if apart > RULES.warm:
+    if apart > RULES.warm or any(np.ptp(record.warm) > RULES.warm for record in problem.records):
         return ()
     return kelvin[1:] if apart > RULES.begun_warm else kelvin  # so little shows in the fluid force, the first, alone
 
