@@ -124,7 +124,8 @@ def estimated(problem: Problem, candidate: Candidate, fit: Fit, halves: Sequence
     """The parameters of a chosen cause with their intervals.
 
     Where a law is not quite that of the damper, records of other velocities ask for another value: an interval is not
-    narrower than the scatter of the fits of the `halves` of the records makes it.
+    narrower than the scatter of the fits of the `halves` of the records makes it, and that of a strength not narrower than
+    what laws differ by.
     """
     values = {}
     for f in candidate.joined(fit.values):
@@ -132,7 +133,8 @@ def estimated(problem: Problem, candidate: Candidate, fit: Fit, halves: Sequence
         scattered = float(np.sqrt(max(0.0, fit.covariance[at, at])))
         several = [half.values[f.name] for half in halves if f.name in half.values]
         between = float(np.std(several, ddof=1) / np.sqrt(len(several))) if len(several) > 1 else 0.0
-        spread = RULES.interval * max(scattered, between)
+        law = RULES.law_width * abs(fit.values[f.name] - f.neutral) if f.neutral is not None else 0.0
+        spread = max(RULES.interval * max(scattered, between), law)
         value = fit.values[f.name]
         low, high = max(f.low, value - spread), min(f.high, value + spread)
         if f.neutral is not None and low <= f.neutral <= high:
