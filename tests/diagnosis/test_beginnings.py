@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +10,9 @@ from scipy.integrate import cumulative_trapezoid
 
 from tests.diagnosis import small
 from twintube.arrays import Array
+from twintube.data import Record
+from twintube.diagnosis import diagnose
+from twintube.diagnosis.answer import BEGUN
 from twintube.diagnosis.fit import Problem
 
 APART = (-1.2, 0.7, 2.0, -0.4)  # [K] from one record to another
@@ -18,17 +22,29 @@ HEAT = {"fade_heat": FADE / CAPACITY, "cooling_time": 2000.0, "H_start": 0.0}
 
 
 @pytest.fixture(scope="module")
-def problem() -> Problem:
-    """A damper that warms up from another temperature in each record, by its work, and loses no heat."""
+def records() -> list[Record]:
+    """Of a damper that warms up from another temperature in each record, by its work, and loses no heat."""
 
     def force(r: small.Run, begin: float) -> Array:
         warmer = begin + cumulative_trapezoid(np.abs(r.force * r.velocity), r.time, initial=0.0) / CAPACITY
-        return r.force + r.fluid * np.expm1(-FADE * warmer)
+        return r.force - r.fluid * FADE * warmer / (1.0 + FADE * warmer)
 
     runs = [small.run(speed) for speed in small.SPEEDS]
     pairs = enumerate(zip(runs, APART, strict=True))
-    warm = [small.record(r, force(r, begin), seed=i) for i, (r, begin) in pairs]
-    return small.problem(warm)
+    return [small.record(r, force(r, begin), seed=i) for i, (r, begin) in pairs]
+
+
+@pytest.fixture(scope="module")
+def problem(records: list[Record]) -> Problem:
+    return small.problem(records)
+
+
+def test_records_of_unknown_temperatures_are_heat(records: list[Record], tmp_path: Path) -> None:
+    answer = diagnose(small.write(records, tmp_path))
+    assert (answer.verdict, [cause.effect for cause in answer.causes]) == ("cause", ["oil_temperature"])
+    errors = answer.errors["heldout"]
+    assert errors["extended"].force_rmse_N < 1.2 * errors["noise_floor"].force_rmse_N < 0.5 * errors["base"].force_rmse_N
+    assert BEGUN in answer.remarks
 
 
 def misfit(problem: Problem, values: Mapping[str, float]) -> float:

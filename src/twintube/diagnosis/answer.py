@@ -21,6 +21,12 @@ from twintube.diagnosis.verdict import judge, sentence
 from twintube.diagnosis.where import describe, maps, structured
 from twintube.fitting.parameters import DEGRADATION
 
+PUT_RIGHT = "faults were put right for everything shown here; their gain is relative to the force"
+BEGUN = (
+    "a record that begins at an unknown temperature is shown with the one that its own errors ask for, which the extended "
+    "parameter set cannot hold; state start_temperature_degC of each record"
+)
+
 
 def answer(
     dataset: LoadedDataset,
@@ -77,7 +83,7 @@ def answer(
         next_measurements=[apart(c) for _, c in rivals],
         probabilities=probabilities(probable, known),
         structure={model: structured(records, model) for model in ("base", "recalibrated", "extended")},
-        remarks=["faults were put right for everything shown here; their gain is relative to the force"] if faults else [],
+        remarks=[PUT_RIGHT] * bool(faults) + [BEGUN] * bool(judgement.causes and problem.begun(extended.values)),
     )
 
 
