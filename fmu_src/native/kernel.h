@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 1d2d0b419b698645, body 9971268ae0193dad; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 0267e60a829b4397, body 1a237c256d78e161; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -58,6 +58,7 @@ struct kernel_Parameters {
     double C_fluid_co;
     double V_air;
     double tau_fluid;
+    double closing_stroke;
     double relief_first;
     double air_at_rest;
     double column_share;
@@ -165,6 +166,9 @@ struct kernel_State {
     double F_turn_re;
     double F_turn_co;
     double F_late;
+    double closed;
+    double closing_side;
+    double closing_time;
     double k_held_re;
     double k_held_co;
     double x_mount;
@@ -288,7 +292,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
     {
         return 1;
     }
@@ -438,6 +442,9 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->F_turn_re = 0.0;
     s->F_turn_co = 0.0;
     s->F_late = 0.0;
+    s->closed = 1.0;
+    s->closing_side = 0.0;
+    s->closing_time = 0.0;
     s->k_held_re = 1.0;
     s->k_held_co = 1.0;
     s->x_mount = 0.0;
@@ -577,7 +584,7 @@ static int64_t kernel_effects_parts(struct kernel_Parameters* p, double dt)
 {
     int64_t value;
     value = 1;
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
     {
         value = int64_t_max(2, value, kernel_fluid_lag_parts(p, dt));
     }
@@ -586,6 +593,12 @@ static int64_t kernel_effects_parts(struct kernel_Parameters* p, double dt)
         value = int64_t_max(2, value, kernel_mount_compliance_parts(p, dt));
     }
     return value;
+}
+
+/* Remember the time of a step, which says how far the piston goes after a reversal in it. */
+static void kernel_fluid_lag_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
+{
+    s->closing_time = dt;
 }
 
 /* Weaken the cavitation of this step by the gas that is free already. */
@@ -772,7 +785,7 @@ static double kernel_fluid_lag_felt(struct kernel_Parameters* p, struct kernel_S
 
 static double kernel_effects_felt(struct kernel_Parameters* p, struct kernel_State* s, double value, double dt)
 {
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
     {
         value = kernel_fluid_lag_felt(p, s, value, dt);
     }
@@ -846,7 +859,7 @@ static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_S
 {
     double value;
     value = 0.0;
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
     {
         value += kernel_fluid_lag_series(p, s, F, dt);
     }
@@ -1064,6 +1077,10 @@ static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct k
 
 static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
 {
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
+    {
+        kernel_fluid_lag_motion(p, d, s, z, v0, v1, dt);
+    }
     if (p->exhaustion != 0.0)
     {
         kernel_gas_exhaustion_motion(p, d, s, z, v0, v1, dt);
@@ -1641,6 +1658,53 @@ static bool kernel_step(struct kernel_Parameters* p, struct kernel_Derived* d, s
     return left <= 0.0;
 }
 
+/* Integral from 0 to `y` of the share of the force [1] that closing valves let build up. */
+static double kernel_fluid_lag_shut(double y)
+{
+    double left;
+    left = double_max(2, 0.0, 1.0 - y);
+    return y - (1.0 - left * left * left) / 3.0;
+}
+
+/* While the check valves close a share of the force is there, in the mean over the step and at its end. */
+static void kernel_fluid_lag_transition(struct kernel_Parameters* p, struct kernel_State* s, struct kernel_Flow* f, double v, double dz)
+{
+    double v0;
+    double way;
+    double begun;
+    double side;
+    bool turned;
+    double ended;
+    double left;
+    if (p->closing_stroke <= 0.0)
+    {
+        return;
+    }
+    v0 = s->goal_v0;
+    way = fabs(dz) / p->closing_stroke;
+    begun = s->closed;
+    side = (v > 0.0 ? 1.0 : ((v < 0.0 ? -1.0 : s->closing_side)));
+    turned = v0 * v < 0.0;
+    if ((side * s->closing_side < 0.0) && (!(turned && (dz * side < 0.0))))
+    {
+        begun = 0.0;
+    }
+    ended = begun + way;
+    if (way > 0.0)
+    {
+        f->k_mean *= (kernel_fluid_lag_shut(ended) - kernel_fluid_lag_shut(begun)) / way;
+    }
+    if (turned)
+    {
+        ended = 0.5 * v * v * s->closing_time / (fabs(v0) + fabs(v)) / p->closing_stroke;
+    }
+    s->closing_side = side;
+    s->closed = double_min(2, 1.0, ended);
+    left = 1.0 - s->closed;
+    f->k_degr *= 1.0 - left * left;
+    s->k_degr *= 1.0 - left * left;
+}
+
 /* Depth [m] of the gas in the driving chamber. */
 static double kernel_smooth_transition_depth(struct kernel_Parameters* p, struct kernel_State* s, double side)
 {
@@ -1765,6 +1829,10 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
 
 static void kernel_effects_transition(struct kernel_Parameters* p, struct kernel_State* s, struct kernel_Flow* f, double v, double dz)
 {
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
+    {
+        kernel_fluid_lag_transition(p, s, f, v, dz);
+    }
     if ((p->build_up != 0.0) || (p->tau_build != 0.0))
     {
         kernel_smooth_transition_transition(p, s, f, v, dz);
@@ -2242,7 +2310,7 @@ static void kernel_mount_compliance_force(struct kernel_Parameters* p, struct ke
 
 static void kernel_effects_force(struct kernel_Parameters* p, struct kernel_State* s, double v, double dz, double dt)
 {
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
     {
         kernel_fluid_lag_force(p, s, v, dz, dt);
     }
@@ -2282,7 +2350,7 @@ static void kernel_oil_temperature_finish(struct kernel_Parameters* p, struct ke
 
 static void kernel_effects_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
 {
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0))
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
     {
         kernel_fluid_lag_finish(p, s, dt);
     }

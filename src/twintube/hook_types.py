@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     end_stop_elastic: Callable[[end_stop.Parameters, Frame, float], float] = end_stop.end_stop_elastic
     end_stop_rub: Callable[[end_stop.Parameters, float, float], float] = end_stop.end_stop_rub
     fluid_lag_parts: Callable[[fluid_lag.Parameters, float], int] = fluid_lag.fluid_lag_parts
+    fluid_lag_motion: Callable[[fluid_lag.Parameters, Derived, fluid_lag.State, float, float, float, float], None] = fluid_lag.fluid_lag_motion
+    fluid_lag_transition: Callable[[fluid_lag.Parameters, fluid_lag.State, Flow, float, float], None] = fluid_lag.fluid_lag_transition
     fluid_lag_series: Callable[[fluid_lag.Parameters, fluid_lag.State, float, float], float] = fluid_lag.fluid_lag_series
     fluid_lag_felt: Callable[[fluid_lag.Parameters, fluid_lag.State, float, float], float] = fluid_lag.fluid_lag_felt
     fluid_lag_force: Callable[[fluid_lag.Parameters, fluid_lag.State, float, float, float], None] = fluid_lag.fluid_lag_force

@@ -155,6 +155,22 @@ def test_late_valves_are_a_first_order_lag(dashpot: Damper, element: dict[str, f
     assert abs(found / (0.02 * omega * late) - 1) < (0.05 if "C_fluid" in element else 0.01)
 
 
+@pytest.mark.parametrize("dt", [2e-4, 2e-3])
+def test_closing_valves_let_the_oil_past_over_a_stroke(dashpot: Damper, dt: float) -> None:
+    t, z, v = oscillations(0.5, 0.04, 2, dt)
+    closing = 2e-3
+    late = simulate(dashpot.with_(closing_stroke=closing), z, v, t)
+    steps = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
+    turns = np.flatnonzero(np.diff(np.sign(v)) != 0)
+    since = steps - steps[turns[np.clip(np.searchsorted(turns, np.arange(len(z))) - 1, 0, None)]]
+    gone = np.arange(len(z)) > turns[1] + 2
+    share = np.clip(1.0 - (1.0 - since / closing) ** 2, 0.0, 1.0)
+    share[since > closing] = 1.0
+    assert late.F_fluid[gone] == pytest.approx(2000.0 * (v * share)[gone], abs=20.0)
+    far = gone & (since > 1.5 * closing)
+    assert late.F_fluid[far] == pytest.approx(2000.0 * v[far], rel=1e-3)
+
+
 def test_late_valves_do_not_show_in_the_steady_force(dashpot: Damper) -> None:
     p, d, s, f = dashpot.with_(tau_fluid=0.002).parameters, blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)

@@ -19,6 +19,8 @@ A step in which k_degr jumps is divided there, so that the columns know when.
 
 Valves that open and close late let the fluid force F follow that of the columns with a time constant of their own,
 tau_fluid dF/dt = F_columns - F, solved exactly for a step in which F_columns goes evenly, with its mean and its end.
+Or they take a stroke: a plate that the flow carries back to its seat lets the oil past until the piston has gone
+`closing_stroke` after a reversal, and the share 1 - (1 - y)^2 of the force is there at the share y of it.
 """
 
 import math
@@ -28,7 +30,7 @@ from twintube.core import variables
 from twintube.core.effects import effects_bypass, effects_scale_valve
 from twintube.core.frame import Frame, end_weight, parts_of
 from twintube.core.kernel.forces import branch
-from twintube.core.variables import FV_POINTS, var
+from twintube.core.variables import FV_POINTS, Derived, Flow, var
 
 TITLE = "Compressible oil and late check valves"
 CAUSE = "Oil, dissolved gas and walls give under pressure and check valves close late, so the fluid force lags the velocity."
@@ -55,6 +57,9 @@ class Parameters(variables.Parameters):
                        default=0.0, role="strength")  # fmt: skip
     tau_fluid: float = var("fluid_lag", "", "s", "time constant with which late valves change the fluid force", lower=0,
                            upper=0.02, source="first-order lag", default=0.0, role="strength")  # fmt: skip
+    closing_stroke: float = var("fluid_lag", "", "m", "stroke after a reversal until the check valves have closed", lower=0,
+                                upper=5e-3, source="a plate is carried to its seat; Dixon, The Shock Absorber Handbook",
+                                default=0.0, role="strength")  # fmt: skip
     relief_first: float = var("fluid_lag", "", "1", "share of a column's force that is relieved before the other builds up",
                               lower=0, upper=1, source="1: a single Maxwell element; Duym 2000", default=0.0,
                               role="law")  # fmt: skip
@@ -75,6 +80,11 @@ class State(Frame):
     F_turn_re: float = var("fluid_lag", "F_Fl", "N", "force of the rebound column, last pressed by the piston", default=0.0)
     F_turn_co: float = var("fluid_lag", "F_Fl", "N", "the same of the compression column", default=0.0)
     F_late: float = var("fluid_lag", "F_Fl", "N", "force of both behind late valves", default=0.0)
+    closed: float = var(
+        "fluid_lag", "", "1", "stroke since the reversal over that until the valves have closed", default=1.0
+    )
+    closing_side: float = var("fluid_lag", "", "1", "direction in which they close: 1, -1, 0 before the start", default=0.0)
+    closing_time: float = var("fluid_lag", "", "s", "duration of the present step", default=0.0)
     k_held_re: float = var("fluid_lag", "k_degr", "1", "k_degr in rebound at the end of the last step", default=1.0)
     k_held_co: float = var("fluid_lag", "k_degr", "1", "the same in compression", default=1.0)
 
@@ -82,6 +92,40 @@ class State(Frame):
 def fluid_lag_parts(p: Parameters, dt: float) -> int:
     """The force settles within milliseconds."""
     return parts_of(dt)
+
+
+def fluid_lag_motion(p: Parameters, d: Derived, s: State, z: float, v0: float, v1: float, dt: float) -> None:
+    """Remember the time of a step, which says how far the piston goes after a reversal in it."""
+    s.closing_time = dt
+
+
+def fluid_lag_shut(y: float) -> float:
+    """Integral from 0 to `y` of the share of the force [1] that closing valves let build up."""
+    left = max(0.0, 1.0 - y)
+    return y - (1.0 - left * left * left) / 3.0
+
+
+def fluid_lag_transition(p: Parameters, s: State, f: Flow, v: float, dz: float) -> None:
+    """While the check valves close a share of the force is there, in the mean over the step and at its end."""
+    if p.closing_stroke <= 0.0:
+        return
+    v0 = s.goal_v0
+    way = abs(dz) / p.closing_stroke
+    begun = s.closed
+    side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else s.closing_side
+    turned = v0 * v < 0.0
+    if side * s.closing_side < 0.0 and not (turned and dz * side < 0.0):
+        begun = 0.0
+    ended = begun + way
+    if way > 0.0:
+        f.k_mean *= (fluid_lag_shut(ended) - fluid_lag_shut(begun)) / way
+    if turned:
+        ended = 0.5 * v * v * s.closing_time / (abs(v0) + abs(v)) / p.closing_stroke
+    s.closing_side = side
+    s.closed = min(1.0, ended)
+    left = 1.0 - s.closed
+    f.k_degr *= 1.0 - left * left
+    s.k_degr *= 1.0 - left * left
 
 
 def fluid_lag_length(p: Parameters, F: float, z: float) -> float:
