@@ -29,6 +29,7 @@ def hooked(hooks: str) -> tuple[str, ...]:
 
 LATENESS = hooked("force|transition")  # effects that make the force late
 LATE = (*LATENESS, DELAY, CLOCK)  # and faults that do
+TURNING = hooked("force")  # what begins at a reversal
 FILLED = hooked("level")  # another fill than the recorded one, in all states alike or in one
 # What changes volumes alone moves steps of the force, or brings them about.
 MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked("scale_fluid"), *FILLED))
@@ -119,9 +120,10 @@ def candidates(problem: Problem) -> list[Candidate]:
                 low, high, start = max(low, -reach), reach, start if low < 0.0 else RULES.place * reach
             free.append(Free(item.name, start, low, high, meta["default"] if meta["role"] == "strength" else None))
             if meta["role"] == "strength":
-                # A time constant below a sample cannot be told from sampling.
+                # What is over within a sample cannot be told from sampling.
                 time = max(RULES.small_delay, period(problem))
                 usual = {"s": time, "N": RULES.small_force * peak}
+                usual |= {"m": turned_way(problem, time)} if effect.name in TURNING else {}
                 least[item.name] = usual.get(meta["unit"], RULES.acts * (high - low))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}
         carried = effect.name in LOSING and any(record.before[0] > 0.0 for record in problem.records)
@@ -150,6 +152,15 @@ def candidates(problem: Problem) -> list[Candidate]:
             )
         )
     return [*several, *faults(problem)]
+
+
+def turned_way(problem: Problem, time: float) -> float:
+    """Stroke [m] that the piston goes in a time [s] after a reversal, in the usual record."""
+    ways = []
+    for record in problem.records:
+        gained = np.abs(np.diff(record.velocity)) / np.maximum(np.diff(record.time), 1e-9)
+        ways.append(0.5 * float(np.quantile(gained, RULES.speed_quantile)) * time**2)
+    return float(np.median(ways))
 
 
 def unsought(effect: Effect, problem: Problem) -> tuple[str, ...]:

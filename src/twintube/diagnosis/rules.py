@@ -300,6 +300,9 @@ class Rules:
     quiet: float = verdict(
         1.1, "1", "error of the base model over the noise floor, up to which nothing is missing", DEVELOPMENT
     )
+    quiet_late: float = verdict(
+        1.15, "1", "the like up to which nothing makes the force late: sampling moves its steps, too", DEVELOPMENT
+    )
     explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
     explained_most: float = verdict(
         0.8, "1", "the like of what is late and of other parameters, where far more than noise is left", DEVELOPMENT

@@ -63,12 +63,14 @@ def judge(
     enough = gain.heldout >= (RULES.half if right else RULES.explained)
     late = any(name in LATE for name in causes)
     much = extended**2 > RULES.odd_right * floor**2
-    if (late and (much or quiet)) or (RECALIBRATE in selection.chosen and much):
+    if (late or RECALIBRATE in selection.chosen) and much:
         # Play in a joint and a filter make a force late as well, and fourteen parameters follow a good part of any effect.
         enough = gain.heldout >= RULES.explained_most
     if quiet and all(candidates[name].fault for name in causes):
         # So little is within what a careful bench is off by, which an effect of the damper is not.
         enough = selection.final.score <= (1 - RULES.half) * selection.start.score
+    if late and base <= RULES.quiet_late * floor:
+        enough = False  # sampling moves the steps of the force, too
     close = rivals(selection, extended > RULES.quiet * floor)
     solved = bool(selection.chosen) and proven and enough and not doubts
     if outside and not (solved and extended <= RULES.quiet * floor):
