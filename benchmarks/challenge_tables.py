@@ -10,6 +10,7 @@ from twintube.lab.challenge.score import (
     Outcome,
     answered,
     contradictions,
+    limit,
     nameable,
     named,
     right,
@@ -25,8 +26,8 @@ SIZES = {"effect_over_noise": "effect over noise", "effect_beyond_bench": "effec
 def tables(outcomes: Sequence[Outcome]) -> str:
     """All tables of some outcomes."""
     known = [o for o in outcomes if o["truth"]["kind"] not in ("none", "outside")]
-    parts = [shares(outcomes), *(over(known, key, title) for key, title in SIZES.items()), matrix(outcomes)]
-    return "\n\n".join(parts) + "\n"
+    sizes = (over(known, key, title) for key, title in SIZES.items())
+    return "\n\n".join([shares(outcomes), *sizes, limits(known), matrix(outcomes)]) + "\n"
 
 
 def shares(outcomes: Sequence[Outcome]) -> str:
@@ -70,6 +71,20 @@ def over(known: Sequence[Outcome], key: str, title: str) -> str:
         band = f"{low:g} to {high:g}" if high < float("inf") else f"above {low:g}"
         figures = " | ".join(str(sum(map(test, some))) for test in (right, truth_first, wrong_name))
         lines.append(f"| {band} | {len(some)} | {figures} |")
+    return "\n".join(lines)
+
+
+def limits(known: Sequence[Outcome]) -> str:
+    """From which size on nine of ten datasets with a cause have it named first."""
+    lines = [f"| hidden | datasets | {' | '.join(SIZES.values())} |", "|---|---|---|---|"]
+    rows: dict[str, list[Outcome]] = defaultdict(list)
+    for o in known:
+        if o["truth"]["kind"] != "pair":
+            rows[o["truth"]["hidden"]].append(o)
+    for name, some in sorted(rows.items()):
+        found = [limit(some, size) for size in SIZES]
+        figures = " | ".join("any" if low == 0.0 else f"{low:g}" if low < float("inf") else "not reached" for low in found)
+        lines.append(f"| {name} | {len(some)} | {figures} |")
     return "\n".join(lines)
 
 

@@ -84,6 +84,16 @@ def test_most_records_in_another_unit_are_put_right(good: list[Record], count: i
     assert right.measured == pytest.approx(true.measured)
 
 
+def test_inches_of_some_files_are_known_though_the_others_would_leave_the_tube(good: list[Record]) -> None:
+    some = [replace(r, stroke=r.stroke / 25.4) for r in good[:2]]
+    fault, right = unit_error(small.problem([*some, *good[2:]]))
+    assert fault is not None and (fault.title, fault.channel) == ("Unit of the stroke: in for mm", "stroke")
+    assert fault.records == tuple(r.name for r in some)
+    assert max(np.abs(r.stroke).max() for r in right.records) == pytest.approx(
+        max(np.abs(r.stroke).max() for r in good), rel=0.01
+    )
+
+
 def test_a_damper_that_lost_most_of_its_force_holds_no_other_unit(good: list[Record]) -> None:
     weak = [replace(r, force=0.4 * r.force) for r in good[:2]]
     assert unit_error(small.problem([*weak, *good[2:]]))[0] is None

@@ -10,7 +10,7 @@ from twintube.diagnosis.rules_table import BEGIN, END, table, with_table
 from twintube.fitting import averaging
 from twintube.fitting.rule import listed
 
-PAGE = Path(__file__).parents[2] / "docs" / "diagnosis.md"
+PAGE = Path(__file__).parents[2] / "docs" / "diagnosis_rules.md"
 
 
 def test_every_rule_has_a_value_a_reason_and_what_it_was_tuned_on() -> None:
@@ -28,7 +28,7 @@ def test_rules_cannot_be_changed() -> None:
 
 
 def test_the_page_shows_the_current_rules() -> None:
-    """Renew it with `python -m twintube.diagnosis.rules_table docs/diagnosis.md`."""
+    """Renew it with `python -m twintube.diagnosis.rules_table docs/diagnosis_rules.md`."""
     page = PAGE.read_text(encoding="utf-8")
     assert page == with_table(page)
 

@@ -140,7 +140,7 @@ class Rescaled:
     unit: str
     factor: float
     problem: Problem
-    misfit: Array  # (r,) of `relative`
+    misfit: Array  # (r,) of `relative`; infinite where a record cannot be of that unit
 
     def fault(self, names: tuple[str, ...]) -> Fault:
         """The fault of the records with these names, of all where there are none."""
@@ -152,16 +152,18 @@ class Rescaled:
 
 
 def rescaled(problem: Problem) -> list[Rescaled]:
-    """The problem in all units in which the stroke stays within the tube."""
+    """The problem in all units in which the stroke of any record stays within the tube; others cannot be of that unit."""
     limit = tube_limit(problem.damper.parameters)
+    reach = np.array([float(np.abs(record.stroke).max()) for record in problem.records])
     several = []
     for channel, units in (("force", FORCE_UNITS), ("stroke", STROKE_UNITS)):
         for unit, factor in units.items():
             force, stroke = (factor, 1.0) if channel == "force" else (1.0, factor)
-            records = [scaled(r, force, stroke) for r in problem.records]
-            if max(float(np.abs(r.stroke).max()) for r in records) <= limit:
-                other = problem.with_records(records)
-                several.append(Rescaled(channel, unit, factor, other, relative(other)))
+            fits = reach * stroke <= limit
+            if fits.any():
+                pairs = zip(problem.records, fits, strict=True)
+                other = problem.with_records([scaled(r, force, stroke) if of_it else r for r, of_it in pairs])
+                several.append(Rescaled(channel, unit, factor, other, np.where(fits, relative(other), np.inf)))
     return several
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import lsq_linear
@@ -48,6 +49,14 @@ class Fit:
     values: dict[str, float]  # of all free parameters
     misfit: Array  # (r,) mean squared weighted error per record
     covariance: Array  # (k, k), robust against errors that the samples of a record share
+
+
+class Beginnings(NamedTuple):
+    """What the usual scatter of the records' beginnings changes."""
+
+    change: Array  # (n,) [N]
+    column: Array  # (n,) white and weighted
+    size: Array  # (r,) its sum of squares
 
 
 class Problem(SeenRecords):
@@ -127,29 +136,27 @@ class Problem(SeenRecords):
         What another beginning changes is taken from the values `near` these, where given.
         """
         weighted = self.white(self.errors(values) * self.weight)
-        column, size = self.open_beginnings(near or values)
-        if column is None:
+        begun = self.open_beginnings(near or values)
+        if begun is None:
             return weighted
-        along = np.add.reduceat(column * weighted, self.starts[:-1]) / np.maximum(size, TINY)
-        return np.asarray(weighted - self.spread((1.0 - 1.0 / np.sqrt(1.0 + size)) * along) * column)
+        along = np.add.reduceat(begun.column * weighted, self.starts[:-1]) / np.maximum(begun.size, TINY)
+        return np.asarray(weighted - self.spread((1.0 - 1.0 / np.sqrt(1.0 + begun.size)) * along) * begun.column)
 
-    def open_beginnings(self, values: Mapping[str, float]) -> tuple[Array | None, Array]:
-        """White weighted changes (n,) by other beginnings of the records, and their sums of squares (r,); None without."""
+    def open_beginnings(self, values: Mapping[str, float]) -> Beginnings | None:
+        """What other beginnings of the records change; None where none is open."""
         change = self.beginnings(values)
         if change is None:
-            return None, np.zeros(len(self.records))
+            return None
         column = self.white(change * self.weight)
-        return column, np.asarray(np.add.reduceat(column**2, self.starts[:-1]))
+        return Beginnings(change, column, np.add.reduceat(column**2, self.starts[:-1]))
 
     def begun_forces(self, values: Mapping[str, float]) -> Array:
         """Predicted forces (n,) [N] with the beginning that is to be expected of each record by its own errors."""
-        forces = self.forces(values)
-        column, size = self.open_beginnings(values)
-        if column is None:
+        forces, begun = self.forces(values), self.open_beginnings(values)
+        if begun is None:
             return forces
-        pull = np.add.reduceat(column * self.white((forces - self.measured) * self.weight), self.starts[:-1])
-        change = self.beginnings(values)
-        return forces if change is None else np.asarray(forces - self.spread(pull / (1.0 + size)) * change)
+        pull = np.add.reduceat(begun.column * self.white((forces - self.measured) * self.weight), self.starts[:-1])
+        return np.asarray(forces - self.spread(pull / (1.0 + begun.size)) * begun.change)
 
     def white(self, weighted: Array) -> Array:
         """Weighted errors (n,) times the inverse root of their covariance, to which each record's zero contributes.
@@ -238,8 +245,9 @@ class Problem(SeenRecords):
 
     def unit_misfits(self, values: Mapping[str, float]) -> Array:
         """The like (u,) per unit; that each record may have a beginning of its own has its price in the likelihood."""
-        _, size = self.open_beginnings(values)
-        squares = self.residual(values) ** 2 + self.spread(np.log1p(size) / np.maximum(self.counts, 1))
+        begun = self.open_beginnings(values)
+        price = np.zeros(len(self.records)) if begun is None else np.log1p(begun.size)
+        squares = self.residual(values) ** 2 + self.spread(price / np.maximum(self.counts, 1))
         return np.asarray(np.bincount(self.unit, squares[self.used]) / self.unit_counts)
 
     def fit(self, free: Sequence[Free], *, thorough: bool = True) -> Fit:

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from twintube.diagnosis.candidates import faults
+from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.faults import Fault, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.rules import RULES
@@ -81,7 +82,10 @@ def spreads(problem: Problem) -> list[float]:
 def own_unit(part: Problem, names: tuple[str, ...], usual: float = 1.0) -> Fault | None:
     """The other unit in which the model explains these records as well as others, whose misfits are up to `usual`."""
     wrong, put_right = unit_error(part)
-    if wrong is None or wrong.records or not right(put_right, {}, usual):
+    if wrong is None or wrong.records:
+        return None
+    # Noise and steps were read in the wrong unit.
+    if not right(with_edges(with_noise(put_right)), {}, usual):
         return None
     of = f"In {', '.join(names)}: {wrong.explanation[0].lower()}{wrong.explanation[1:]}"
     return Fault(wrong.effect, wrong.title, of, wrong.factor, records=names)

@@ -1,6 +1,6 @@
 """All thresholds of the diagnosis: value, unit, reason, and on what they were tuned.
 
-The table in docs/diagnosis.md is generated from this file (rules_table.py). Datasets that a value was tuned on do not
+The table in docs/diagnosis_rules.md is generated from this file (rules_table.py). Datasets that a value was tuned on do not
 confirm it.
 """
 

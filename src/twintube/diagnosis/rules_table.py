@@ -1,4 +1,4 @@
-"""The table of all thresholds in the docs; `python -m twintube.diagnosis.rules_table docs/diagnosis.md` renews it."""
+"""The table of all thresholds in the docs; `python -m twintube.diagnosis.rules_table docs/diagnosis_rules.md` renews it."""
 
 import sys
 from pathlib import Path

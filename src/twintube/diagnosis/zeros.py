@@ -13,6 +13,7 @@ from scipy.stats import kruskal
 from twintube.arrays import Array
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.gains import bootstrap
 from twintube.diagnosis.prepare import BEND, SCATTER, PreparedRecord
 from twintube.diagnosis.rules import RULES
 
@@ -63,8 +64,9 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     still = problem.with_records(
         [replace(r, force=r.force + x) for r, x in zip(problem.records, shift.tolist(), strict=True)]
     )
-    if np.sum(still.residual({}) ** 2) >= np.sum(problem.residual({}) ** 2):
-        return None, problem  # means of records that hardly count
+    before, after = (np.add.reduceat(some.residual({}) ** 2, some.starts[:-1]) for some in (problem, still))
+    if bootstrap(np.column_stack([before - after, before]))[0] <= 0.0:
+        return None, problem  # the means of a damper that is weaker, or of records that hardly count
     if cut == 0:
         text = "The zero of the force channel moves evenly from the first record to the last."
         return Fault("zero_drift", "Drifting zero of the load cell", text, size, "zero_moved", "N"), still

@@ -150,10 +150,10 @@ def covered(outcomes: Iterable[Outcome]) -> dict[str, dict[str, float]]:
     return {name: {"count": len(row), "share": float(np.mean(row)) if row else math.nan} for name, row in hits.items()}
 
 
-def limit(outcomes: Sequence[Outcome]) -> float:
-    """Smallest edge of effect over noise from which on ENOUGH are named first; infinite where none is."""
+def limit(outcomes: Sequence[Outcome], size: str = "effect_over_noise") -> float:
+    """Smallest edge of a size from which on ENOUGH are named first; infinite where none is."""
     for low in EDGES[:-1]:
-        above = [o for o in outcomes if o["truth"]["effect_over_noise"] >= low]
+        above = [o for o in outcomes if o["truth"].get(size, -math.inf) >= low]
         if above and share(above, truth_first) >= ENOUGH:
             return low
     return math.inf
