@@ -74,7 +74,8 @@ def nuisances(problem: Problem) -> tuple[Free, ...]:
         Free("force_offset", known.get("force_offset", 0.0), -zero, zero),
         Free("channel_delay", known.get("channel_delay", 0.0), -late, late),
     ]
-    if any((record.samples[record.judged] < RULES.steps_per_interval).any() for record in problem.records):
+    # So few samples are read one by one, as the logger did.
+    if any((record.samples[record.judged] <= 2 * RULES.steps_per_interval).any() for record in problem.records):
         free.append(Free("sample_mean", known.get("sample_mean", 0.5), 0.0, 1.0))
         most = RULES.bends
         free += [Free(name, known.get(name, 0.0), -most, most) for name in BENDS]

@@ -33,6 +33,7 @@ def with_edges(problem: Problem) -> Problem:
     changes += [{"v_foam": s * problem.given.parameters.v_foam} for s in (1.0, 2 * MARGIN - 1)]
     others += [problem.simulated(problem.damping(change))[1] for change in changes]
     several = np.sqrt(sum(((other - base) ** 2 for other in others), np.zeros(len(base))) / 2)
+    several = np.hypot(several, barely_cavitating(problem, base))
     late = moved_in_time(problem, RULES.open_step * period(problem))
     motion = RULES.open_motion * np.abs(between_samples(problem).simulate(problem.damping({}))[1] - base)
     filtered = min(1.0, sum(abs(problem.usual.get(name, 0.0)) for name in SAMPLING))
@@ -42,6 +43,20 @@ def with_edges(problem: Problem) -> Problem:
         edges = np.sqrt(record.edges**2 + several[a:b] ** 2 + passed_on(record, base[a:b], sharp, filtered) ** 2)
         records.append(replace(record, edges=edges))
     return problem.with_records(records)
+
+
+def barely_cavitating(problem: Problem, base: Array) -> Array:
+    """What the force (n,) [N] of records whose speed just passes the threshold of cavitation would be off if it did not.
+
+    The noise of a stroke is seen in its slope, so that such a speed may be an overshoot.
+    """
+    least = problem.given.parameters.v_cav
+    most = (1.0 + RULES.open_speed) * least
+    barely = [bool(least < record.velocity.max() <= most) for record in problem.records]
+    if not any(barely):
+        return np.zeros(len(base))
+    other = problem.simulated(problem.damping({"v_cav": most}))[1]
+    return np.where(problem.spread(np.array(barely)), np.abs(other - base), 0.0)
 
 
 def between_samples(problem: Problem) -> Problem:

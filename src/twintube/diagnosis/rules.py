@@ -157,6 +157,12 @@ class Rules:
     )
     open_level: float = measurement(2e-4, "1", "of the oil: error of every fill", DEVELOPMENT)
     open_stroke: float = measurement(5e-4, "1", "of stroke and velocity: error of every channel", DEVELOPMENT)
+    open_speed: float = measurement(
+        0.05,
+        "1",
+        "of the threshold of cavitation, by which noise may lift a speed: 0.045 at sharp turns",
+        DEVELOPMENT,
+    )
     delay_step: float = measurement(
         0.02, "1", "of the range of a delay, over which the force's slope in it is taken", JUDGEMENT
     )
