@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 0267e60a829b4397, body 1a237c256d78e161; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations b1be1b61d1c50c8b, body 58091f918f900973; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -92,6 +92,7 @@ struct kernel_Parameters {
     double leak_power;
     double side_load;
     double v_side;
+    double side_lever;
     double build_up;
     double tau_build;
     double early_share;
@@ -916,12 +917,14 @@ static double kernel_position_friction_scale_friction(struct kernel_Parameters* 
     return double_max(2, 0.0, 1.0 + z * (p->friction_slope + z * p->friction_bow) + p->friction_spot * exp((-x) * x));
 }
 
-/* Factor of the friction force [1] at the velocity `v` [m/s]. */
+/* Factor of the friction force [1] at the stroke `z` [m] and the velocity `v` [m/s]. */
 static double kernel_side_load_friction_scale_friction(struct kernel_Parameters* p, struct kernel_State* s, double z, double v)
 {
     double x;
+    double pressed;
     x = v / p->v_side;
-    return 1.0 + p->side_load * (1.0 - exp((-x) * x)) / (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
+    pressed = p->side_load * double_max(2, 0.0, 1.0 + p->side_lever * z);
+    return 1.0 + pressed * (1.0 - exp((-x) * x)) / (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
 }
 
 static double kernel_effects_scale_friction(struct kernel_Parameters* p, struct kernel_State* s, double z, double v)
