@@ -74,6 +74,17 @@ def test_a_vibration_that_goes_on_is_motion() -> None:
     assert np.sqrt(np.mean((result - stroke) ** 2)) < 0.6 * NOISE  # without the vibration at least 0.71
 
 
+def test_the_levels_of_a_coarse_channel_are_no_vibration() -> None:
+    """At a steady speed their error repeats; as a speed it would pass the thresholds of foam and cavitation."""
+    time, level = np.arange(0.0, 20.0, 1 / 512), 4.2e-5
+    steady = 0.0445 * (2 / np.pi) * np.arcsin(np.sin(2 * np.pi * time / 3.42))
+    result = quiet(time, level * np.round(steady / level))
+    inside = (np.abs(steady) < 0.035) & (time > 0.1) & (time < 19.9)
+    speed = np.abs(np.gradient(result, time))[inside]
+    assert speed == pytest.approx(0.05205, rel=0.02)
+    assert np.std(result - steady) < 0.2 * level
+
+
 def test_a_drive_sampled_too_coarsely_is_left_alone() -> None:
     rng = np.random.default_rng(3)
     time, stroke = np.arange(0.0, 20.0, 1e-2), rng.normal(0.0, 5e-3, 2000)

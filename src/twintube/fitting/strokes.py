@@ -4,7 +4,7 @@ A Dahl element takes each sample of noise for a reversal, and 0.02 mm of it, of 
 which friction builds up. Each sample becomes the value of a local cubic over the widest window that differs from
 narrower ones by no more than noise (the method of Lepski: Goldenshluger and Nemirovski, On spatially adaptive estimation of
 nonparametric regression, 1997), so that a sharp reversal keeps its place. A vibration that goes on is kept by its
-spectrum. Between reversals beyond the noise the stroke goes one way.
+spectrum, where it is more than the error of a coarse channel. Between reversals beyond the noise the stroke goes one way.
 """
 
 import itertools
@@ -19,6 +19,7 @@ from scipy.optimize import isotonic_regression
 from scipy.signal import oaconvolve, savgol_coeffs, savgol_filter
 
 from twintube.arrays import Array
+from twintube.data.defects import resolution
 
 ORDER = 6  # of the differences that show noise: those of a sine with 50 samples per oscillation are below 1e-7 of it
 LAGS = (1, 2, 4, 8, 16)  # samples between the values of a difference: filtered noise shows at some distance only
@@ -66,7 +67,9 @@ def quiet(time: Array, stroke: Array) -> Array:
     size, lag = noise(stroke - moved)
     if size == 0.0:
         return stroke
-    return one_way(smoothed(stroke - moved, size, lag) + moved, size)
+    levels = resolution(stroke)
+    rounding = levels[0] / math.sqrt(12.0) if levels else 0.0
+    return one_way(smoothed(stroke - moved, size, lag, rounding) + moved, size)
 
 
 @cache
@@ -83,8 +86,11 @@ def half_widths(samples: int, lag: int) -> list[int]:
     return sorted(half for half in widths if 4 * half < samples)
 
 
-def smoothed(stroke: Array, size: float, lag: int) -> Array:
-    """The evenly sampled stroke (n,) [m] with noise of `size` [m], correlated over `lag` samples, taken out."""
+def smoothed(stroke: Array, size: float, lag: int, rounding: float = 0.0) -> Array:
+    """The evenly sampled stroke (n,) [m] with noise of `size` [m], correlated over `lag` samples, taken out.
+
+    `rounding` is the standard deviation [m] of the error of its levels, which a steady motion repeats.
+    """
     if size == 0.0:
         return stroke
     middle = float(np.mean(stroke))  # taken off, as a convolution by blocks rounds relative to the largest value
@@ -106,7 +112,8 @@ def smoothed(stroke: Array, size: float, lag: int) -> Array:
             break
         chosen[agree] = number
     smooth = np.take_along_axis(np.array(values), chosen[None], axis=0)[0]
-    return np.asarray(smooth + repeated(values[0] - smooth, size, lag) + middle)
+    kept = repeated(values[0] - smooth, size, lag)
+    return np.asarray(smooth + middle + (kept if np.std(kept) > rounding else 0.0))
 
 
 def repeated(rest: Array, size: float, lag: int) -> Array:
