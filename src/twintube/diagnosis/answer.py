@@ -139,7 +139,8 @@ def estimated(problem: Problem, candidate: Candidate, fit: Fit, halves: Sequence
         scattered = float(np.sqrt(max(0.0, fit.covariance[at, at])))
         several = [half.values[f.name] for half in halves if f.name in half.values]
         between = float(np.std(several, ddof=1) / np.sqrt(len(several))) if len(several) > 1 else 0.0
-        law = RULES.law_width * abs(fit.values[f.name] - f.neutral) if f.neutral is not None else 0.0
+        width = RULES.channel_width if candidate.fault else RULES.law_width
+        law = width * abs(fit.values[f.name] - f.neutral) if f.neutral is not None else 0.0
         spread = max(RULES.interval * max(scattered, between), law)
         value = fit.values[f.name]
         low, high = max(f.low, value - spread), min(f.high, value + spread)

@@ -326,8 +326,12 @@ class Rules:
     wide: float = verdict(0.5, "1", "of the range: a wider interval says nothing about the value", JUDGEMENT)
     interval: float = verdict(1.645, "1", "standard deviations of a 90 % interval", STATISTICS)
     law_width: float = verdict(
-        0.05, "1", "of its distance from doing nothing, to either side: the least interval of a strength", DEVELOPMENT
+        0.2,
+        "1",
+        "of its distance from doing nothing, to either side: least interval of an effect's strength",
+        DEVELOPMENT,
     )
+    channel_width: float = verdict(0.05, "1", "the like of a fault of a channel, whose law is known", DEVELOPMENT)
     interval_level: float = verdict(0.9, "1", "of the intervals of gains", STATISTICS)
     resamples: int = verdict(2000, "", "of the records, for the intervals of gains", JUDGEMENT)
     worst_share: float = verdict(0.01, "1", "of the explainable error that a record must hold to be the worst", JUDGEMENT)
