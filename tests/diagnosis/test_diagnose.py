@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from tests.diagnosis import small
+from twintube.arrays import Array
 from twintube.cli import app
 from twintube.dampers import load
 from twintube.data import Record
@@ -268,6 +269,16 @@ def test_records_in_which_an_answer_leaves_more_than_noise(good: list[Record]) -
     assert contradicted(problem, left(dict.fromkeys(range(len(good)), 40))) is None  # all: not a matter of few records
 
 
+def answer_of(names: tuple[str, ...], error: Array) -> Diagnosis:
+    """An answer that names these and leaves errors (n,) in its only record."""
+    row = SimpleNamespace(
+        record=SimpleNamespace(name="a"), measured=np.zeros(len(error)), extended=error, weight=np.ones(len(error))
+    )
+    verdict = "recalibrate" if "recalibrate" in names else "cause"
+    causes = [SimpleNamespace(effect=name) for name in names if name != "recalibrate"]
+    return cast(Diagnosis, SimpleNamespace(verdict=verdict, causes=causes, records=[row]))
+
+
 @pytest.mark.parametrize(
     ("before", "after", "left", "more"),
     [
@@ -286,12 +297,10 @@ def test_records_in_which_an_answer_leaves_more_than_noise(good: list[Record]) -
 def test_an_answer_within_records_must_name_more_or_leave_far_less(
     before: tuple[str, ...], after: tuple[str, ...], left: float, more: bool
 ) -> None:
-    def answer(names: tuple[str, ...], error: float) -> Diagnosis:
-        row = SimpleNamespace(
-            record=SimpleNamespace(name="a"), measured=np.zeros(9), extended=np.full(9, error), weight=np.ones(9)
-        )
-        verdict = "recalibrate" if "recalibrate" in names else "cause"
-        causes = [SimpleNamespace(effect=name) for name in names if name != "recalibrate"]
-        return cast(Diagnosis, SimpleNamespace(verdict=verdict, causes=causes, records=[row]))
+    ripple = np.array([1.0, -1.0] * 5)
+    assert says_more(answer_of(before, ripple), answer_of(after, left * ripple)) == more
 
-    assert says_more(answer(before, 1.0), answer(after, left)) == more
+
+def test_within_records_the_zero_of_a_single_record_names_nothing() -> None:
+    zero = np.ones(10)
+    assert not says_more(answer_of((), zero), answer_of(("gas_spring",), 0.1 * zero))

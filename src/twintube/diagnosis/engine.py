@@ -121,17 +121,23 @@ def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
     """Whether another answer names all causes of an answer and further ones, or others that leave far less of the error.
 
     Other degradation parameters are an answer like a cause. Nothing that makes the force late is taken from
-    it: between two samples a step of the force is late by chance, and nothing of a record is left out there.
+    it: between two samples a step of the force is late by chance, and nothing of a record is left out there. Nor is what
+    the zero of a single record would explain as well.
     """
     before, after = ({cause.effect for cause in some.causes} for some in (answered, closer))
     after |= {RECALIBRATE} if closer.verdict == RECALIBRATE else set()
     if not after - before or (after - before) & set(LATE):
         return False
     first = {r.record.name: r for r in answered.records}
-    left = np.zeros(2)
+    left, beside_zeros = np.zeros(2), np.zeros(2)
     for r in closer.records:
-        errors = ((some.extended - r.measured) * r.weight for some in (first[r.record.name], r))
-        left += [float(np.sum(error**2)) for error in errors]
+        power = max(float(r.weight @ r.weight), np.finfo(float).tiny)
+        for i, some in enumerate((first[r.record.name], r)):
+            error = (some.extended - r.measured) * r.weight
+            left[i] += error @ error
+            beside_zeros[i] += error @ error - (error @ r.weight) ** 2 / power
+    if beside_zeros[0] - beside_zeros[1] < RULES.half * (left[0] - left[1]):
+        return False
     return before < after or bool(left[1] < RULES.explains_more * left[0])
 
 
