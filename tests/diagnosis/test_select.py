@@ -159,10 +159,16 @@ def test_what_something_too_short_for_the_sampling_explains_as_well_is_no_cause(
     lag = option("fluid_lag", 0.30, tau_fluid=3.0 * seen.candidates["fluid_lag"].least["tau_fluid"])
     short, limit = option(DELAY, 0.31, channel_delay=0.5 * late), option("fluid_lag", 0.31, channel_delay=late)
     wear = option("valve_wear", 0.30, wear_re=-0.1)
-    assert seen.sampled(seen.start, lag, [lag, short])
-    assert not seen.sampled(seen.start, lag, [lag, limit]), "the delay does not end within the sampling"
-    assert not seen.sampled(seen.start, lag, [lag, option(DELAY, 0.6, channel_delay=0.5 * late)])
-    assert not seen.sampled(seen.start, wear, [wear, short])
+    assert seen.usual(seen.start, lag, [lag, short])
+    assert not seen.usual(seen.start, lag, [lag, limit]), "the delay does not end within the sampling"
+    assert not seen.usual(seen.start, lag, [lag, option(DELAY, 0.6, channel_delay=0.5 * late)])
+    assert not seen.usual(seen.start, wear, [wear, short])
+    # A wear that a gain within the calibration does as well.
+    several = (fit.free[0] for fit in wear.fits)
+    wear = replace(wear, fits=tuple(replace(fit, free=(f,) * 9) for fit, f in zip(wear.fits, several, strict=True)))
+    assert seen.usual(seen.start, wear, [wear, option("force_gain", 0.31, force_gain=0.999)])
+    assert not seen.usual(seen.start, wear, [wear, option("force_gain", 0.31, force_gain=0.98)])
+    assert not seen.usual(seen.start, wear, [wear, option("force_gain", 0.6, force_gain=0.999)])
     assert not seen.short(limit) and seen.short(short)
 
 

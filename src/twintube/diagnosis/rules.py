@@ -288,7 +288,7 @@ class Rules:
     )
     near_best: float = selection(0.75, "1", "of the best gain, from which a third less squared error decides", TRIALS)
     near_sampling: float = selection(
-        0.9, "1", "of the gain of what makes the force late, that something too short for the sampling has, too", DEVELOPMENT
+        0.9, "1", "of the gain of a cause, that what every measurement has reaches, too", DEVELOPMENT
     )
     promise: float = selection(
         0.005, "1", "of the squared error that the start of a candidate takes away, for it to be fitted", DEVELOPMENT

@@ -215,15 +215,16 @@ class Selector(Judge):
         known = (1.0 - RULES.at_bound) * late.high
         return not self.acts(option) and all(abs(fit.values.get(DELAY, 0.0)) < known for fit in option.fits)
 
-    def sampled(self, current: Option, option: Option, options: Sequence[Option]) -> bool:
-        """Whether an option makes the force late as something too short for the sampling does that explains as much."""
+    def usual(self, current: Option, option: Option, options: Sequence[Option]) -> bool:
+        """Whether what every measurement has explains as much: what is too short for sampling, or a gain."""
         gained = RULES.near_sampling * (current.score - option.score)
         others = [o for o in options if o.names[-1] in LATE and self.short(o)] if option.names[-1] in LATE else []
+        others += [o for o in options if general(option, o) and self.known(o.names[-1]).fault and not self.acts(o)]
         return any(current.score - o.score >= gained for o in others)
 
     def taken(self, current: Option, options: Sequence[Option]) -> Option | None:
         """The option that becomes the next model: the best, or a nearly equal option that predicts forces far better."""
-        worthy = [o for o in options if self.acts(o) and self.worth(current, o) and not self.sampled(current, o, options)]
+        worthy = [o for o in options if self.acts(o) and self.worth(current, o) and not self.usual(current, o, options)]
         if not worthy:
             return None
         best = worthy[0]
