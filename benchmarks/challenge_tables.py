@@ -82,8 +82,8 @@ def limits(known: Sequence[Outcome]) -> str:
         if o["truth"]["kind"] != "pair":
             rows[o["truth"]["hidden"]].append(o)
     for name, some in sorted(rows.items()):
-        found = [limit(some, size) for size in SIZES]
-        figures = " | ".join("any" if low == 0.0 else f"{low:g}" if low < float("inf") else "not reached" for low in found)
+        words = {0.0: "any", float("inf"): "not reached"}
+        figures = " | ".join(words.get(low, f"{low:g}") for low in (limit(some, size) for size in SIZES))
         lines.append(f"| {name} | {len(some)} | {figures} |")
     return "\n".join(lines)
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from benchmarks.challenge import append, draw_reliability, kept_outcomes
-from benchmarks.challenge_tables import tables
+from benchmarks.challenge_tables import limits, tables
 from twintube.lab.challenge.score import contradictions, score
 
 
@@ -110,6 +110,7 @@ def test_coverage_and_detection_limit() -> None:
     figures = score(rows)
     assert figures["coverage"]["side_load_N"] == {"count": 2, "share": 0.5}
     assert figures["detection_limit"] == {"side_load_friction": 0.7}
+    assert "| side_load_friction | 4 | 0.7 | not reached |" in limits(rows)
 
 
 def test_no_outcomes_are_no_figures() -> None:

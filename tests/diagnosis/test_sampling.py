@@ -9,9 +9,10 @@ from scipy.signal import butter, lfilter
 from tests.diagnosis import small
 from twintube.arrays import Array
 from twintube.core import effects
+from twintube.dampers import load
 from twintube.data import Record
 from twintube.diagnosis.candidates import period, unfiltered, usual_delay
-from twintube.diagnosis.edges import with_edges, with_noise
+from twintube.diagnosis.edges import barely_cavitating, with_edges, with_noise
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.sampling import with_sampling
@@ -110,3 +111,13 @@ def test_what_is_left_of_the_past_stays_below_the_intact_force(runs: list[small.
     problem = small.problem(sampled(runs, [r.force for r in runs]))
     force = problem.forces({"build_up": build_up, "carry_over": 1.0})
     assert np.abs(force).max() < 1.5 * np.abs(problem.measured).max()
+
+
+def test_a_speed_just_beyond_the_threshold_of_cavitation_may_be_noise() -> None:
+    """A record that passes it by 1 % knows nothing of cavitation, one that passes it by 20 % does."""
+    for factor, open_to_doubt in ((1.01, True), (1.2, False), (0.9, False)):
+        problem = small.problem(
+            small.records(lambda r: r.force, (factor * load("SA8").parameters.v_cav,), (small.DEGRADED,))
+        )
+        doubt = barely_cavitating(problem, problem.simulated(problem.damping({}))[1])
+        assert (doubt.max() > 0.05 * problem.records[0].peak) == open_to_doubt

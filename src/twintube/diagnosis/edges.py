@@ -52,7 +52,7 @@ def barely_cavitating(problem: Problem, base: Array) -> Array:
     """
     least = problem.given.parameters.v_cav
     most = (1.0 + RULES.open_speed) * least
-    barely = [bool(least < record.velocity.max() <= most) for record in problem.records]
+    barely = [bool(least < np.abs(record.velocity).max() <= most) for record in problem.records]
     if not any(barely):
         return np.zeros(len(base))
     other = problem.simulated(problem.damping({"v_cav": most}))[1]
