@@ -135,7 +135,8 @@ def test_a_lag_is_seen_where_a_delay_as_long_stands_in_for_it() -> None:
     assert abs(problem.usual[DELAY]) > 0.5 * period(problem), "a delay stands in for the lag"
     cost, point = best_start([problem], named(problem, "fluid_lag"), [problem.usual])
     assert point["tau_fluid"] == pytest.approx(0.004, rel=0.3) and point.get(DELAY, 0.0) == 0.0
-    assert cost < 0.3 * problem.costs([problem.usual], problem.usual, nuisances(problem))[0]
+    # A filter of the channel, which four samples of an interval leave open, takes some of the lag.
+    assert cost < 0.5 * problem.costs([problem.usual], problem.usual, nuisances(problem))[0]
 
 
 def test_a_second_strength_joins_the_first_at_its_size() -> None:
