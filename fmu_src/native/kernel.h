@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations b1be1b61d1c50c8b, body 58091f918f900973; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 65f7efb1f8c39587, body 91ec7d98ab5678a4; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -244,10 +244,12 @@ struct kernel_Violation {
     double limit;
 };
 
-/* Cavitation shares of a damper that holds `oil_level` [1] of its oil. */
-static void kernel_cavitate(struct kernel_Parameters* p, struct kernel_Derived* d, double oil_level)
+/* Friction and cavitation shares of a damper that holds `oil_level` [1] of its oil. */
+static void kernel_lose(struct kernel_Parameters* p, struct kernel_Derived* d, double oil_level)
 {
     double loss;
+    /* Section 3.2: "In case of oil loss, the friction force of the SA increases". */
+    d->F_FrS = p->F_FrS * (1.0 + p->oil_loss_gain * (1.0 - oil_level));
     /* Section 3.2: the force falls from oscillation to oscillation when the damper "contains less than 100 % oil". Beside the */
     /* preload it takes gas in the place of oil: in proportion to the loss, in full from `cavitation_loss` on. */
     d->cavitation = 0.0;
@@ -271,11 +273,10 @@ static void kernel_prepare(struct kernel_Parameters* p, struct kernel_Derived* d
     d->half_length = 0.5 * (p->h_l - p->dead_length);
     d->V_reserve = 0.25 * M_PI * (p->D_a * p->D_a - p->D_la * p->D_la) * p->h_l;
     lost = 1.0 - p->gas_preload;
-    d->F_FrS = p->F_FrS * (1.0 + p->oil_loss_gain * (1.0 - p->oil_level));
     d->F_0 = p->gas_preload * p->F_0;
     d->c_gas = p->gas_preload * p->c_gas + lost * p->c_gas_lost;
     d->displaced = 0.0;
-    kernel_cavitate(p, d, p->oil_level);
+    kernel_lose(p, d, p->oil_level);
     /* Eq. 22: W_kPV reaches its target within one step. Reading B adds the leak to the flow; the force stays X_Re. */
     d->W_kPV = (1.0 - p->L_PV) * p->X_Re + p->leak_carries_oil * p->L_PV;
     a = d->A_1 / d->A_2;
@@ -364,10 +365,10 @@ static double kernel_oil_level_error_level(struct kernel_Parameters* p, double l
     return (p->gas_preload == 0 ? double_max(2, 0.0, double_min(2, 1.0, level + p->level_error)) : level);
 }
 
-/* Cavitation goes with the oil that is truly lost. */
+/* What follows from the oil that is truly lost. */
 static void kernel_oil_level_error_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
 {
-    kernel_cavitate(p, d, kernel_oil_level_error_level(p, p->oil_level));
+    kernel_lose(p, d, kernel_oil_level_error_level(p, p->oil_level));
 }
 
 static void kernel_effects_derive(struct kernel_Parameters* p, struct kernel_Derived* d)

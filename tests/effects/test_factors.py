@@ -88,17 +88,16 @@ def test_a_weak_blow_off_takes_a_constant_force_where_it_is_open() -> None:
 )
 def test_a_wrong_fill_is_another_fill(recorded: float, error: float, true: float) -> None:
     block = harmonic_block(1.572)
-    base = load("SA8").with_(gas_preload=0, oil_loss_gain=0.0)
+    base = load("SA8").with_(gas_preload=0)
     wrong = simulate(base.with_(oil_level=recorded, level_error=error), block.stroke, block.velocity)
     right = simulate(base.with_(oil_level=true), block.stroke, block.velocity)
     assert wrong.force == pytest.approx(right.force, abs=1e-6)
+    assert wrong.F_friction == pytest.approx(right.F_friction, abs=1e-9)
     assert wrong.V_cav == pytest.approx(right.V_cav, abs=1e-15)
 
 
-def test_the_intact_state_and_the_friction_keep_the_recorded_level(sa8: Damper) -> None:
+def test_the_intact_state_keeps_the_recorded_level() -> None:
     block = harmonic_block(1.048)
     intact = load("SA8")
     a, b = (simulate(x, block.stroke, block.velocity) for x in (intact, intact.with_(level_error=-0.2)))
     assert np.array_equal(a.force, b.force)
-    a, b = (simulate(x, block.stroke, block.velocity) for x in (sa8, sa8.with_(level_error=-0.2)))
-    assert np.array_equal(a.F_friction, b.F_friction)

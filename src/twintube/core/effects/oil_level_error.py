@@ -1,13 +1,12 @@
 """The recorded fill is wrong: the damper starts with another oil level in its degraded states (preload lost).
 
-The level is oil_level + level_error within 0 to 1. Friction keeps the recorded level: its rise stands for age, not for
-the fill.
+The level is oil_level + level_error within 0 to 1. Friction and cavitation go with the oil that is truly lost.
 """
 
 from dataclasses import dataclass
 
 from twintube.core import variables
-from twintube.core.kernel.prepare import cavitate
+from twintube.core.kernel.prepare import lose
 from twintube.core.variables import Derived, var
 
 TITLE = "The recorded fill is wrong"
@@ -34,5 +33,5 @@ def oil_level_error_level(p: Parameters, level: float) -> float:
 
 
 def oil_level_error_derive(p: Parameters, d: Derived) -> None:
-    """Cavitation goes with the oil that is truly lost."""
-    cavitate(p, d, oil_level_error_level(p, p.oil_level))
+    """What follows from the oil that is truly lost."""
+    lose(p, d, oil_level_error_level(p, p.oil_level))

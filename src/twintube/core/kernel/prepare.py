@@ -14,11 +14,10 @@ def prepare(p: Parameters, d: Derived) -> None:
     d.V_reserve = 0.25 * math.pi * (p.D_a * p.D_a - p.D_la * p.D_la) * p.h_l
 
     lost = 1.0 - p.gas_preload
-    d.F_FrS = p.F_FrS * (1.0 + p.oil_loss_gain * (1.0 - p.oil_level))
     d.F_0 = p.gas_preload * p.F_0
     d.c_gas = p.gas_preload * p.c_gas + lost * p.c_gas_lost
     d.displaced = 0.0
-    cavitate(p, d, p.oil_level)
+    lose(p, d, p.oil_level)
 
     # Eq. 22: W_kPV reaches its target within one step. Reading B adds the leak to the flow; the force stays X_Re.
     d.W_kPV = (1.0 - p.L_PV) * p.X_Re + p.leak_carries_oil * p.L_PV
@@ -31,8 +30,10 @@ def prepare(p: Parameters, d: Derived) -> None:
     d.k_Co2 = p.X_Co2 + p.G_PV * (1.0 - p.X_Co2)
 
 
-def cavitate(p: Parameters, d: Derived, oil_level: float) -> None:
-    """Cavitation shares of a damper that holds `oil_level` [1] of its oil."""
+def lose(p: Parameters, d: Derived, oil_level: float) -> None:
+    """Friction and cavitation shares of a damper that holds `oil_level` [1] of its oil."""
+    # Section 3.2: "In case of oil loss, the friction force of the SA increases".
+    d.F_FrS = p.F_FrS * (1.0 + p.oil_loss_gain * (1.0 - oil_level))
     # Section 3.2: the force falls from oscillation to oscillation when the damper "contains less than 100 % oil". Beside the
     # preload it takes gas in the place of oil: in proportion to the loss, in full from `cavitation_loss` on.
     d.cavitation = 0.0
