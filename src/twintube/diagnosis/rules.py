@@ -101,7 +101,8 @@ class Rules:
     slow_random: float = records(
         2.0, "1", "times the velocity of preconditioning, up to which a random motion is slow all along", DEVELOPMENT
     )
-    slow_way: float = records(2.0, "1", "of the range of the stroke that preconditioning goes at least", JUDGEMENT)
+    slow_way: float = records(2.0, "1", "of the range of the stroke that preconditioning goes at least ...", JUDGEMENT)
+    slow_reach: float = records(0.8, "1", "... over so much of it", JUDGEMENT)
     odd: float = records(4.0, "1", "times the largest misfit of all others, at which a record does not belong", DEVELOPMENT)
     odd_unit: float = records(25.0, "1", "the like where only another unit of these records is looked for", JUDGEMENT)
     odd_far: float = records(1000.0, "1", "the like where the others are not explained within noise", DEVELOPMENT)
