@@ -89,10 +89,20 @@ def test_a_zero_that_moves_in_the_order_of_the_records_is_a_fault_and_is_put_rig
 
 def test_zeros_that_scatter_and_a_force_that_comes_with_the_loss_of_oil_do_not_move(records: list[PreparedRecord]) -> None:
     rng = np.random.default_rng(5)
-    lost = np.array([20.0 * (not record.intact) for record in records])
-    for zeros in (10.0 * rng.standard_normal(len(records)), lost + rng.standard_normal(len(records))):
+    pushed_out = np.array([-20.0 * (not record.intact) for record in records])
+    for zeros in (10.0 * rng.standard_normal(len(records)), pushed_out + rng.standard_normal(len(records))):
         problem = zeroed(records, zeros)
         assert zero_change(problem) == (None, problem)
+
+
+def test_a_constant_that_pulls_the_rod_in_is_no_gas_that_is_left(records: list[PreparedRecord]) -> None:
+    """No residual pressure does that; more gas in the intact damper looks alike, but then the intact records are wrong."""
+    degraded = np.array([not record.intact for record in records])
+    rng = np.random.default_rng(6)
+    fault, _ = zero_change(zeroed(records, 20.0 * degraded + rng.standard_normal(len(records))))
+    assert fault is not None and fault.effect == "force_offset"
+    assert fault.records == tuple(record.name for record in records if not record.intact)
+    assert zero_change(zeroed(records, -20.0 * ~degraded + rng.standard_normal(len(records))))[0] is None
 
 
 def test_a_force_that_falls_in_one_direction_alone_is_no_zero(records: list[PreparedRecord]) -> None:

@@ -56,7 +56,8 @@ class Rules:
     speed_quantile: float = records(0.99, "1", "of the speed: the top speed of a record without outliers", JUDGEMENT)
     repeats: int = records(3, "", "oscillations from which noise is what does not repeat: second differences", METHOD)
     coloured_least: int = records(200, "", "intervals from which the colour of noise is seen", JUDGEMENT)
-    most_alike: float = records(0.9, "1", "correlation of neighbouring intervals that noise has at most", JUDGEMENT)
+    few_samples: int = records(8, "", "samples of an interval, up to which its ends that are shared count", NUMERICS)
+    most_alike: float = records(0.9, "1", "correlation of samples an interval apart that noise has at most", JUDGEMENT)
     smooth: float = records(
         1.15, "1", "times what noise gains from neighbours to those at three times the distance: an error", JUDGEMENT
     )
@@ -184,6 +185,9 @@ class Rules:
         0.15, "1", "of the squared means of the records that a moving zero leaves at most", DEVELOPMENT
     )
     order_state: float = measurement(0.5, "1", "the like in each state of filling, and in both directions", DEVELOPMENT)
+    order_intact: float = measurement(
+        0.2, "1", "of a zero that moved with the loss of oil: zero of the intact records at most", JUDGEMENT
+    )
     least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
 
     model_error: float = fitting(4e-4, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)

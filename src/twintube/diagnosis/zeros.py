@@ -30,7 +30,7 @@ def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
 def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     """A zero that moves from record to record in the order of the dataset, at once or evenly, and the problem without it.
 
-    What begins with the loss of oil is no zero, but maybe the force of gas.
+    What begins with the loss of oil is no zero, but maybe the force of gas, unless it pulls the rod in.
     """
     means = problem.means(problem.errors({}) * problem.weight)
     count = len(means)
@@ -42,7 +42,7 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     keys = [(record.oil_level, record.gas_preload) for record in problem.records]
     for cut in range(RULES.order_side, count - RULES.order_side + 1):
         same = keys[cut] == keys[cut - 1]
-        if same or not (problem.records[cut].intact or problem.records[cut - 1].intact):
+        if same or not (problem.records[cut].intact or problem.records[cut - 1].intact) or pulled_in(problem, means):
             side = np.arange(count) >= cut
             fits[cut] = np.where(side, means[side].mean(), means[~side].mean()) - means.mean()
     left = {cut: float(np.sum((means - means.mean() - fit) ** 2)) for cut, fit in fits.items()}
@@ -53,7 +53,7 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     # In each state of several records the zero must move as in all.
     for some in states(problem.records):
         fit, own = (x[some] - x[some].mean() for x in (fits[cut], means))
-        if np.sum(fit**2) > 0.0 and np.sum((own - fit) ** 2) > RULES.order_state * np.sum(own**2):
+        if np.ptp(fits[cut][some]) > 0.0 and np.sum((own - fit) ** 2) > RULES.order_state * np.sum(own**2):
             return None, problem
     # A zero is the same in rebound and compression; a damper that is weaker in one more than in the other has a mean, too.
     both = by_direction(problem)
@@ -73,6 +73,15 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     names = tuple(record.name for record in problem.records[cut:])
     text = f"From {names[0]} on the force channel reads a constant that the records before do not have."
     return Fault("force_offset", "Zero of the load cell", text, size, "force_offset", "N", names), still
+
+
+def pulled_in(problem: Problem, means: Array) -> bool:
+    """Whether the model is right while intact, and a constant pulls the rod in without preload: no gas does that."""
+    intact = np.array([record.intact for record in problem.records])
+    if not 0 < intact.sum() < len(intact):
+        return False
+    right = float(means[intact].mean())
+    return abs(right) < RULES.order_intact * (right - float(means[~intact].mean()))
 
 
 def by_direction(problem: Problem) -> Array:
