@@ -143,10 +143,21 @@ class Selector(Judge):
         current = self.exchanged(self.pruned(current, progress), progress)
         if RECALIBRATE in current.names and rounds[0][0].names[-1] == RECALIBRATE:
             current = rounds[0][0]  # what a calibration leaves is its own formulation; else it had been superfluous
-        chosen = [name for name in current.names if name not in self.sampling]
         neutral = tuple(option.names[-1] for option in rounds[0] if not self.acts(option))
-        selection = Selection(self.start, rounds, chosen, current, recalibrated, self.count, self.limit, neutral, [])
-        return replace(selection, beside=self.beside(selection, progress)) if len(chosen) > 1 else selection
+        selection = Selection(self.start, rounds, [], current, recalibrated, self.count, self.limit, neutral, [])
+        selection = self.chosen(selection, current)
+        if len(selection.chosen) < 2:
+            return selection
+        several = self.beside(selection, progress)
+        better = min(several, key=lambda o: o.score, default=current)
+        if better is not current and self.acts(better) and self.worth(current, better):
+            selection = self.chosen(selection, better)
+            several = self.beside(selection, progress)
+        return replace(selection, beside=several)
+
+    def chosen(self, selection: Selection, final: Option) -> Selection:
+        """The selection with a final model."""
+        return replace(selection, final=final, chosen=[name for name in final.names if name not in self.sampling])
 
     def beside(self, selection: Selection, progress: Callable[[str], None]) -> list[Option]:
         """The final model of several causes with each rival of the leading cause in its place, the rival last."""
