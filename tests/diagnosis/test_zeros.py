@@ -120,3 +120,12 @@ def test_few_records_give_a_scatter_of_zeros_that_a_good_load_cell_has(records: 
     drift = [zero_drift(zeroed(some, size * np.array([1.0, -1.0, -1.0, 1.0])))[0].drift for size in (1.0, 300.0)]
     assert drift[0] == pytest.approx(np.sqrt(2.0), rel=0.01)
     assert drift[1] == pytest.approx(RULES.small_zero * max(record.peak for record in some), rel=0.01)
+
+
+def test_a_zero_of_its_own_that_a_good_load_cell_may_have_is_none_of_the_damper(records: list[PreparedRecord]) -> None:
+    peak = max(record.peak for record in records)
+    own = np.where(np.arange(len(records)) == 2, 1.0, 0.0)
+    zeros = 0.3 * np.random.default_rng(7).standard_normal(len(records))
+    small, large = (zeroed(records, size * peak * own + zeros) for size in (0.003, 0.02))
+    assert np.all(zero_drift(small)[0].misfits(zero_drift(small)[0].residual({})) < 2.0)
+    assert zero_drift(large)[0].drift < 1.0

@@ -20,7 +20,9 @@ from twintube.diagnosis.rules import RULES
 
 def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
     """The problem with the scatter of the records' zeros in it, and a remark where a good load cell has less."""
-    drift = scatter(problem.records, problem.means(problem.errors({}) * problem.weight))
+    means = problem.means(problem.errors({}) * problem.weight)
+    drift = scatter(problem.records, means)
+    drift = max(drift, own_zero(problem, means, RULES.usual_zeros * drift) / RULES.usual_zeros)
     share = drift / largest(problem.records)
     size = f"about {drift:.2g} N, {100 * share:.2g} % of the largest force"
     text = f"the zero of the force channel differs from record to record by {size}; every comparison allows for it"
@@ -106,6 +108,20 @@ def states(records: Sequence[PreparedRecord]) -> list[list[int]]:
     for i in sorted(range(len(records)), key=lambda i: records[i].top_speed):
         numbers.setdefault((records[i].oil_level, records[i].gas_preload), []).append(i)
     return list(numbers.values())
+
+
+def own_zero(problem: Problem, means: Array, usual: float) -> float:
+    """Size [N] of a zero beyond the `usual` that a single record of its state has; 0 where there is none.
+
+    A good load cell may have it, and apart from it the record is explained.
+    """
+    squares = (problem.errors({}) - problem.spread(means)) ** 2 * problem.weight**2
+    left = np.add.reduceat(squares, problem.starts[:-1]) / np.maximum(problem.counts, 1)
+    far = np.flatnonzero(np.abs(means) > usual)
+    if len(far) != 1 or abs(means[far[0]]) > RULES.small_zero * largest(problem.records) or left[far[0]] > RULES.odd_right:
+        return 0.0
+    like = next(some for some in states(problem.records) if far[0] in some)
+    return float(abs(means[far[0]])) if len(like) >= RULES.repeats else 0.0
 
 
 def scatter(records: Sequence[PreparedRecord], means: Array) -> float:
