@@ -87,6 +87,19 @@ def test_a_zero_that_moves_in_the_order_of_the_records_is_a_fault_and_is_put_rig
     assert fault.records == tuple(record.name for record in records[count // 2 :])
 
 
+def test_a_zero_that_drifts_on_from_record_to_record_is_a_rate(records: list[PreparedRecord]) -> None:
+    begun = np.concatenate([[0.0], np.cumsum([np.ptp(r.time) for r in records])[:-1]])
+    later = [replace(r, before=(float(x), 1.0, 1.0)) for r, x in zip(records, begun, strict=True)]
+    right = zeroed(later, np.zeros(len(records)))
+    rate = 30.0 / begun[-1]
+    drifts = [r.force + rate * (x + r.time - r.time[0]) for r, x in zip(right.records, begun, strict=True)]
+    pairs = zip(right.records, drifts, strict=True)
+    fault, still = zero_change(right.with_records([replace(r, force=f) for r, f in pairs]))
+    assert fault is not None
+    assert (fault.effect, fault.unit, fault.factor) == ("zero_drift", "N/s", pytest.approx(rate, rel=0.05))
+    assert np.ptp(still.means(still.errors({}) * still.weight)) < 1.0
+
+
 def test_zeros_that_scatter_and_a_force_that_comes_with_the_loss_of_oil_do_not_move(records: list[PreparedRecord]) -> None:
     rng = np.random.default_rng(5)
     pushed_out = np.array([-20.0 * (not record.intact) for record in records])

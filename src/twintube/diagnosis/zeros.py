@@ -17,6 +17,8 @@ from twintube.diagnosis.gains import bootstrap
 from twintube.diagnosis.prepare import BEND, SCATTER, PreparedRecord
 from twintube.diagnosis.rules import RULES
 
+EVENLY, RUNNING = 0, -1  # a zero moves from record to record, or with the time that is recorded
+
 
 def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
     """The problem with the scatter of the records' zeros in it, and a remark where a good load cell has less."""
@@ -30,7 +32,7 @@ def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
 
 
 def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
-    """A zero that moves from record to record in the order of the dataset, at once or evenly, and the problem without it.
+    """A zero that moves in the order of the records, at once, evenly or with the time, and the problem without it.
 
     What begins with the loss of oil is no zero, but maybe the force of gas, unless it pulls the rod in.
     """
@@ -39,8 +41,11 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     if count < RULES.order_least:
         return None, problem
     rest = float(np.sum((means - means.mean()) ** 2))
-    order = np.arange(count) - (count - 1) / 2
-    fits = {0: order * float(order @ means) / float(order @ order)}
+    running = np.array([record.before[0] + np.ptp(record.time) / 2 for record in problem.records])
+    fits = {}
+    for key, at in ((EVENLY, np.arange(count)), (RUNNING, running)):
+        apart = at - at.mean()
+        fits[key] = apart * float(apart @ means) / float(apart @ apart)
     keys = [(record.oil_level, record.gas_preload) for record in problem.records]
     for cut in range(RULES.order_side, count - RULES.order_side + 1):
         same = keys[cut] == keys[cut - 1]
@@ -62,19 +67,31 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     apart = both - both.mean(axis=0)
     if np.sum((apart - fits[cut][:, None]) ** 2) > RULES.order_state * np.sum(apart**2):
         return None, problem
-    shift = fits[cut] - fits[cut][0]
-    still = problem.with_records(
-        [replace(r, force=r.force + x) for r, x in zip(problem.records, shift.tolist(), strict=True)]
-    )
+    keys_alike = (EVENLY, RUNNING) if cut in (EVENLY, RUNNING) else (cut,)
+    several = {key: without(problem, fits[key], key == RUNNING) for key in keys_alike}
+    cut = min(several, key=lambda key: float(apart_from_means(several[key][0]).sum()))
+    still, rate = several[cut]
     before, after = (np.add.reduceat(some.residual({}) ** 2, some.starts[:-1]) for some in (problem, still))
     if bootstrap(np.column_stack([before - after, before]))[0] <= 0.0:
         return None, problem  # the means of a damper that is weaker, or of records that hardly count
-    if cut == 0:
+    if cut == RUNNING:
+        text = "The zero of the force channel drifts all along, from the first record to the last."
+        return Fault("zero_drift", "Drifting zero of the load cell", text, rate, "zero_drift", "N/s"), still
+    if cut == EVENLY:
         text = "The zero of the force channel moves evenly from the first record to the last."
         return Fault("zero_drift", "Drifting zero of the load cell", text, size, "zero_moved", "N"), still
     names = tuple(record.name for record in problem.records[cut:])
     text = f"From {names[0]} on the force channel reads a constant that the records before do not have."
     return Fault("force_offset", "Zero of the load cell", text, size, "force_offset", "N", names), still
+
+
+def without(problem: Problem, zeros: Array, running: bool) -> tuple[Problem, float]:
+    """The problem without zeros (r,) [N] that move from the first on, and their rate [N/s] where they do within records."""
+    shift, lasting = zeros - zeros[0], np.array([float(np.ptp(record.time)) for record in problem.records])
+    rate = -shift[-1] / (problem.records[-1].before[0] + (lasting[-1] - lasting[0]) / 2) if running else 0.0
+    each = [x - rate * (r.time - r.time[0] - T / 2) for r, x, T in zip(problem.records, shift, lasting, strict=True)]
+    pairs = zip(problem.records, each, strict=True)
+    return problem.with_records([replace(r, force=r.force + x) for r, x in pairs]), float(rate)
 
 
 def pulled_in(problem: Problem, means: Array) -> bool:
@@ -110,13 +127,19 @@ def states(records: Sequence[PreparedRecord]) -> list[list[int]]:
     return list(numbers.values())
 
 
+def apart_from_means(problem: Problem) -> Array:
+    """Squared weighted errors (r,) of the model as given, apart from each record's mean."""
+    errors = problem.errors({})
+    squares = (problem.weight * (errors - problem.spread(problem.means(errors * problem.weight)))) ** 2
+    return np.asarray(np.add.reduceat(squares, problem.starts[:-1]))
+
+
 def own_zero(problem: Problem, means: Array, usual: float) -> float:
     """Size [N] of a zero beyond the `usual` that a single record of its state has; 0 where there is none.
 
     A good load cell may have it, and apart from it the record is explained.
     """
-    squares = (problem.errors({}) - problem.spread(means)) ** 2 * problem.weight**2
-    left = np.add.reduceat(squares, problem.starts[:-1]) / np.maximum(problem.counts, 1)
+    left = apart_from_means(problem) / np.maximum(problem.counts, 1)
     far = np.flatnonzero(np.abs(means) > usual)
     if len(far) != 1 or abs(means[far[0]]) > RULES.small_zero * largest(problem.records) or left[far[0]] > RULES.odd_right:
         return 0.0
