@@ -56,8 +56,7 @@ class Rules:
     speed_quantile: float = records(0.99, "1", "of the speed: the top speed of a record without outliers", JUDGEMENT)
     repeats: int = records(3, "", "oscillations from which noise is what does not repeat: second differences", METHOD)
     coloured_least: int = records(200, "", "intervals from which the colour of noise is seen", JUDGEMENT)
-    few_samples: int = records(8, "", "samples of an interval, up to which its ends that are shared count", NUMERICS)
-    most_alike: float = records(0.9, "1", "correlation of samples an interval apart that noise has at most", JUDGEMENT)
+    most_alike: float = records(0.9, "1", "correlation of neighbouring intervals that noise has at most", JUDGEMENT)
     smooth: float = records(
         1.15, "1", "times what noise gains from neighbours to those at three times the distance: an error", JUDGEMENT
     )
