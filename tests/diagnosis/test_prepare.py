@@ -11,7 +11,7 @@ from twintube.dampers import load
 from twintube.data import Record
 from twintube.diagnosis.edges import alone, less_noise, with_edges, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.prepare import PreparedRecord, colour, kicks, neighbour_noise, prepared
+from twintube.diagnosis.prepare import PreparedRecord, averaging_noise, correlation, kicks, neighbour_noise, prepared
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.thinning import thin
 from twintube.fitting.intervals import impulse
@@ -167,16 +167,34 @@ def coloured(alike: float, seed: int, count: int = 1500) -> Array:
 def test_noise_whose_neighbours_are_alike_is_not_taken_too_small(alike: float) -> None:
     """Of a random motion no oscillation repeats; its noise is seen from neighbours alone."""
     held = np.full(1500, 1000)
-    sizes = [neighbour_noise(coloured(alike, seed) * np.sqrt(999.5) / 1000, held) for seed in range(12)]
+    several = [neighbour_noise(coloured(alike, seed), held) for seed in range(12)]
     # By second differences alone it would be 0.6 at a correlation of 0.5, and 0.33 at 0.8.
-    assert 0.75 < float(np.median(sizes)) < 1.25
+    assert 0.75 < float(np.median([size * averaging_noise(held[:1], c)[0] for size, c in several])) < 1.25
+
+
+@pytest.mark.parametrize("alike", [0.0, 0.3, 0.7])
+@pytest.mark.parametrize("held", [(1, 1), (2, 2), (1, 5)])
+def test_noise_of_means_of_few_samples_whose_ends_they_share(alike: float, held: tuple[int, int]) -> None:
+    """As in a sweep at a low sampling rate, where intervals hold fewer and fewer samples."""
+    counts = np.linspace(held[1], held[0], 1000).round().astype(int)
+    ends = np.concatenate([[0], np.cumsum(counts)])
+    sizes, weighted = [], []
+    for seed in range(12):
+        samples = coloured(alike, seed, int(ends[-1]) + 1)
+        sums = np.add.reduceat(samples[:-1], ends[:-1]) - 0.5 * samples[ends[:-1]] + 0.5 * samples[ends[1:]]
+        size, c = neighbour_noise(sums / counts, counts)
+        sizes.append(size)
+        weighted.append(float(np.std(sums / counts / averaging_noise(counts, c) / size)))
+    assert 0.8 < float(np.median(sizes)) < 1.25
+    assert 0.85 < float(np.median(weighted)) < 1.15
 
 
 @pytest.mark.parametrize("period", [20, 50, 100])
 def test_an_error_of_the_model_is_not_taken_for_coloured_noise(period: int) -> None:
     error = 2.0 * np.sin(2 * np.pi * np.arange(1500) / period)
-    assert colour(coloured(0.0, 1) + error) < 1.15
-    assert colour(error) == pytest.approx(1.0)
+    held = np.full(1500, 1000)
+    assert correlation(coloured(0.0, 1) + error, held) ** 1000 < 0.15
+    assert correlation(error, held) == 0.0
 
 
 def test_noise_is_no_larger_than_the_errors_it_is_seen_in() -> None:
@@ -185,7 +203,7 @@ def test_noise_is_no_larger_than_the_errors_it_is_seen_in() -> None:
     error[::6] += 20.0
     error[1::6] += 15.0
     held = np.full(1500, 10)
-    size = neighbour_noise(error * np.sqrt(9.5) / 10, held)
+    size = neighbour_noise(error * np.sqrt(9.5) / 10, held)[0]
     assert size < 1.6 * float(np.median(np.abs(error - np.median(error))))
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.ndimage import uniform_filter1d
 
 from tests.diagnosis import small
 from twintube.dampers import load
@@ -43,9 +44,9 @@ def test_a_good_damper_and_a_valve_that_opens_are_no_limit(largest: float) -> No
 
 
 def triangle(level: float, *, factor: float = 1.0) -> Record:
-    """Strokes of constant velocity, forces times a factor and cut at a level [N]."""
+    """Strokes of constant velocity with turns of finite acceleration, forces times a factor and cut at a level [N]."""
     strokes = np.linspace(-AMPLITUDE, AMPLITUDE, 161)
-    z = np.concatenate([strokes[:-1], strokes[::-1][:-1]] * 4)
+    z = uniform_filter1d(np.concatenate([strokes[:-1], strokes[::-1][:-1]] * 4), 12, mode="nearest")
     t = np.arange(len(z)) * (strokes[1] - strokes[0]) / 1.3
     v = np.gradient(z, t)
     force = factor * simulate(load("SA8"), z, v, t).force

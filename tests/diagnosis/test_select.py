@@ -138,9 +138,9 @@ def test_what_is_too_short_for_the_sampling_joins_every_model_and_is_no_cause(pr
         changed(seen, ("valve_wear",), [0.2] * 4), fits=tuple(replace(f, values={**f.values, "wear_re": -0.1}) for f in fits)
     )
     assert not seen.acts(short) and seen.acts(better)
-    assert not seen.seen_through_sampling([better, short])
+    assert not seen.seen_through_sampling(seen.start, [better, short])
     assert seen.sampling == ()
-    assert seen.seen_through_sampling([short])
+    assert seen.seen_through_sampling(seen.start, [short])
     assert seen.sampling == ("fluid_lag",) == seen.start.names
     (lag,) = (f for f in seen.free(("fluid_lag",), short.fits[0].values) if f.name == "tau_fluid")
     assert lag.high == pytest.approx(seen.candidates["fluid_lag"].least["tau_fluid"])

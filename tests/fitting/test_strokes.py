@@ -85,6 +85,15 @@ def test_the_levels_of_a_coarse_channel_are_no_vibration() -> None:
     assert np.std(result - steady) < 0.2 * level
 
 
+def test_rests_at_a_single_level_do_not_hide_the_noise() -> None:
+    """A coarse channel: at rest nothing changes, and most samples of some records are of rests."""
+    level = 4e-5
+    stroke = np.round(block(0.05, 3e-3)[1] / level) * level
+    rest = np.full(2 * len(stroke), stroke[-1])
+    alone, together = noise(stroke), noise(np.concatenate([stroke, rest]))
+    assert alone[0] > 0.0 and together == pytest.approx(alone, rel=0.05)
+
+
 def test_a_drive_sampled_too_coarsely_is_left_alone() -> None:
     rng = np.random.default_rng(3)
     time, stroke = np.arange(0.0, 20.0, 1e-2), rng.normal(0.0, 5e-3, 2000)

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PPoly, make_interp_spline
+from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
 
 from twintube.arrays import Array
 from twintube.diagnosis.candidates import period
@@ -19,14 +19,15 @@ from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.history import sudden
 from twintube.diagnosis.prepare import SCATTER, PreparedRecord, noise
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import DELAY, SAMPLING, STROKE_GAIN
+from twintube.diagnosis.seen import BENDS, DELAY, SAMPLING, STROKE_GAIN
 from twintube.fitting.simulation import MARGIN
+from twintube.fitting.strokes import quiet
 
 
 def with_edges(problem: Problem) -> Problem:
     """The problem with the error that its steps leave open, `edges` of its records."""
     # Point samples: whether a step falls before or after a sample matters most.
-    base = problem.simulated(problem.damping({}))[1]
+    means, base = problem.simulated(problem.damping({}))
     others = [refilled(problem, s * RULES.open_level).simulate(problem.damping({}))[1] for s in (-1, 1)]
     changes = [{STROKE_GAIN: 1.0 + s * RULES.open_stroke} for s in (-1, 1)]
     # Fits take the threshold of foam a bit above the given value, see fitting/simulation.py.
@@ -34,15 +35,25 @@ def with_edges(problem: Problem) -> Problem:
     others += [problem.simulated(problem.damping(change))[1] for change in changes]
     several = np.sqrt(sum(((other - base) ** 2 for other in others), np.zeros(len(base))) / 2)
     several = np.hypot(several, barely_cavitating(problem, base))
+    again = [measured_again(problem, seed).simulate(problem.damping({}))[1] - base for seed in range(RULES.stroke_draws)]
+    several = np.hypot(several, np.sqrt(np.mean(np.square(again), axis=0)))
     late = moved_in_time(problem, RULES.open_step * period(problem))
     motion = RULES.open_motion * np.abs(between_samples(problem).simulate(problem.damping({}))[1] - base)
     filtered = min(1.0, sum(abs(problem.usual.get(name, 0.0)) for name in SAMPLING))
+    several = np.hypot(several, between_readings(problem) * np.abs(means - base))
     records = []
     for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
         sharp = np.hypot(alone(late[a:b]), motion[a:b])
         edges = np.sqrt(record.edges**2 + several[a:b] ** 2 + passed_on(record, base[a:b], sharp, filtered) ** 2)
         records.append(replace(record, edges=edges))
     return problem.with_records(records)
+
+
+def between_readings(problem: Problem) -> float:
+    """How far the samples are from points and from means [1], 0 to 0.5: how a filter reads a sharp step is not known."""
+    mean = problem.usual.get("sample_mean", 0.0)
+    wider = abs(sum(problem.usual.get(name, 0.0) for name in BENDS))  # what cancels is late or early, and known
+    return 0.5 * min(1.0, min(mean, 1.0 - mean) + wider)
 
 
 def barely_cavitating(problem: Problem, base: Array) -> Array:
@@ -61,13 +72,27 @@ def barely_cavitating(problem: Problem, base: Array) -> Array:
 
 def between_samples(problem: Problem) -> Problem:
     """The problem with another smooth motion through the same samples of the stroke; at a sharp turn it differs."""
+    return problem.with_records(
+        [along(r, PPoly.from_spline(make_interp_spline(r.path.x, r.path(r.path.x), k=5))) for r in problem.records]
+    )
+
+
+def measured_again(problem: Problem, seed: int) -> Problem:
+    """The problem with strokes as if measured once more, with noise of their size, of which smoothing leaves a part."""
+    rng = np.random.default_rng(seed)
     records = []
     for record in problem.records:
-        path = PPoly.from_spline(make_interp_spline(record.path.x, record.path(record.path.x), k=5))
-        at = np.clip(record.time, path.x[0], path.x[-1])
-        speed = np.where(record.time >= record.begin, path(at, 1), record.velocity)
-        records.append(replace(record, path=path, velocity=speed))
+        time = record.path.x
+        noisy = record.path(time) + record.stroke_noise * rng.standard_normal(len(time))
+        records.append(along(record, CubicSpline(time, quiet(time, noisy))) if record.stroke_noise > 0.0 else record)
     return problem.with_records(records)
+
+
+def along(record: PreparedRecord, path: PPoly) -> PreparedRecord:
+    """The record on another path of its stroke [m] over time [s]."""
+    at, recorded = np.clip(record.time, path.x[0], path.x[-1]), record.time >= record.begin
+    stroke, velocity = np.where(recorded, path(at), record.stroke), np.where(recorded, path(at, 1), record.velocity)
+    return replace(record, path=path, stroke=stroke, velocity=velocity)
 
 
 def refilled(problem: Problem, more: float) -> Problem:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.thinning import thin
 from twintube.engine.simulate import checked
 from twintube.fitting.intervals import impulse, means
+from twintube.fitting.strokes import noise as noise_of_stroke
 from twintube.fitting.strokes import quiet
 
 SCATTER = 1.4826  # standard deviation of normal errors over their median absolute value
@@ -34,6 +36,7 @@ class PreparedRecord:
     split: str | None
     top_speed: float  # [m/s]
     path: PPoly  # stroke [m] over time [s], through all measured samples
+    stroke_noise: float  # [m] standard deviation of the noise in the samples of the stroke, 0 where it has none
     time: Array
     stroke: Array
     velocity: Array
@@ -96,48 +99,72 @@ def repeat_noise(force: Array, cycle: NDArray[np.int64]) -> float:
     usual = int(np.median(counts))
     rows = [np.interp(np.linspace(0, 1, usual), np.linspace(0, 1, n), force[cycle == i]) for i, n in
             zip(numbers, counts, strict=True) if n == usual]  # fmt: skip
-    bent = np.diff(np.array(rows), 2, axis=0) / BEND if len(rows) >= RULES.repeats else np.zeros((0, 1))
-    return SCATTER * float(np.median(np.abs(bent))) if bent.size else 0.0
+    apart = np.diff(np.array(rows), 2, axis=0) / BEND if len(rows) >= RULES.repeats else np.zeros((0, 1))
+    return SCATTER * float(np.median(np.abs(apart))) if apart.size else 0.0
 
 
-def averaging_noise(held: NDArray[np.int64]) -> Array:
-    """Noise of the mean force over intervals of `held` samples (n,), in units of that of a sample: the trapezoidal rule."""
-    return np.asarray(np.sqrt(held - 0.5) / held)
+def averaging_noise(held: NDArray[np.int64], alike: float = 0.0) -> Array:
+    """Noise of the mean force over intervals of `held` samples (n,), in units of that of a sample: the trapezoidal rule.
 
-
-def neighbour_noise(force: Array, held: NDArray[np.int64]) -> float:
-    """Standard deviation [N] of a sample from neighbouring intervals, for records without enough oscillations."""
-    # Neighbours share a sample, so that they differ less than their noise would make them.
-    white = force / averaging_noise(held)
-    bent = np.diff(white, 2) / np.sqrt(BEND**2 - 2.0 / (held[1:-1] - 0.5))
-    if not len(bent):
-        return 0.0
-    most = float(np.median(np.abs(white - np.median(white))))  # a model's errors are no smaller than their noise
-    return SCATTER * min(float(np.median(np.abs(bent))) * colour(white), most)
-
-
-def colour(noise: Array) -> float:
-    """How many times larger noise (n,) is than its second differences say, as neighbours are alike; 1 where they are not.
-
-    Where neighbours have the correlation c, second differences have the variance 6 - 8 c + 2 c^2, at the distance k with
-    c^k. What they gain from 1 to 2 gives c, what they gain to 3 says whether it is noise: a model's error is smooth, and
-    gains more.
+    `alike` is the correlation of neighbouring samples.
     """
-    gained = [float(np.median(np.abs(bend_at(noise, k)))) for k in (1, 2, 3)]
-    if len(noise) < RULES.coloured_least or gained[0] <= 0.0:
-        return 1.0
-    alike = np.linspace(0.0, RULES.most_alike, 100)
-    variances = [6.0 - 8.0 * alike**k + 2.0 * alike ** (2 * k) for k in (1, 2, 3)]
-    at = int(np.argmin(np.abs(np.sqrt(variances[1] / variances[0]) - gained[1] / gained[0])))
-    expected = float(np.sqrt(variances[2][at] / variances[0][at]))
-    if gained[2] / gained[0] > RULES.smooth * expected:
-        return 1.0
-    return float(np.sqrt(6.0 / variances[0][at]))
+    counts, of = np.unique(held, return_inverse=True)
+    return np.sqrt([covariance(int(n), 0, alike) for n in counts])[of]
 
 
-def bend_at(values: Array, k: int) -> Array:
-    """Second differences of values (n,) at the distance k."""
-    return np.asarray(values[2 * k :] - 2.0 * values[k:-k] + values[: -2 * k])
+@lru_cache(8192)
+def covariance(held: int, apart: int, alike: float) -> float:
+    """Covariance of the means over two intervals of `held` samples, so many intervals apart: neighbours share a sample.
+
+    In units of the variance of a sample; `alike` is the correlation of neighbouring samples.
+    """
+    if held > RULES.few_samples:
+        summed = held - 0.5 if alike == 0.0 else held * (1.0 + alike) / (1.0 - alike)
+        return alike ** (held * apart) * min(summed / held**2, 1.0)
+    weight = np.full(held + 1, 1.0 / held)
+    weight[[0, -1]] /= 2.0
+    at = np.arange(held + 1)
+    return float(weight @ alike ** np.abs(apart * held + at[:, None] - at) @ weight)
+
+
+def bend_variance(held: int, apart: int, alike: float) -> float:
+    """Variance of second differences of such means, so many intervals apart."""
+    return 6.0 * covariance(held, 0, alike) - 8.0 * covariance(held, apart, alike) + 2.0 * covariance(held, 2 * apart, alike)
+
+
+def neighbour_noise(force: Array, held: NDArray[np.int64]) -> tuple[float, float]:
+    """Standard deviation [N] of a sample from neighbouring intervals, for records without enough oscillations.
+
+    Beside it the correlation of neighbouring samples.
+    """
+    if len(force) <= 2:
+        return 0.0, 0.0
+    alike = correlation(force, held)
+    white = force / averaging_noise(held, alike)
+    most = float(np.median(np.abs(white - np.median(white))))  # a model's errors are no smaller than their noise
+    return SCATTER * min(bent(force, held, 1, alike), most), alike
+
+
+def bent(force: Array, held: NDArray[np.int64], apart: int, alike: float) -> float:
+    """Median second difference [N] of means (n,) so many intervals apart, in units of what a sample's noise makes it."""
+    counts, of = np.unique(held[apart:-apart], return_inverse=True)
+    expected = np.sqrt([bend_variance(int(n), apart, alike) for n in counts])[of]
+    return float(np.median(np.abs(force[2 * apart :] - 2.0 * force[apart:-apart] + force[: -2 * apart]) / expected))
+
+
+def correlation(force: Array, held: NDArray[np.int64]) -> float:
+    """Correlation of neighbouring samples of noise, seen in mean forces (n,) [N]; 0 where it is none.
+
+    Second differences of neighbours and of every second interval ask for the same noise with it, those of every third say
+    whether it is noise: a model's error is smooth, and gains more.
+    """
+    if len(force) < RULES.coloured_least:
+        return 0.0
+    several = np.linspace(0.0, RULES.most_alike, 50) ** (1.0 / float(np.median(held)))
+    gains = [bent(force, held, 2, c) / max(bent(force, held, 1, c), np.finfo(float).tiny) for c in several.tolist()]
+    alike = float(several[int(np.argmin(np.abs(np.log(np.maximum(gains, np.finfo(float).tiny)))))])
+    smooth = bent(force, held, 3, alike) > RULES.smooth * bent(force, held, 1, alike)
+    return 0.0 if smooth else alike
 
 
 def noise(record: "PreparedRecord", force: Array) -> Array:
@@ -157,17 +184,18 @@ def noise(record: "PreparedRecord", force: Array) -> Array:
         inside = np.isin(cycle, numbers[alike])
         size = repeat_noise(force[inside], cycle[inside])
         if size > 0.0:
-            usual = float(np.median(held[inside]))
-            sample = size / averaging_noise(np.array(usual))
+            usual = round(float(np.median(held[inside])))
+            sample = size / np.sqrt(covariance(usual, 0, 0.0))
             each[inside] = sample * averaging_noise(held[inside])
             if len(alike) > most:
                 most, common = len(alike), float(sample)
-    common = common or neighbour_noise(force[record.samples > 0], held[record.samples > 0])
+    colour = 0.0
+    if common == 0.0:
+        common, colour = neighbour_noise(force[record.samples > 0], held[record.samples > 0])
     # Errors of rounding are like in neighbouring samples where no noise is larger than the step.
     rounding = record.resolution / np.sqrt(12.0) if common < record.resolution else 0.0
-    return np.hypot(
-        np.where(np.isnan(each), common * averaging_noise(held), each), max(rounding, RULES.least_noise * record.peak)
-    )
+    every = np.where(np.isnan(each), common * averaging_noise(held, colour), each)
+    return np.hypot(every, max(rounding, RULES.least_noise * record.peak))
 
 
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
@@ -209,7 +237,8 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
     levels = resolution(record.force)
     ready = PreparedRecord(
         name=record.name, measurement=record.measurement, oil_level=record.oil_level, gas_preload=int(record.gas_preload),
-        split=record.split, top_speed=top_speed, path=path, force=np.concatenate([record.force[:1], force]),
+        split=record.split, top_speed=top_speed, path=path, stroke_noise=noise_of_stroke(record.stroke)[0],
+        force=np.concatenate([record.force[:1], force]),
         time=record.time[at], stroke=stroke, velocity=velocity, cycle=cycle, stretch=stretch, noise=np.zeros(len(at)),
         peak=peak, resolution=levels[0] if levels else 0.0, period=float(np.median(np.diff(record.time))),
         samples=np.zeros(len(at), dtype=np.int64),

@@ -56,7 +56,8 @@ class Rules:
     speed_quantile: float = records(0.99, "1", "of the speed: the top speed of a record without outliers", JUDGEMENT)
     repeats: int = records(3, "", "oscillations from which noise is what does not repeat: second differences", METHOD)
     coloured_least: int = records(200, "", "intervals from which the colour of noise is seen", JUDGEMENT)
-    most_alike: float = records(0.9, "1", "correlation of neighbouring intervals that noise has at most", JUDGEMENT)
+    few_samples: int = records(8, "", "samples of an interval, up to which its ends that are shared count", NUMERICS)
+    most_alike: float = records(0.9, "1", "correlation of samples an interval apart that noise has at most", JUDGEMENT)
     smooth: float = records(
         1.15, "1", "times what noise gains from neighbours to those at three times the distance: an error", JUDGEMENT
     )
@@ -176,6 +177,7 @@ class Rules:
     open_motion: float = measurement(
         2.0, "1", "of what another spline through the stroke changes in the force: error between samples", DEVELOPMENT
     )
+    stroke_draws: int = measurement(2, "", "draws of the noise of strokes, for what it leaves open in the force", NUMERICS)
     open_filter: float = measurement(0.05, "1", "of a bend of the force, to which a filter is known", DEVELOPMENT)
     usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
     order_least: int = measurement(6, "", "records in which a zero is seen to move from record to record", DEVELOPMENT)

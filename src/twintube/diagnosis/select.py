@@ -33,7 +33,8 @@ class Selector(Judge):
     """Fits and compares models; `whole` holds the records that the final model is fitted to.
 
     The records to fit are balanced by its misfit, once, before anything is compared.
-    Where the `history` of records is not known, no other degradation parameters are named: foam of before looks like them.
+    Where the `history` of records is not known, other degradation parameters must leave noise alone: foam of before looks
+    like them.
     """
 
     def __init__(
@@ -128,18 +129,13 @@ class Selector(Judge):
             if not self.quieter(options):
                 break
             recalibrated, options = self.single(progress)
-        if self.seen_through_sampling(options):
+        if self.seen_through_sampling(self.start, options):
             recalibrated, options = self.single(progress, "a single cause, sampling known")
-        current, rounds = self.start, []
-        while True:
-            taken = self.taken(current, options)
-            rounds.append(options if taken is None else [taken, *(o for o in options if o is not taken)])
-            if taken is None:
-                break
-            current = taken
-            if len(rounds) == RULES.rounds or self.enough(current):
-                break
-            options = self.tried(current, f"a further cause, {len(rounds) + 1} in all", RULES.further_fits, progress)
+        current, rounds = self.added(options, progress)
+        # A cause that is far larger hides at first what the sampling does.
+        if not self.sampling and self.seen_through_sampling(current, rounds[-1]):
+            recalibrated, options = self.single(progress, "a single cause, sampling known")
+            current, rounds = self.added(options, progress)
         current = self.exchanged(self.pruned(current, progress), progress)
         if RECALIBRATE in current.names and rounds[0][0].names[-1] == RECALIBRATE:
             current = rounds[0][0]  # what a calibration leaves is its own formulation; else it had been superfluous
@@ -154,6 +150,20 @@ class Selector(Judge):
             selection = self.chosen(selection, better)
             several = self.beside(selection, progress)
         return replace(selection, beside=several)
+
+    def added(self, options: Sequence[Option], progress: Callable[[str], None]) -> tuple[Option, list[list[Option]]]:
+        """The model with cause after cause, and what was tried in each round; `options` are the first."""
+        current, rounds = self.start, []
+        while True:
+            taken = self.taken(current, options)
+            rounds.append(list(options) if taken is None else [taken, *(o for o in options if o is not taken)])
+            if taken is None:
+                break
+            current = taken
+            if len(rounds) == RULES.rounds or self.enough(current):
+                break
+            options = self.tried(current, f"a further cause, {len(rounds) + 1} in all", RULES.further_fits, progress)
+        return current, rounds
 
     def chosen(self, selection: Selection, final: Option) -> Selection:
         """The selection with a final model."""
@@ -181,7 +191,7 @@ class Selector(Judge):
         else:
             progress(f"{label}: degradation parameters")
             recalibrated = self.extended(self.start, RECALIBRATE, self.calibrated())
-        shown = [recalibrated] if self.history else []
+        shown = [recalibrated] if self.history or self.enough(recalibrated) else []
         return recalibrated, sorted([*options, *shown], key=lambda o: (not self.acts(o), o.score))
 
     def calibrated(self) -> dict[str, float]:
@@ -209,15 +219,15 @@ class Selector(Judge):
         self.records = [record for fold in self.folds for record in fold.held.records]
         return True
 
-    def seen_through_sampling(self, options: Sequence[Option]) -> bool:
-        """Whether something too short for the sampling explains the records best; not a cause, it joins every model then."""
-        short = [o for o in options if self.short(o) and self.worth(self.start, o)]
-        taken = self.taken(self.start, options)
+    def seen_through_sampling(self, current: Option, options: Sequence[Option]) -> bool:
+        """Whether something too short for the sampling explains most of what a model leaves; it joins every model then."""
+        short = [o for o in options if self.short(o) and self.worth(current, o)]
+        taken = self.taken(current, options)
         best = min(short, key=lambda o: o.score, default=None)
         if best is None or (taken is not None and taken.score <= best.score):
             return False
-        self.sampling = best.names
-        self.start = self.option(best.names, [self.free(best.names, fit.values) for fit in best.fits])
+        self.sampling = best.names[-1:]
+        self.start = self.option(self.sampling, [self.free(self.sampling, fit.values) for fit in best.fits])
         return True
 
     def short(self, option: Option) -> bool:

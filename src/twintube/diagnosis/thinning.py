@@ -1,6 +1,7 @@
 """Which samples of a record are kept: enough for the model to follow the motion from each to the next."""
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,8 +39,7 @@ def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[
     """The samples to keep, the oscillation and the stretch of each."""
     kept, cycles, stretches = [], [], []
     number = 0
-    parts = segments(record.time, record.stroke)
-    for s, part in enumerate(parts):
+    for s, part in enumerate(from_rest(record.stroke, segments(record.time, record.stroke))):
         stroke = record.stroke[part]
         motion = motion_of(record.time[part], stroke)
         if record.measurement == "stochastic":
@@ -70,6 +70,17 @@ def thin(record: Record) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[
     at = np.concatenate(kept)
     first = np.unique(at, return_index=True)[1]
     return at[first], np.concatenate(cycles)[first], np.concatenate(stretches)[first]
+
+
+def from_rest(stroke: Array, parts: Sequence[NDArray[np.int64]]) -> list[NDArray[np.int64]]:
+    """The stretches, each from the last sample of the rest before it on: the step across the rest has no speed in it."""
+    begun = list(parts[:1])
+    for before, part in itertools.pairwise(parts):
+        rest = stroke[before[-1] + 1 : part[0]]
+        away = np.abs(rest - np.median(rest)) if len(rest) else rest
+        still = np.flatnonzero(away <= 3.0 * np.median(away)) if len(rest) else np.array([], dtype=np.int64)
+        begun.append(np.arange(before[-1] + 1 + still[-1], part[-1] + 1) if len(still) else part)
+    return begun
 
 
 def between(stroke: Array, a: int, b: int, count: int) -> NDArray[np.int64]:

@@ -40,13 +40,16 @@ SHORTEST = 1e-9  # [s] sample period
 def noise(stroke: Array) -> tuple[float, int]:
     """Standard deviation [m] of the noise of an evenly sampled stroke (n,) and the samples over which it is correlated.
 
-    Zero where differences grow with the distance of the samples, as those of motion do.
+    Zero where differences grow with the distance of the samples, as those of motion do. Rests at a single level of the
+    channel hide the noise.
     """
     sizes = []
+    changes = np.concatenate([[0], np.cumsum(np.diff(stroke) != 0.0)])
     for lag in LAGS:
         differences = stroke
         for _ in range(ORDER):
             differences = differences[lag:] - differences[:-lag]
+        differences = differences[changes[ORDER * lag :] > changes[: -ORDER * lag]]
         if len(differences) < 2 * ORDER:
             break
         sizes.append(SCATTER * float(np.median(np.abs(differences))) / math.sqrt(math.comb(2 * ORDER, ORDER)))
