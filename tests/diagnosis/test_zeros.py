@@ -87,6 +87,15 @@ def test_a_zero_that_moves_in_the_order_of_the_records_is_a_fault_and_is_put_rig
     assert fault.records == tuple(record.name for record in records[count // 2 :])
 
 
+def test_the_interval_of_a_zero_that_moves_holds_as_often_as_it_says(records: list[PreparedRecord]) -> None:
+    rng = np.random.default_rng(4)
+    step_of = np.where(np.arange(len(records)) >= len(records) // 2, 40.0, 0.0)
+    faults = [zero_change(zeroed(records, step_of + 5.0 * rng.standard_normal(len(records))))[0] for _ in range(60)]
+    holds = [abs(fault.factor - 40.0) <= fault.spread for fault in faults if fault is not None]
+    assert len(holds) > 50
+    assert 0.78 <= np.mean(holds) <= 0.98
+
+
 def test_a_zero_that_drifts_on_from_record_to_record_is_a_rate(records: list[PreparedRecord]) -> None:
     begun = np.concatenate([[0.0], np.cumsum([np.ptp(r.time) for r in records])[:-1]])
     later = [replace(r, before=(float(x), 1.0, 1.0)) for r, x in zip(records, begun, strict=True)]

@@ -166,7 +166,7 @@ def needed(problem: Problem, fit: Fit, strength: Free) -> float:
 
 def faulty(fault: Fault, gain: Gain) -> Cause:
     """A fault of the measurement that was put right before anything was fitted."""
-    factor = Estimate(fault.factor, fault.factor, fault.factor, fault.unit)
+    factor = Estimate(fault.factor, fault.factor - fault.spread, fault.factor + fault.spread, fault.unit)
     return Cause(fault.effect, fault.title, fault.explanation, {fault.name: factor}, gain)
 
 

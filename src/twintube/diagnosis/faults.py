@@ -50,6 +50,7 @@ class Fault:
     unit: str = "1"
     records: tuple[str, ...] = ()  # names of those that have it; empty where all have
     channel: str = "force"
+    spread: float = 0.0  # half the width of the 90 % interval of its factor; 0 where that is exact
 
 
 def read(path: str | Path) -> tuple[LoadedDataset, Fault | None]:

@@ -74,15 +74,23 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     before, after = (np.add.reduceat(some.residual({}) ** 2, some.starts[:-1]) for some in (problem, still))
     if bootstrap(np.column_stack([before - after, before]))[0] <= 0.0:
         return None, problem  # the means of a damper that is weaker, or of records that hardly count
+    spread = scattered(fits[cut], left[cut], size if cut != RUNNING else rate)
     if cut == RUNNING:
         text = "The zero of the force channel drifts all along, from the first record to the last."
-        return Fault("zero_drift", "Drifting zero of the load cell", text, rate, "zero_drift", "N/s"), still
+        return Fault("zero_drift", "Drifting zero of the load cell", text, rate, "zero_drift", "N/s", spread=spread), still
     if cut == EVENLY:
         text = "The zero of the force channel moves evenly from the first record to the last."
-        return Fault("zero_drift", "Drifting zero of the load cell", text, size, "zero_moved", "N"), still
+        return Fault("zero_drift", "Drifting zero of the load cell", text, size, "zero_moved", "N", spread=spread), still
     names = tuple(record.name for record in problem.records[cut:])
     text = f"From {names[0]} on the force channel reads a constant that the records before do not have."
-    return Fault("force_offset", "Zero of the load cell", text, size, "force_offset", "N", names), still
+    return Fault("force_offset", "Zero of the load cell", text, size, "force_offset", "N", names, spread=spread), still
+
+
+def scattered(zeros: Array, left: float, value: float) -> float:
+    """Half the width of the 90 % interval of the `value` that zeros (r,) [N] stand for, where they leave squares [N2]."""
+    apart = zeros - zeros.mean()
+    relative = np.sqrt(left / max(1, len(zeros) - 2) / float(apart @ apart))
+    return float(abs(value) * max(RULES.interval * relative, RULES.channel_width))
 
 
 def without(problem: Problem, zeros: Array, running: bool) -> tuple[Problem, float]:
