@@ -1,6 +1,6 @@
 """What explains the records as well as what was chosen."""
 
-from twintube.diagnosis.candidates import FACTORS, FRICTION, RECALIBRATE
+from twintube.diagnosis.candidates import CONTENTS, FACTORS, FRICTION, RECALIBRATE
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.rules import RULES
 
@@ -31,14 +31,20 @@ def near(selection: Selection, left: bool) -> list[Option]:
     best = leading(selection)
     if best is None:
         return []
-    close = max(selection.limit, RULES.close * max(selection.start.score - best.score, 0.0))
+    gained = max(selection.start.score - best.score, 0.0)
+    close = max(selection.limit, RULES.close * gained)
     wide = max(close, RULES.law_apart * best.score) if left else close
     others = [o for o in selection.rounds[0] if o.names[-1] not in (RECALIBRATE, *selection.neutral, *selection.chosen)]
     others = [o for o in others if o.score >= best.score or o is selection.rounds[0][0]]
-    # One friction follows a good part of any other.
-    frictions = [close if best.names[-1] in FRICTION and o.names[-1] in FRICTION else wide for o in others]
-    pairs = zip(others, frictions, strict=True)
-    return [o for o, most in pairs if o.score - best.score <= most and not richer(o, best)][: RULES.alternatives]
+
+    def most(other: Option) -> float:
+        pair = {best.names[-1], other.names[-1]}
+        if pair <= {*FRICTION}:  # one friction follows a good part of any other
+            return close
+        # What becomes of freed gas shows in few strokes, where a law of one follows another's.
+        return max(wide, RULES.contents_apart * gained) if pair <= {*CONTENTS} else wide
+
+    return [o for o in others if o.score - best.score <= most(o) and not richer(o, best)][: RULES.alternatives]
 
 
 def richer(option: Option, than: Option) -> bool:
