@@ -11,7 +11,9 @@ from twintube.dampers import load
 from twintube.data import Record
 from twintube.diagnosis.edges import alone, less_noise, with_edges, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.prepare import PreparedRecord, averaging_noise, correlation, kicks, neighbour_noise, prepared
+from twintube.diagnosis.noise import averaging_noise, correlation, neighbour_noise
+from twintube.diagnosis.prepare import kicks, prepared
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.thinning import thin
 from twintube.fitting.intervals import impulse

@@ -10,7 +10,7 @@ import pytest
 from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.prepare import PreparedRecord
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.zeros import differ, scatter, step, zero_change, zero_drift
 

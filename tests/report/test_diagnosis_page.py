@@ -23,7 +23,8 @@ from twintube.core.effects import EFFECTS
 from twintube.dampers import Damper, load
 from twintube.data import Record
 from twintube.diagnosis.candidates import candidates
-from twintube.diagnosis.prepare import PreparedRecord, prepared
+from twintube.diagnosis.prepare import prepared
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.result import (
     VERDICTS,
     Alternative,

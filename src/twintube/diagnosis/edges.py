@@ -17,7 +17,8 @@ from twintube.arrays import Array
 from twintube.diagnosis.candidates import period
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.history import sudden
-from twintube.diagnosis.prepare import SCATTER, PreparedRecord, noise
+from twintube.diagnosis.noise import SCATTER, noise
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import BENDS, DELAY, SAMPLING, STROKE_GAIN
 from twintube.fitting.simulation import MARGIN

@@ -17,7 +17,8 @@ from twintube.diagnosis.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.history import bare_of_strokes, settled, with_history
 from twintube.diagnosis.odd import STRANGER, odd_records
 from twintube.diagnosis.options import Fold
-from twintube.diagnosis.prepare import PreparedRecord, prepare
+from twintube.diagnosis.prepare import prepare
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.result import Diagnosis, Gain
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.sampling import with_sampling

@@ -11,7 +11,8 @@ from twintube.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.data import LoadedDataset, Record, check_dataset, load_dataset
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.prepare import PreparedRecord, prepare
+from twintube.diagnosis.prepare import prepare
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.signature import oscillating
 from twintube.fitting.averaging import averaging, through

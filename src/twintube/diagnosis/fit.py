@@ -10,7 +10,7 @@ from scipy.optimize import lsq_linear
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
-from twintube.diagnosis.prepare import PreparedRecord
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import ADDED, DELAY, MEASUREMENT, REMEMBERED, SeenRecords
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich

@@ -12,7 +12,7 @@ from scipy.optimize import minimize_scalar
 
 from twintube.arrays import Array
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.prepare import PreparedRecord
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.result import Signature
 from twintube.diagnosis.rules import RULES
 

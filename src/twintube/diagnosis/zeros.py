@@ -14,7 +14,8 @@ from twintube.arrays import Array
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap
-from twintube.diagnosis.prepare import BEND, SCATTER, PreparedRecord
+from twintube.diagnosis.noise import BEND, SCATTER
+from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 
 EVENLY, RUNNING = 0, -1  # a zero moves from record to record, or with the time that is recorded

@@ -1,0 +1,121 @@
+"""Noise of mean forces: what does not repeat from oscillation to oscillation, else what intervals do not share."""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from twintube.arrays import Array
+from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.rules import RULES
+
+SCATTER = 1.4826  # standard deviation of normal errors over their median absolute value
+BEND = math.sqrt(6.0)  # standard deviation of a second difference over that of its values
+
+
+def repeat_noise(force: Array, cycle: NDArray[np.int64]) -> float:
+    """Standard deviation [N] of what does not repeat from oscillation to oscillation, slow trends apart."""
+    numbers, counts = np.unique(cycle[cycle >= 0], return_counts=True)
+    if len(numbers) < RULES.repeats:
+        return 0.0
+    usual = int(np.median(counts))
+    rows = [np.interp(np.linspace(0, 1, usual), np.linspace(0, 1, n), force[cycle == i]) for i, n in
+            zip(numbers, counts, strict=True) if n == usual]  # fmt: skip
+    apart = np.diff(np.array(rows), 2, axis=0) / BEND if len(rows) >= RULES.repeats else np.zeros((0, 1))
+    return SCATTER * float(np.median(np.abs(apart))) if apart.size else 0.0
+
+
+def averaging_noise(held: NDArray[np.int64], alike: float = 0.0) -> Array:
+    """Noise of the mean force over intervals of `held` samples (n,), in units of that of a sample: the trapezoidal rule.
+
+    `alike` is the correlation of neighbouring samples.
+    """
+    counts, of = np.unique(held, return_inverse=True)
+    return np.sqrt([covariance(int(n), 0, alike) for n in counts])[of]
+
+
+@lru_cache(8192)
+def covariance(held: int, apart: int, alike: float) -> float:
+    """Covariance of the means over two intervals of `held` samples, so many intervals apart: neighbours share a sample.
+
+    In units of the variance of a sample; `alike` is the correlation of neighbouring samples.
+    """
+    if held > RULES.few_samples:
+        summed = held - 0.5 if alike == 0.0 else held * (1.0 + alike) / (1.0 - alike)
+        return alike ** (held * apart) * min(summed / held**2, 1.0)
+    weight = np.full(held + 1, 1.0 / held)
+    weight[[0, -1]] /= 2.0
+    at = np.arange(held + 1)
+    return float(weight @ alike ** np.abs(apart * held + at[:, None] - at) @ weight)
+
+
+def bend_variance(held: int, apart: int, alike: float) -> float:
+    """Variance of second differences of such means, so many intervals apart."""
+    return 6.0 * covariance(held, 0, alike) - 8.0 * covariance(held, apart, alike) + 2.0 * covariance(held, 2 * apart, alike)
+
+
+def neighbour_noise(force: Array, held: NDArray[np.int64]) -> tuple[float, float]:
+    """Standard deviation [N] of a sample from neighbouring intervals, for records without enough oscillations.
+
+    Beside it the correlation of neighbouring samples.
+    """
+    if len(force) <= 2:
+        return 0.0, 0.0
+    alike = correlation(force, held)
+    white = force / averaging_noise(held, alike)
+    most = float(np.median(np.abs(white - np.median(white))))  # a model's errors are no smaller than their noise
+    return SCATTER * min(bent(force, held, 1, alike), most), alike
+
+
+def bent(force: Array, held: NDArray[np.int64], apart: int, alike: float) -> float:
+    """Median second difference [N] of means (n,) so many intervals apart, in units of what a sample's noise makes it."""
+    counts, of = np.unique(held[apart:-apart], return_inverse=True)
+    expected = np.sqrt([bend_variance(int(n), apart, alike) for n in counts])[of]
+    return float(np.median(np.abs(force[2 * apart :] - 2.0 * force[apart:-apart] + force[: -2 * apart]) / expected))
+
+
+def correlation(force: Array, held: NDArray[np.int64]) -> float:
+    """Correlation of neighbouring samples of noise, seen in mean forces (n,) [N]; 0 where it is none.
+
+    Second differences of neighbours and of every second interval ask for the same noise with it, those of every third say
+    whether it is noise: a model's error is smooth, and gains more.
+    """
+    if len(force) < RULES.coloured_least:
+        return 0.0
+    several = np.linspace(0.0, RULES.most_alike, 50) ** (1.0 / float(np.median(held)))
+    gains = [bent(force, held, 2, c) / max(bent(force, held, 1, c), np.finfo(float).tiny) for c in several.tolist()]
+    alike = float(several[int(np.argmin(np.abs(np.log(np.maximum(gains, np.finfo(float).tiny)))))])
+    smooth = bent(force, held, 3, alike) > RULES.smooth * bent(force, held, 1, alike)
+    return 0.0 if smooth else alike
+
+
+def noise(record: PreparedRecord, force: Array) -> Array:
+    """Standard deviation [N] of the mean forces (n,) of a record's intervals, from what in a `force` (n,) does not repeat.
+
+    Of a model's errors that is noise alone; a force itself is sampled at other phases in every oscillation. Oscillations of
+    like duration and range share it; what belongs to none has that of the most common, by its number of samples.
+    """
+    cycle, held = record.cycle, np.maximum(record.samples, 1)
+    numbers = np.unique(cycle[cycle >= 0])
+    shape = np.array([(held[cycle == i].sum(), np.ptp(record.stroke[cycle == i])) for i in numbers])
+    each = np.full(len(force), np.nan)
+    left, most, common = list(range(len(numbers))), 0, 0.0
+    while left:
+        alike = [i for i in left if np.all(np.abs(np.log(shape[i] / shape[left[0]])) < np.log(RULES.alike_turns))]
+        left = [i for i in left if i not in alike and i != left[0]]
+        inside = np.isin(cycle, numbers[alike])
+        size = repeat_noise(force[inside], cycle[inside])
+        if size > 0.0:
+            usual = round(float(np.median(held[inside])))
+            sample = size / np.sqrt(covariance(usual, 0, 0.0))
+            each[inside] = sample * averaging_noise(held[inside])
+            if len(alike) > most:
+                most, common = len(alike), float(sample)
+    colour = 0.0
+    if common == 0.0:
+        common, colour = neighbour_noise(force[record.samples > 0], held[record.samples > 0])
+    # Errors of rounding are like in neighbouring samples where no noise is larger than the step.
+    rounding = record.resolution / np.sqrt(12.0) if common < record.resolution else 0.0
+    every = np.where(np.isnan(each), common * averaging_noise(held, colour), each)
+    return np.hypot(every, max(rounding, RULES.least_noise * record.peak))
