@@ -11,18 +11,29 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
 
 from twintube.arrays import Array
 from twintube.diagnosis.candidates import period
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.history import sudden
+from twintube.diagnosis.history import logs, sudden
+from twintube.diagnosis.motion import along, between_samples, measured_again, straight_sided
 from twintube.diagnosis.noise import SCATTER, noise
 from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import BENDS, DELAY, SAMPLING, STROKE_GAIN
 from twintube.fitting.simulation import MARGIN
-from twintube.fitting.strokes import quiet
+
+
+def with_motion(problem: Problem) -> Problem:
+    """The problem with another motion between the samples of those records that it explains far better.
+
+    Where a rig turns within a sample, a cubic spline swings on: its speed is wrong in the samples around.
+    """
+    weighted = with_edges(with_noise(problem))
+    other = weighted.with_records([along(r, straight_sided(r.path)) for r in weighted.records])
+    gained = np.subtract(logs(weighted), logs(other)) > RULES.motion_gain * problem.counts
+    pairs = zip(problem.records, other.records, gained, strict=True)
+    return problem.with_records([along(r, better.path) if taken else r for r, better, taken in pairs])
 
 
 def with_edges(problem: Problem) -> Problem:
@@ -69,31 +80,6 @@ def barely_cavitating(problem: Problem, base: Array) -> Array:
         return np.zeros(len(base))
     other = problem.simulated(problem.damping({"v_cav": most}))[1]
     return np.where(problem.spread(np.array(barely)), np.abs(other - base), 0.0)
-
-
-def between_samples(problem: Problem) -> Problem:
-    """The problem with another smooth motion through the same samples of the stroke; at a sharp turn it differs."""
-    return problem.with_records(
-        [along(r, PPoly.from_spline(make_interp_spline(r.path.x, r.path(r.path.x), k=5))) for r in problem.records]
-    )
-
-
-def measured_again(problem: Problem, seed: int) -> Problem:
-    """The problem with strokes as if measured once more, with noise of their size, of which smoothing leaves a part."""
-    rng = np.random.default_rng(seed)
-    records = []
-    for record in problem.records:
-        time = record.path.x
-        noisy = record.path(time) + record.stroke_noise * rng.standard_normal(len(time))
-        records.append(along(record, CubicSpline(time, quiet(time, noisy))) if record.stroke_noise > 0.0 else record)
-    return problem.with_records(records)
-
-
-def along(record: PreparedRecord, path: PPoly) -> PreparedRecord:
-    """The record on another path of its stroke [m] over time [s]."""
-    at, recorded = np.clip(record.time, path.x[0], path.x[-1]), record.time >= record.begin
-    stroke, velocity = np.where(recorded, path(at), record.stroke), np.where(recorded, path(at, 1), record.velocity)
-    return replace(record, path=path, stroke=stroke, velocity=velocity)
 
 
 def refilled(problem: Problem, more: float) -> Problem:

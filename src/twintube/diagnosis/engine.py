@@ -10,7 +10,7 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.diagnosis.answer import answer, predictions
 from twintube.diagnosis.candidates import LATE, RECALIBRATE, candidates
-from twintube.diagnosis.edges import with_edges, with_noise, with_outliers, without_outliers
+from twintube.diagnosis.edges import with_edges, with_motion, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.faults import Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
@@ -55,12 +55,14 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     recorded = problem
     wrong, problem = unit_error(problem)
     smoothed, problem, notes = force_averaging(dataset.records, problem)
-    problem = with_sampling(settled(problem))
+    problem = with_motion(with_sampling(settled(problem)))
     recorded = recorded.with_usual(problem.usual)
     stepped, problem = zero_change(with_edges(with_noise(problem)))
     problem, drift = zero_drift(problem)
     known = not bare_of_strokes(problem)
     problem, bare = with_history(problem)
+    if bare:  # what was wrong before looked like another sampling
+        problem = with_noise(with_sampling(problem))
     calm, outliers = without_outliers(problem)
     cut, problem = saturated(calm)
     outliers = {} if cut is not None else outliers  # what lies beyond a limit stays left out

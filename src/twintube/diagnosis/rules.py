@@ -174,6 +174,9 @@ class Rules:
     )
     sampling_known: float = measurement(0.02, "1", "of that delay, to which it is sought", JUDGEMENT)
     sampling_rounds: int = measurement(4, "", "rounds in which records that differ lose weight", NUMERICS)
+    motion_gain: float = measurement(
+        0.5, "1", "of log-likelihood per interval, from which another motion between samples is taken", DEVELOPMENT
+    )
     open_motion: float = measurement(
         2.0, "1", "of what another spline through the stroke changes in the force: error between samples", DEVELOPMENT
     )
