@@ -99,7 +99,7 @@ def cause_tables(causes: list[Cause]) -> list[Table]:
         for name, f in cause.determined.items():
             share = is_share(cause.effect, name)
             value, span = with_interval(f.value, f.low, f.high, f.unit, share)
-            parameters.append([cause.title, name, meaning(name), value, span if f.bounds else MISSING])
+            parameters.append([cause.title, name, meaning(name), value, span if f.bounds or f.high > f.low else MISSING])
     # Causes that act together have a gain in common.
     gains = [
         [" and ".join(c.title for c in together), percent(g.heldout), " to ".join(percent(x) for x in g.heldout_interval),
