@@ -9,6 +9,7 @@ from scipy.signal import sawtooth
 from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.diagnosis.edges import between_readings, with_edges, with_motion, with_noise
+from twintube.diagnosis.faults import scaled
 from twintube.diagnosis.thinning import thin
 from twintube.engine.simulate import simulate
 
@@ -22,6 +23,7 @@ def test_noise_of_the_stroke_is_part_of_the_errors() -> None:
         for r in (small.record(small.run(v, samples=80), noise=0.0005) for v in (0.1, 0.3))
     ]
     problem = with_noise(small.problem(rough))
+    assert scaled(problem.records[0], 1.0, -1e3).stroke_noise == 1e3 * problem.records[0].stroke_noise > 0.0
     noise_alone = float(np.mean(problem.misfits(problem.residual({}))))
     whole = with_edges(problem)
     assert noise_alone > 2.0

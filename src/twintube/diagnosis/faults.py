@@ -89,6 +89,7 @@ def scaled(record: PreparedRecord, force: float, stroke: float) -> PreparedRecor
         record, force=record.force * force, noise=record.noise * abs(force), peak=record.peak * abs(force),
         path=PPoly(record.path.c * stroke, record.path.x), resolution=record.resolution * abs(force),
         stroke=record.stroke * stroke, velocity=record.velocity * stroke, top_speed=record.top_speed * abs(stroke),
+        stroke_noise=record.stroke_noise * abs(stroke),
     )  # fmt: skip
 
 
