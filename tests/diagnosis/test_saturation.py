@@ -64,3 +64,16 @@ def test_a_limit_is_told_from_another_setting_at_constant_velocity(largest: floa
     assert float(rest.misfits(rest.residual({}))[-1]) < 2.0
     # Another setting changes the other direction, too.
     assert saturated(with_edges(with_noise(small.problem([*slower, triangle(np.inf, factor=0.8)]))))[0] is None
+
+
+def test_a_filter_that_overshoots_where_the_model_is_uncertain_does_not_hide_a_limit(largest: float) -> None:
+    cut = with_edges(with_noise(small.problem([*small.records(speeds=(0.1, 0.3, 0.6)), triangle(0.8 * largest)])))
+    *others, last = cut.records
+    place = int(np.argmax(np.where(last.judged, last.force, 0.0)))
+    over = last.force.copy()
+    over[place] += 0.1 * largest
+    for edges, sure in ((0.1 * largest, True), (0.0, False)):
+        wide = last.edges.copy()
+        wide[place] += edges
+        seen = saturated(cut.with_records([*others, replace(last, force=over, edges=wide)]))[0]
+        assert (seen is not None and "triangle" in seen.text) == sure

@@ -210,6 +210,36 @@ def test_of_two_frictions_that_explain_nearly_as_much_the_simpler_is_taken(
     much = option("position_friction", 0.90)
     assert selector.taken(start, [much, wear, simple]) is much
     assert selector.taken(start, [rich, wear]) is rich
+    # A gain is exact: what a curve explains beyond it, and beyond noise, is not its formulation.
+    gain, curve = (replace(o, names=(name,)) for o, name in ((simple, "force_gain"), (rich, "valve_wear")))
+    assert selector.taken(start, [curve, gain]) is curve
+    noise = replace(gain, score=curve.score + 0.5 * selector.limit)
+    assert selector.taken(start, [curve, noise]) is noise
+
+
+def test_a_simpler_law_beside_another_cause_is_compared_with_a_law_that_follows_both(
+    selector: Selector, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(selector, "acts", lambda o: True)
+    monkeypatch.setattr(selector, "worth", lambda before, after: True)
+    start, (fit, *others) = selector.start, selector.start.fits
+
+    def option(*names: str, gained: float) -> Option:
+        fits = (replace(fit, free=(fit.free[0],) * (4 if "position_friction" in names else 2)), *others)
+        return replace(
+            start, names=names, score=start.score * (1.0 - gained), squares=start.squares * (1 - gained), fits=fits
+        )
+
+    rich, simple = option("position_friction", gained=0.95), option("side_load_friction", gained=0.85)
+    for gained, chosen in ((0.99, ("side_load_friction", "valve_wear")), (0.94, ("position_friction",))):
+        both = option("side_load_friction", "valve_wear", gained=gained)
+        monkeypatch.setattr(selector, "tried", lambda current, label, most, progress, both=both: [both])
+        final, rounds = selector.simpler(rich, [[rich, simple]], lambda text: None)
+        assert final.names == chosen
+        assert [options[0].names[-1] for options in rounds] == list(chosen)
+    # A law that is far from the best is no beginning.
+    far = option("side_load_friction", gained=0.5)
+    assert selector.simpler(rich, [[rich, far]], lambda text: None)[0] is rich
 
 
 def test_a_calibration_is_taken_where_it_is_best_by_both_measures(

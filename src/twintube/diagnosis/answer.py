@@ -22,6 +22,7 @@ from twintube.diagnosis.where import describe, maps, structured
 from twintube.fitting.parameters import DEGRADATION
 
 PUT_RIGHT = "faults were put right for everything shown here; their gain is relative to the force"
+PREFERRED = "improves the held-out records nearly as much as the best of its round, and is simpler or predicts forces better"
 BEGUN = (
     "a record that begins at an unknown temperature is shown with the one that its own errors ask for, which the extended "
     "parameter set cannot hold; state start_temperature_degC of each record"
@@ -197,12 +198,14 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
     total = max(float(np.maximum(first, 0.0).sum()), most, RULES.worth * selection.count)
     explainable = np.full(len(first), total / len(first))
     for n, options in enumerate(selection.rounds, start=1):
+        best = min(options, key=lambda o: o.score)
         for k, option in enumerate(options):
             rows = np.column_stack([selector.logs(current.misfit) - selector.logs(option.misfit), explainable])
             gain = float(rows[:, 0].sum() / total)
             won = k == 0 and option.names[-1] in selection.chosen
             if won:
-                reason = "improves the held-out records most"
+                most_of_all = option is best or not selector.acts(best)
+                reason = "improves the held-out records most" if most_of_all else PREFERRED
             elif not selector.acts(option):
                 reason = "is neutral, or not more than every measurement has"
             elif options[0].names[-1] in selection.chosen and option.score >= options[0].score:

@@ -60,7 +60,8 @@ def cut(problem: Problem, forces: Array) -> list[Limit]:
     Of a motion with constant velocity the whole stroke is beyond a limit, of one side or of both; another damper or setting
     changes the other side, too.
     """
-    highest = max(float(np.abs(record.force[record.judged]).max(initial=0.0)) for record in problem.records)
+    # Beside steps of the force a filter overshoots.
+    highest = max(float((np.abs(r.force) - r.edges)[r.judged].max(initial=0.0)) for r in problem.records)
     misfits = problem.misfits(problem.residual({}))
     usual = max(1.0, float(np.median(misfits)))
     limits = []

@@ -7,29 +7,18 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.diagnosis.calibration import best_calibration, calibration
-from twintube.diagnosis.candidates import (
-    ALIKE,
-    FACTORS,
-    FADING,
-    LATE,
-    RECALIBRATE,
-    Candidate,
-    linear,
-    nuisances,
-    period,
-)
+from twintube.diagnosis.candidates import LATE, RECALIBRATE, Candidate, linear, nuisances
+from twintube.diagnosis.choice import Chooser
 from twintube.diagnosis.edges import less_noise
 from twintube.diagnosis.fit import Fit, Free, Problem
-from twintube.diagnosis.judge import Judge
 from twintube.diagnosis.options import Fold, Option, Selection, fitted
 from twintube.diagnosis.rivals import general, leading, near
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import DELAY, MEASUREMENT
 from twintube.diagnosis.starts import best_start, measured, start_cost
-from twintube.fitting.splits import distinct
 
 
-class Selector(Judge):
+class Selector(Chooser):
     """Fits and compares models; `whole` holds the records that the final model is fitted to.
 
     The records to fit are balanced by its misfit, once, before anything is compared.
@@ -40,9 +29,8 @@ class Selector(Judge):
     def __init__(
         self, whole: Problem, candidates: Sequence[Candidate], folds: Sequence[Fold], *, history: bool = True
     ) -> None:
-        super().__init__(len(candidates), folds)
+        super().__init__(candidates, folds)
         self.history = history
-        self.candidates = {c.name: c for c in candidates}
         self.calibration = calibration(whole)
         self.point: dict[str, float] | None = None
         self.begun: dict[tuple[tuple[str, ...], str, tuple[str, ...]], dict[str, float]] = {}  # where candidates begin
@@ -79,10 +67,6 @@ class Selector(Judge):
         """What of the measurement is free in a model: the delay, known from all records, beside what is late itself."""
         return [f for f in nuisances(problem) if f.name != DELAY or any(name in LATE for name in names)]
 
-    def known(self, name: str) -> Candidate:
-        """A candidate, or the calibration."""
-        return self.calibration if name == RECALIBRATE else self.candidates[name]
-
     def beginning(self, current: Option, name: str) -> tuple[float, dict[str, float]]:
         """Where a further cause begins in all folds, and the sum of squares there.
 
@@ -109,19 +93,6 @@ class Selector(Judge):
         costs = [float(np.sum(self.whole.shared(fit.values) ** 2)) for fit in option.fits]
         return self.whole.fit(starts[int(np.argmin(costs))], thorough=thorough)
 
-    def acts(self, option: Option) -> bool:
-        """Whether the new cause of an option is off its neutral value in every fold."""
-        name = option.names[-1]
-        candidate = self.known(name)
-        least = dict(candidate.least)
-        if name == DELAY and any(other not in self.sampling for other in option.names[:-1]):
-            # Whether the force was filtered is not known from a model that lacks the other causes.
-            least[DELAY] = max(least[DELAY], RULES.open_filtered * period(self.whole))
-        start = {f.name: f.start for f in candidate.free}
-        return all(
-            any(abs(fit.values.get(n, start[n]) - start[n]) > least[n] for n in candidate.strength) for fit in option.fits
-        )
-
     def run(self, progress: Callable[[str], None]) -> Selection:
         """Add the cause that improves the held-out records most, until none is worth it; then drop the superfluous."""
         recalibrated, options = self.single(progress)
@@ -136,6 +107,7 @@ class Selector(Judge):
         if not self.sampling and self.seen_through_sampling(current, rounds[-1]):
             recalibrated, options = self.single(progress, "a single cause, sampling known")
             current, rounds = self.added(options, progress)
+        current, rounds = self.simpler(current, rounds, progress)
         current = self.exchanged(self.pruned(current, progress), progress)
         if RECALIBRATE in current.names and rounds[0][0].names[-1] == RECALIBRATE:
             current = rounds[0][0]  # what a calibration leaves is its own formulation; else it had been superfluous
@@ -164,6 +136,26 @@ class Selector(Judge):
                 break
             options = self.tried(current, f"a further cause, {len(rounds) + 1} in all", RULES.further_fits, progress)
         return current, rounds
+
+    def simpler(
+        self, current: Option, rounds: list[list[Option]], progress: Callable[[str], None]
+    ) -> tuple[Option, list[list[Option]]]:
+        """A simpler law of the kind of a single cause, with a further cause, where both are better than that cause alone.
+
+        A law of many parameters follows a simpler law and some of another cause, too.
+        """
+        first = rounds[0]
+        gained = RULES.near_best * (self.start.score - first[0].score)
+        laws = [o for o in first[1:] if general(first[0], o) and self.acts(o) and self.start.score - o.score >= gained]
+        if current is not first[0] or not laws:
+            return current, rounds
+        law = laws[0]
+        options = self.tried(law, f"a cause beside {law.names[-1]}", RULES.further_fits, progress)
+        taken = self.taken(law, options)
+        if taken is None or current.score - taken.score <= self.limit:
+            return current, rounds
+        rest = [[o for o in options if o is not best] for options, best in ((first, law), (options, taken))]
+        return taken, [[law, *rest[0]], [taken, *rest[1]]]
 
     def chosen(self, selection: Selection, final: Option) -> Selection:
         """The selection with a final model."""
@@ -230,39 +222,6 @@ class Selector(Judge):
         self.start = self.option(self.sampling, [self.free(self.sampling, fit.values) for fit in best.fits])
         return True
 
-    def short(self, option: Option) -> bool:
-        """Whether the new cause of an option is not more than sampling leaves open, nor the delay beside it at its limit."""
-        late = next(f for f in nuisances(self.whole) if f.name == DELAY)
-        known = (1.0 - RULES.at_bound) * late.high
-        return not self.acts(option) and all(abs(fit.values.get(DELAY, 0.0)) < known for fit in option.fits)
-
-    def usual(self, current: Option, option: Option, options: Sequence[Option]) -> bool:
-        """Whether what every measurement has explains as much: what is too short for sampling, or a gain."""
-        gained = RULES.near_sampling * (current.score - option.score)
-        others = [o for o in options if o.names[-1] in LATE and self.short(o)] if option.names[-1] in LATE else []
-        others += [o for o in options if general(option, o) and self.known(o.names[-1]).fault and not self.acts(o)]
-        return any(current.score - o.score >= gained for o in others)
-
-    def taken(self, current: Option, options: Sequence[Option]) -> Option | None:
-        """The option that becomes the next model: the best, or a nearly equal option that predicts forces far better."""
-        worthy = [o for o in options if self.acts(o) and self.worth(current, o) and not self.usual(current, o, options)]
-        if not worthy:
-            return None
-        best = worthy[0]
-        # Of two that explain nearly as much the simpler, of which the other is a generalisation.
-        enough = current.score - (1.0 - RULES.close) * (current.score - best.score)
-        best = next((o for o in worthy if o.score <= enough and general(best, o)), best)
-        if best.names[-1] == RECALIBRATE:  # so many parameters must be better than any cause by either measure
-            best = next((o for o in worthy if o.total < best.total), best)
-        if best.names[-1] == RECALIBRATE:  # and in most of the records
-            least, enough = self.improved(current, best) / RULES.half, current.score - best.score
-            wider = (o for o in worthy if self.improved(current, o) >= least)
-            best = next((o for o in wider if current.score - o.score >= RULES.near_best * enough), best)
-            worthy = [best] if best.names[-1] != RECALIBRATE else worthy
-        near = [o for o in worthy if current.score - o.score >= RULES.near_best * (current.score - best.score)]
-        calm = [o for o in near if o.total <= (1 - RULES.next_share) * best.total]
-        return min(calm, key=lambda o: o.total, default=best)
-
     def tried(self, current: Option, label: str, most: int, progress: Callable[[str], None]) -> list[Option]:
         """The current model with a further cause, best first, of those with the best starts the `most`."""
         begins = {}
@@ -283,14 +242,6 @@ class Selector(Judge):
     def sketched(self, current: Option) -> float:
         """The sum of squares of a model in these records."""
         return start_cost(self.sketches, {}, [fit.values for fit in current.fits], linear(self.whole))
-
-    def alike(self, name: str, names: Sequence[str]) -> bool:
-        """Whether a candidate would only mend the formulation of a chosen cause."""
-        causes = [other for other in names if other not in self.sampling]
-        speeds = distinct([r.top_speed for r in self.records], RULES.equal_speeds)
-        if len(speeds) < 2 and name in FACTORS and any(other in FADING for other in causes):
-            return True
-        return any(name in group and any(other in group for other in causes) for group in ALIKE)
 
     def exchanged(self, current: Option, progress: Callable[[str], None]) -> Option:
         """With each of several causes exchanged for another where that is better: the first was chosen alone.
