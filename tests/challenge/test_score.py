@@ -99,6 +99,10 @@ def test_contradictions_are_counted() -> None:
     answer["error"] |= {"base": {"force_rmse_N": 3.0}}
     assert len(contradictions(answer)) == 3
     assert contradictions({"refused": "no file"}) == []
+    others = [{"effect": "fluid_lag", "heldout_gain": gain} for gain in (0.0, 0.4)]
+    assert contradictions(says("ambiguous", "end_stop") | {"alternatives": others}) == [
+        "fluid_lag as an alternative with a held-out gain of 0"
+    ]
 
 
 def test_coverage_and_detection_limit() -> None:

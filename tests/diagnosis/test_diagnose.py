@@ -236,6 +236,8 @@ def test_what_the_records_cannot_tell_apart_is_ambiguous(tmp_path: Path) -> None
     assert answer.verdict == "ambiguous"
     named = {answer.causes[0].effect, *(other.effect for other in answer.alternatives)}
     assert {"gas_spring", "force_offset"} <= named
+    first = answer.causes[0].gain.heldout
+    assert all(other.heldout_gain == pytest.approx(first, abs=0.05) for other in answer.alternatives)
     assert answer.next_measurements
     assert any("no record of the intact damper" in remark for remark in answer.remarks)
 

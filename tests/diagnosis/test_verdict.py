@@ -39,7 +39,8 @@ KNOWN = {
 
 
 def option(*names: str, score: float) -> Option:
-    return Option(names, (), (), np.ones(1), np.zeros(1), np.ones(1), score)
+    squares = np.full(1, COUNT * np.exp(score / COUNT))
+    return Option(names, (), (), np.ones(1), np.zeros(1), squares, score)
 
 
 def selection(final: Option, *others: Option, start: float = SCORE) -> Selection:
@@ -267,11 +268,11 @@ def test_a_rival_of_one_of_two_causes_is_judged_beside_the_other() -> None:
 
 def test_a_cause_is_not_named_where_other_parameters_explain_far_more() -> None:
     chosen = selection(option("fluid_lag", score=10.0))
-    better = replace(option(RECALIBRATE, score=5.0), squares=np.full(1, 0.5))
+    better = replace(option(RECALIBRATE, score=5.0), squares=0.5 * chosen.final.squares)
     judgement = judged(replace(chosen, recalibrated=better))
     assert judgement.verdict == "unexplained"
     assert "other values of the degradation parameters explain far more" in sentence(judgement, KNOWN, [])
-    assert judged(replace(chosen, recalibrated=replace(better, squares=np.full(1, 0.9)))).verdict == "cause"
+    assert judged(replace(chosen, recalibrated=replace(better, squares=0.9 * chosen.final.squares))).verdict == "cause"
 
 
 def test_what_became_superfluous_beside_a_cause_is_its_rival() -> None:

@@ -12,7 +12,7 @@ from twintube.diagnosis.candidates import RECALIBRATE, Candidate
 from twintube.diagnosis.confidence import evidence, probabilities
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.fit import Fit, Free, Problem
-from twintube.diagnosis.gains import bootstrap, errors, gains, removed, whole, worst
+from twintube.diagnosis.gains import bootstrap, errors, floor, gains, whole, worst
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, Gain, RecordResult, Signature, Tried
 from twintube.diagnosis.rules import RULES
@@ -70,7 +70,8 @@ def answer(
             *(Cause(name, known[name].title, known[name].cause, estimates[name], gain) for name in judgement.causes),
         ],
         alternatives=[
-            Alternative(c.name, removed(selection.start.score, o.score, selection.count), apart(c)) for o, c in rivals
+            Alternative(c.name, whole(gains(predictions(selector, (*options[:2], o)), least=floor(held))), apart(c))
+            for o, c in rivals
         ],
         errors={"fit": errors(fitted), "heldout": errors(held)},
         where=describe(residuals),

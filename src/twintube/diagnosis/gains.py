@@ -37,10 +37,13 @@ def floor(records: Sequence[RecordResult]) -> float:
     return float(min(1.0, min(squares) / sum(np.sum(r.weight > 0) for r in records)))
 
 
-def gains(records: Sequence[RecordResult], *, parts: bool = False) -> Array:
-    """Squared weighted error that goes away and that is explainable (r, 2) per record, or per part of a record."""
+def gains(records: Sequence[RecordResult], *, parts: bool = False, least: float | None = None) -> Array:
+    """Squared weighted error that goes away and that is explainable (r, 2) per record, or per part of a record.
+
+    `least` is the mean squared weighted error that noise leaves, that of these models where it is not given.
+    """
     rows = []
-    least = floor(records)
+    least = floor(records) if least is None else least
     for r in records:
         part = r.record.part if parts else np.zeros(len(r.weight), dtype=np.int64)
         base, extended = (np.bincount(part, (r.weight * (force - r.measured)) ** 2) for force in (r.base, r.extended))

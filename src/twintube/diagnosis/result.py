@@ -108,7 +108,7 @@ class Alternative:
     """A candidate that explains the data about as well as the named cause."""
 
     effect: str
-    heldout_gain: float
+    heldout_gain: float  # share of the explainable squared error, as of the causes
     separable_by: str
 
 

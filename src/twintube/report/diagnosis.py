@@ -196,8 +196,8 @@ def tried_table(d: Diagnosis) -> Table | None:
 def alternative_table(d: Diagnosis) -> Table | None:
     """What explains the data about as well."""
     rows = [[title_of(a.effect), percent(a.heldout_gain), a.separable_by] for a in d.alternatives]
-    title = "Alternatives; gain: share of the squared error of a typical held-out record"
-    return Table(["alternative", "gain", "what would tell it apart"], rows, title, (1,)) if rows else None
+    title = "Alternatives; share of the explainable squared force error that goes away"
+    return Table(["alternative", "held-out records", "what would tell it apart"], rows, title, (1,)) if rows else None
 
 
 def sections(d: Diagnosis, drawn: dict[str, Picture]) -> list[Section]:

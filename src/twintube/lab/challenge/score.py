@@ -105,6 +105,10 @@ def contradictions(answer: dict[str, Any]) -> list[str]:
             remarks.append(f"a cause below the noise floor: {base:.4g} < {floor:.4g} N")
         if base is not None and extended is not None and extended > base:
             remarks.append(f"extended {extended:.4g} N above base {base:.4g} N")
+    for item in answer.get("alternatives", []):
+        gain = item.get("heldout_gain")
+        if gain is not None and gain <= 0.0:
+            remarks.append(f"{item['effect']} as an alternative with a held-out gain of {gain:.3g}")
     total = sum(answer.get("probabilities", {}).values())
     if verdict_of(answer) not in ("refused", "failed") and not abs(total - 1.0) < 1e-3:
         remarks.append(f"probabilities sum to {total:.4g}")
