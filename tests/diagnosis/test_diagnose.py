@@ -256,18 +256,21 @@ def test_records_in_which_an_answer_leaves_more_than_noise(good: list[Record]) -
     forces = np.split(problem.forces({}), problem.starts[1:-1])
     weights = np.split(problem.weight, problem.starts[1:-1])
 
-    def left(wrong: dict[int, int]) -> Diagnosis:
+    def left(wrong: dict[int, int], verdict: str = "cause") -> Diagnosis:
         rows = []
         for i, (record, force, weight) in enumerate(zip(problem.records, forces, weights, strict=True)):
             error = np.zeros(len(force))
             error[np.flatnonzero(record.judged)[: wrong.get(i, 0)]] = 1e3
-            rows.append(RecordResult(record, "heldout", force, force, force, force + error, weight))
-        return cast(Diagnosis, SimpleNamespace(records=rows))
+            models = (force + error, force, force) if verdict == "recalibrate" else (force, force, force + error)
+            rows.append(RecordResult(record, "heldout", force, *models, weight))
+        return cast(Diagnosis, SimpleNamespace(records=rows, verdict=verdict))
 
     assert contradicted(problem, left({})) is None
     assert contradicted(problem, left({1: RULES.few_intervals})) is None
     some = contradicted(problem, left({1: 40}))
     assert some is not None and some.records[0].name == problem.records[1].name
+    # Other degradation parameters leave nothing there, but hardly any other record asks for them.
+    assert contradicted(problem, left({1: 40}, "recalibrate")) is not None
     assert contradicted(problem, left(dict.fromkeys(range(len(good)), 40))) is None  # all: not a matter of few records
 
 
@@ -294,6 +297,9 @@ def answer_of(names: tuple[str, ...], error: Array) -> Diagnosis:
         ((), ("recalibrate",), 0.9, True),
         (("valve_wear",), ("recalibrate",), 0.9, False),
         (("valve_wear",), ("valve_wear", "channel_delay"), 0.1, False),
+        (("recalibrate",), ("gas_redissolution",), 1.0, True),
+        (("recalibrate",), ("gas_redissolution",), 1.5, False),
+        (("recalibrate",), ("recalibrate",), 0.5, False),
     ],
 )
 def test_an_answer_within_records_must_name_more_or_leave_far_less(

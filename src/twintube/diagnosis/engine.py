@@ -87,7 +87,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
 
         folds, split_remarks = split(dataset.title, judged.records)
         answered = by(judged, folds, "")
-        few = split_remarks == [BY_VELOCITY] and answered.verdict != RECALIBRATE and len(answered.causes) < RULES.rounds
+        few = split_remarks == [BY_VELOCITY] and len(answered.causes) < RULES.rounds
         wrong = contradicted(with_outliers(judged, outliers), answered) if few else None
         inside = within(wrong.records) if wrong is not None else []
         if wrong is not None and inside:
@@ -106,12 +106,16 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
 
 
 def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
-    """The few records in which an answer leaves more than noise, with some others; None where there are none."""
-    extended = {r.record.name: r for r in answered.records}
+    """The few records in which an answer leaves more than noise, with some others; None where there are none.
+
+    Of other degradation parameters, the few that ask for them: a cause may be at work there.
+    """
+    model = "base" if answered.verdict == RECALIBRATE else "extended"
+    results = {r.record.name: r for r in answered.records}
     wrong: list[PreparedRecord] = []
     right: list[PreparedRecord] = []
     for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
-        error = extended[record.name].extended - extended[record.name].measured
+        error = getattr(results[record.name], model) - results[record.name].measured
         squares = np.sort((problem.weight[a:b] * error)[record.judged] ** 2)[: -RULES.few_intervals]
         (wrong if float(squares.sum()) > RULES.odd_right * len(squares) else right).append(record)
     if not 0 < len(wrong) <= RULES.odd_share * len(problem.records):
@@ -123,12 +127,14 @@ def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
 def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
     """Whether another answer names all causes of an answer and further ones, or others that leave far less of the error.
 
-    Other degradation parameters are an answer like a cause. Nothing that makes the force late is taken from
-    it: between two samples a step of the force is late by chance, and nothing of a record is left out there. Nor is what
-    the zero of a single record would explain as well.
+    Other degradation parameters are an answer like a cause; a cause that leaves as little is simpler. Nothing that makes the
+    force late is taken from it: between two samples a step of the force is late by chance, and nothing of a record is left
+    out there. Nor is what the zero of a single record would explain as well.
     """
-    before, after = ({cause.effect for cause in some.causes} for some in (answered, closer))
-    after |= {RECALIBRATE} if closer.verdict == RECALIBRATE else set()
+    before, after = (
+        {cause.effect for cause in some.causes} | ({RECALIBRATE} if some.verdict == RECALIBRATE else set())
+        for some in (answered, closer)
+    )
     if not after - before or (after - before) & set(LATE):
         return False
     first = {r.record.name: r for r in answered.records}
@@ -139,6 +145,8 @@ def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
             error = (some.extended - r.measured) * r.weight
             left[i] += error @ error
             beside_zeros[i] += error @ error - (error @ r.weight) ** 2 / power
+    if RECALIBRATE in before:
+        return bool(left[1] <= (1.0 + RULES.close) * left[0])
     if beside_zeros[0] - beside_zeros[1] < RULES.half * (left[0] - left[1]):
         return False
     return before < after or bool(left[1] < RULES.explains_more * left[0])

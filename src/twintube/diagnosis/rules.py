@@ -326,7 +326,7 @@ class Rules:
         0.4, "1", "factor of the force above 1, beyond which it is another damper or setting", JUDGEMENT
     )
     close: float = verdict(0.03, "1", "of the explainable misfit: candidates that differ by less are ambiguous", DEVELOPMENT)
-    contents_apart: float = verdict(0.1, "1", "the like of what becomes of oil, freed gas and foam", DEVELOPMENT)
+    contents_apart: float = verdict(0.15, "1", "the like of what becomes of oil, freed gas and foam", DEVELOPMENT)
     law_apart: float = verdict(
         0.25, "1", "the like of the misfit that a single cause leaves, where it leaves more than noise", DEVELOPMENT
     )

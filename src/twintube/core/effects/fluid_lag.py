@@ -58,7 +58,7 @@ class Parameters(variables.Parameters):
     tau_fluid: float = var("fluid_lag", "", "s", "time constant with which late valves change the fluid force", lower=0,
                            upper=0.02, source="first-order lag", default=0.0, role="strength")  # fmt: skip
     closing_stroke: float = var("fluid_lag", "", "m", "stroke after a reversal until the check valves have closed", lower=0,
-                                upper=5e-3, source="a plate is carried to its seat; Dixon, The Shock Absorber Handbook",
+                                upper=15e-3, source="a plate is carried to its seat; Dixon, The Shock Absorber Handbook",
                                 default=0.0, role="strength")  # fmt: skip
     relief_first: float = var("fluid_lag", "", "1", "share of a column's force that is relieved before the other builds up",
                               lower=0, upper=1, source="1: a single Maxwell element; Duym 2000", default=0.0,
