@@ -178,6 +178,19 @@ def test_equal_candidates_are_ambiguous_and_unequal_candidates_are_not() -> None
     assert judged(replace(selection(final, near), neutral=("fluid_lag",))).verdict == "cause"
 
 
+def test_a_gain_that_leaves_noise_alone_has_rivals_within_noise_only() -> None:
+    score = 0.4 * RULES.close * SCORE  # beyond noise
+    for name, left, verdict in (
+        ("force_gain", 10.0, "measurement_fault"),
+        ("force_gain", 20.0, "ambiguous"),
+        ("side_load_friction", 10.0, "ambiguous"),
+    ):
+        chosen = selection(option(name, score=0.0), option("fluid_lag", score=score))
+        assert judged(chosen, forces=(100.0, left, 10.0)).verdict == verdict
+    noise = selection(option("force_gain", score=0.0), option("fluid_lag", score=5.0))
+    assert judged(noise, forces=(100.0, 10.0, 10.0)).verdict == "ambiguous"
+
+
 @pytest.mark.parametrize(("other", "verdict"), [("position_friction", "cause"), ("fluid_lag", "ambiguous")])
 def test_a_friction_that_follows_a_good_part_of_another_is_no_rival(other: str, verdict: str) -> None:
     score = 0.5 * SCORE

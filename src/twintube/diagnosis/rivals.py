@@ -3,6 +3,7 @@
 from twintube.diagnosis.candidates import CONTENTS, FACTORS, FRICTION, RECALIBRATE
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.seen import MEASUREMENT
 
 
 def rivals(selection: Selection, left: bool) -> list[Option]:
@@ -33,7 +34,9 @@ def near(selection: Selection, left: bool) -> list[Option]:
     if best is None:
         return []
     gained = max(selection.start.score - best.score, 0.0)
-    close = max(selection.limit, RULES.close * gained)
+    # A gain of a channel is exact: where it leaves noise alone, only noise makes a law as good.
+    exact = not left and best.names[-1] in {*FACTORS} & {*MEASUREMENT}
+    close = selection.limit if exact else max(selection.limit, RULES.close * gained)
     wide = max(close, RULES.law_apart * best.score) if left else close
     others = [o for o in selection.rounds[0] if o.names[-1] not in (RECALIBRATE, *selection.neutral, *selection.chosen)]
     others = [o for o in others if o.score >= best.score or o is selection.rounds[0][0]]
