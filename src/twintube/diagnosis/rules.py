@@ -297,7 +297,7 @@ class Rules:
     )
     near_best: float = selection(0.75, "1", "of the best gain, from which a third less squared error decides", TRIALS)
     near_sampling: float = selection(
-        0.9, "1", "of the gain of a cause, that what every measurement has reaches, too", DEVELOPMENT
+        0.85, "1", "of the gain of a cause, that what every measurement has reaches, too", DEVELOPMENT
     )
     promise: float = selection(
         0.005, "1", "of the squared error that the start of a candidate takes away, for it to be fitted", DEVELOPMENT
@@ -326,7 +326,7 @@ class Rules:
         0.4, "1", "factor of the force above 1, beyond which it is another damper or setting", JUDGEMENT
     )
     close: float = verdict(0.03, "1", "of the explainable misfit: candidates that differ by less are ambiguous", DEVELOPMENT)
-    contents_apart: float = verdict(0.15, "1", "the like of what becomes of oil, freed gas and foam", DEVELOPMENT)
+    contents_apart: float = verdict(0.4, "1", "the like of what becomes of oil, freed gas and foam", DEVELOPMENT)
     law_apart: float = verdict(
         0.25, "1", "the like of the misfit that a single cause leaves, where it leaves more than noise", DEVELOPMENT
     )
