@@ -227,3 +227,20 @@ def test_not_utf8(folder: Make) -> None:
     path = folder({"a.csv": None})
     (path / "a.csv").write_bytes(as_csv(good()).encode() + b"\xff\n")
     assert check_dataset(path).errors[0].row == 1503
+
+
+def turning(slower: float = 1.0) -> Columns:
+    """A triangle of 1.57 m/s at 128 Hz, whose rig turns within a sample; the velocity column times a factor."""
+    t = np.arange(400) / 128.0
+    period = 4 * 40.0 / 1570.0
+    phase = (t / period + 0.19) % 1.0
+    z = 40.0 * (1.0 - 4.0 * np.abs(phase - 0.5))
+    v = np.where(phase < 0.5, 1570.0, -1570.0)
+    return {T: t, Z: z, V: slower * v, F: np.sign(v) * 500.0}
+
+
+def test_a_rig_that_turns_between_two_samples_has_a_velocity_that_belongs_to_its_stroke(folder: Make) -> None:
+    findings = check_dataset(folder({"a.csv": turning()})).findings
+    assert not [f for f in findings if f.column == V and f.severity == "error"]
+    wrong = check_dataset(folder({"a.csv": turning(0.8)})).findings
+    assert [f for f in wrong if "times the derivative of the stroke" in f.message]

@@ -274,14 +274,18 @@ def test_records_in_which_an_answer_leaves_more_than_noise(good: list[Record]) -
     assert contradicted(problem, left(dict.fromkeys(range(len(good)), 40))) is None  # all: not a matter of few records
 
 
-def answer_of(names: tuple[str, ...], error: Array) -> Diagnosis:
-    """An answer that names these and leaves errors (n,) in its only record."""
-    row = SimpleNamespace(
-        record=SimpleNamespace(name="a"), measured=np.zeros(len(error)), extended=error, weight=np.ones(len(error))
-    )
+def answer_of(names: tuple[str, ...], error: Array, records: int = 2) -> Diagnosis:
+    """An answer that names these and leaves errors (n,) in each of its records, of errors of ten times the noise."""
+    size, base = len(error), np.full(len(error), 10.0)
+    rows = [
+        SimpleNamespace(
+            record=SimpleNamespace(name=f"{i}"), measured=np.zeros(size), base=base, extended=error, weight=np.ones(size)
+        )
+        for i in range(records)
+    ]
     verdict = "recalibrate" if "recalibrate" in names else "cause"
     causes = [SimpleNamespace(effect=name) for name in names if name != "recalibrate"]
-    return cast(Diagnosis, SimpleNamespace(verdict=verdict, causes=causes, records=[row]))
+    return cast(Diagnosis, SimpleNamespace(verdict=verdict, causes=causes, records=rows))
 
 
 @pytest.mark.parametrize(
@@ -307,6 +311,12 @@ def test_an_answer_within_records_must_name_more_or_leave_far_less(
 ) -> None:
     ripple = np.array([1.0, -1.0] * 5)
     assert says_more(answer_of(before, ripple), answer_of(after, left * ripple)) == more
+
+
+def test_other_degradation_parameters_are_not_known_from_a_single_record() -> None:
+    ripple = np.resize([1.0, -1.0], 10)
+    for records, more in ((1, False), (2, True)):
+        assert says_more(answer_of((), ripple, records), answer_of(("recalibrate",), 0.1 * ripple, records)) == more
 
 
 def test_within_records_the_zero_of_a_single_record_names_nothing() -> None:

@@ -26,6 +26,7 @@ COLDEST, HOTTEST = -60.0, 250.0  # [degC], outside K and degC are mixed up
 SCALE = 0.05  # deviation of the ratio from 1; calibrations are within 1 %
 STRANGE = 0.2  # share of the stroke not explained by the velocity; 2 % come from noise
 ODD = 0.05  # the share that is worth a warning: a channel delay of 5 ms at 1.6 Hz
+TURN = 0.25  # of the range of the velocity within a sample: a rig turned there
 DRIFT = 0.02  # mean of velocity beyond that of the stroke, over rms
 SAME = 0.05  # of the roughness of a difference quotient: whoever has its noise too is computed from it
 # Others
@@ -157,10 +158,18 @@ def check_stroke(table: Table, limit: float | None, notes: Notes) -> None:
         )
 
 
-def running(values: Array, time: Array) -> Array:
-    """Integral over time, without its straight trend."""
-    total = np.append(0.0, np.cumsum((values[1:] + values[:-1]) / 2 * np.diff(time)))
-    return straightened(total, time)
+def ways(velocity: Array, time: Array, stroke: Array) -> Array:
+    """What the velocity makes of each interval's stroke (n - 1,).
+
+    Where it turns between two samples, nobody knows when: any mean between both is as good, and that of the stroke is taken.
+    """
+    steps = np.diff(time)
+    first, last = velocity[:-1] * steps, velocity[1:] * steps
+    made = (first + last) / 2
+    moved, said = straightened(stroke, time), straightened(np.append(0.0, np.cumsum(made)), time)
+    scale = float(said @ moved) / float(moved @ moved)
+    turns = np.abs(np.diff(velocity)) > TURN * np.ptp(velocity)
+    return np.where(turns, np.clip(scale * np.diff(stroke), np.minimum(first, last), np.maximum(first, last)), made)
 
 
 def straightened(values: Array, time: Array) -> Array:
@@ -177,10 +186,12 @@ def check_velocity(table: Table, notes: Notes) -> None:
         return
     time, stroke, velocity = (table.columns[name] for name in ("time", "stroke", "velocity"))
     header = table.headers["velocity"]
-    moved, said = straightened(stroke, time), running(velocity, time)
+    moved = straightened(stroke, time)
     size = float(np.sqrt(np.mean(moved**2)))
     if size == 0.0:
         return
+    made = ways(velocity, time, stroke)
+    said = straightened(np.append(0.0, np.cumsum(made)), time)
     scale = float(said @ moved) / float(moved @ moved)
     slope = np.gradient(stroke, time)
     odd = float(np.std(said - scale * moved)) / size
@@ -202,7 +213,7 @@ def check_velocity(table: Table, notes: Notes) -> None:
         return
     if odd > ODD:
         notes.warning(f"velocity explains the stroke but for {odd:.1%}, usual are {ODD:.0%}; delayed or noisy?", header, at)
-    drift = float(np.trapezoid(velocity, time) - stroke[-1] + stroke[0]) / float(time[-1] - time[0])
+    drift = float(made.sum() - stroke[-1] + stroke[0]) / float(time[-1] - time[0])
     if abs(drift) > DRIFT * float(np.sqrt(np.mean(velocity**2))):
         notes.warning(f"offset: mean velocity {drift:.3g} m/s beyond that of the stroke", header)
     kind = computed(time, stroke, velocity)

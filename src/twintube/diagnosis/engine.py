@@ -138,13 +138,16 @@ def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
     if not after - before or (after - before) & set(LATE):
         return False
     first = {r.record.name: r for r in answered.records}
-    left, beside_zeros = np.zeros(2), np.zeros(2)
+    left, beside_zeros, asked = np.zeros(2), np.zeros(2), 0
     for r in closer.records:
         power = max(float(r.weight @ r.weight), np.finfo(float).tiny)
+        asked += int(np.sum(((r.base - r.measured) * r.weight) ** 2) > RULES.odd_right * np.sum(r.weight > 0.0))
         for i, some in enumerate((first[r.record.name], r)):
             error = (some.extended - r.measured) * r.weight
             left[i] += error @ error
             beside_zeros[i] += error @ error - (error @ r.weight) ** 2 / power
+    if RECALIBRATE in after and asked < 2:
+        return False  # so many parameters are not known from a single record
     if RECALIBRATE in before:
         return bool(left[1] <= (1.0 + RULES.close) * left[0])
     if beside_zeros[0] - beside_zeros[1] < RULES.half * (left[0] - left[1]):
