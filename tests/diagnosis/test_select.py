@@ -147,6 +147,18 @@ def test_what_is_too_short_for_the_sampling_joins_every_model_and_is_no_cause(pr
     assert not seen.alike("channel_delay", seen.sampling)  # a true delay may still be a cause
 
 
+def test_what_parameters_explain_that_nobody_knows_so_well_is_no_cause(problem: Problem) -> None:
+    """At the edge between two states a thousandth of a parameter's range explains much."""
+    seen = crossed(problem)
+    tiny = changed(seen, ("recalibrate",), [0.17] * 4)
+    wear = changed(seen, ("valve_wear",), [0.15] * 4)
+    wear = replace(wear, fits=tuple(replace(f, values={**f.values, "wear_re": -0.1}) for f in wear.fits))
+    assert seen.acts(wear) and not seen.acts(tiny)
+    assert seen.taken(seen.start, [wear]) is wear
+    assert seen.taken(seen.start, [wear, tiny]) is None
+    assert not seen.seen_through_sampling(seen.start, [tiny]) and seen.sampling == ()
+
+
 def test_what_something_too_short_for_the_sampling_explains_as_well_is_no_cause(problem: Problem) -> None:
     """A filter that the model without the first cause had not shown, beside it; a delay at its limit tells nothing of it."""
     seen = crossed(problem)

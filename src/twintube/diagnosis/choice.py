@@ -46,10 +46,12 @@ class Chooser(Judge):
         return not self.acts(option) and all(abs(fit.values.get(DELAY, 0.0)) < known for fit in option.fits)
 
     def usual(self, current: Option, option: Option, options: Sequence[Option]) -> bool:
-        """Whether what every measurement has explains as much: what is too short for sampling, or a gain."""
+        """Whether what every measurement has explains as much: what is too short for sampling, a gain, other parameters."""
         gained = RULES.near_sampling * (current.score - option.score)
         others = [o for o in options if o.names[-1] in LATE and self.short(o)] if option.names[-1] in LATE else []
         others += [o for o in options if general(option, o) and self.known(o.names[-1]).fault and not self.acts(o)]
+        # At the edge of a state nobody knows the degradation parameters so well.
+        others += [o for o in options if o.names[-1] == RECALIBRATE and not self.acts(o)]
         return any(current.score - o.score >= gained for o in others)
 
     def taken(self, current: Option, options: Sequence[Option]) -> Option | None:

@@ -213,7 +213,7 @@ class Selector(Chooser):
 
     def seen_through_sampling(self, current: Option, options: Sequence[Option]) -> bool:
         """Whether something too short for the sampling explains most of what a model leaves; it joins every model then."""
-        short = [o for o in options if self.short(o) and self.worth(current, o)]
+        short = [o for o in options if o.names[-1] != RECALIBRATE and self.short(o) and self.worth(current, o)]
         taken = self.taken(current, options)
         best = min(short, key=lambda o: o.score, default=None)
         if best is None or (taken is not None and taken.score <= best.score):
