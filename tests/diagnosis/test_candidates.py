@@ -189,7 +189,7 @@ def test_no_candidate_changes_forces_while_its_strength_vanishes() -> None:
     for candidate in candidates(problem):
         for f in candidate.free:
             if f.name in candidate.strength and f.high > f.start:
-                changed = problem.forces({f.name: f.start + 1e-9 * (f.high - f.start)})
+                changed = problem.forces({f.name: f.start + 1e-10 * (f.high - f.start)})
                 assert np.abs(changed - given)[problem.used].max() < 1e-6 * peak, f.name
 
 
