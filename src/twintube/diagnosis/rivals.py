@@ -11,11 +11,12 @@ def rivals(selection: Selection, left: bool) -> list[Option]:
 
     Of several causes the first is compared where the others are known: alone a rival explains some of theirs, too.
     """
-    if len(selection.chosen) < 2:
-        return [o for o in near(selection, left) if o.total < selection.start.total]
     final = selection.final
-    close = max(selection.limit, RULES.close * max(selection.start.score - final.score, 0.0))
-    others = [o for o in selection.beside if o.score - final.score <= close and not richer(o, final)]
+    if len(selection.chosen) < 2:
+        others = near(selection, left)
+    else:
+        close = max(selection.limit, RULES.close * max(selection.start.score - final.score, 0.0))
+        others = [o for o in selection.beside if o.score - final.score <= close and not richer(o, final)]
     return [o for o in others if o.total < selection.start.total]  # a rival takes squared error away, too
 
 
