@@ -54,7 +54,7 @@ def judged(
     *,
     value: Estimate = FOUND,
     seen: Sequence[Signature] = (),
-    forces: tuple[float, float, float] = (100.0, 20.0, 10.0),
+    forces: tuple[float, float, float] = (100.0, 14.0, 10.0),
     works: tuple[float, float, float] = (0.0, 0.0, 0.0),
     gain: Gain = GOOD,
     faults: Sequence[Fault] = (),
@@ -88,7 +88,7 @@ def test_a_cause_is_no_rival_of_itself_with_another() -> None:
 def test_the_verdict_follows_from_what_is_chosen_and_what_is_left(
     names: tuple[str, ...], score: float, gain: float, verdict: str
 ) -> None:
-    forces = (10.5, 10.5, 10.0) if verdict == "none" else (100.0, 20.0, 10.0)
+    forces = (10.5, 10.5, 10.0) if verdict == "none" else (100.0, 14.0, 10.0)
     judgement = judged(selection(option(*names, score=score)), gain=replace(GOOD, heldout=gain), forces=forces)
     assert (judgement.verdict, judgement.remaining) == (verdict, verdict)
     assert bool(judgement.causes) == (verdict in ("cause", "measurement_fault"))
@@ -162,7 +162,7 @@ def test_a_doubt_is_said() -> None:
 def test_what_follows_much_must_explain_more_where_much_is_left() -> None:
     for name, gain, left, verdict in (
         ("fluid_lag", 0.7, 50.0, "unexplained"), ("fluid_lag", 0.7, 12.0, "cause"), ("fluid_lag", 0.85, 50.0, "cause"),
-        ("valve_wear", 0.7, 50.0, "cause"), (RECALIBRATE, 0.7, 50.0, "unexplained"), (RECALIBRATE, 0.7, 12.0, "recalibrate"),
+        ("valve_wear", 0.7, 50.0, "cause"), ("force_gain", 0.95, 50.0, "unexplained"), (RECALIBRATE, 0.7, 50.0, "unexplained"), (RECALIBRATE, 0.7, 12.0, "recalibrate"),
     ):  # fmt: skip
         chosen = selection(option(name, score=0.5 * SCORE))
         assert judged(chosen, gain=replace(GOOD, heldout=gain), forces=(100.0, left, 10.0)).verdict == verdict
@@ -182,7 +182,7 @@ def test_a_gain_that_leaves_noise_alone_has_rivals_within_noise_only() -> None:
     score = 0.4 * RULES.close * SCORE  # beyond noise
     for name, left, verdict in (
         ("force_gain", 10.0, "measurement_fault"),
-        ("force_gain", 20.0, "ambiguous"),
+        ("force_gain", 14.0, "ambiguous"),
         ("side_load_friction", 10.0, "ambiguous"),
     ):
         chosen = selection(option(name, score=0.0), option("fluid_lag", score=score))

@@ -40,7 +40,8 @@ CONTENTS = (*MOVING, *(name for name in hooked("motion") if name not in LATE))  
 ALIKE = (LATE, FRICTION, CONTENTS)  # of each a second only mends the formulation of the first
 FADING = tuple(name for name in hooked("scale_fluid") if name in hooked("phases"))  # the force falls with what happened
 # At a single velocity, beside what fades, another temperature at the start.
-FACTORS = ("force_gain", STROKE_GAIN, *(name for name in hooked("scale_fluid") if name not in FADING))
+EXACT = ("force_gain",)  # a law without another formulation
+FACTORS = (*EXACT, STROKE_GAIN, *(name for name in hooked("scale_fluid") if name not in FADING))
 SCALING = (*FACTORS, *FADING)  # of which a second may only mend the formulation of the first
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.diagnosis.candidates import FACTORS, LATE, RECALIBRATE, Candidate
+from twintube.diagnosis.candidates import EXACT, FACTORS, LATE, RECALIBRATE, Candidate
 from twintube.diagnosis.faults import Fault
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
@@ -66,6 +66,8 @@ def judge(
     if (late or RECALIBRATE in selection.chosen) and much:
         # Play in a joint and a filter make a force late as well, and fourteen parameters follow a good part of any effect.
         enough = gain.heldout >= RULES.explained_most
+    if causes and {*causes} <= {*EXACT} and much:
+        enough = False  # a gain of the force has no other formulation that would leave so much
     if quiet and all(candidates[name].fault for name in causes):
         # So little is within what a careful bench is off by, which an effect of the damper is not.
         enough = selection.final.score <= (1 - RULES.half) * selection.start.score
