@@ -267,6 +267,12 @@ def test_within_noise_an_effect_is_named_by_what_it_explains_and_a_fault_by_half
         assert judged(selection(option("force_gain", score=score)), forces=forces).causes == causes
 
 
+def test_within_noise_no_cause_is_named_that_something_else_surpasses_by_far() -> None:
+    for score, causes in ((0.7 * SCORE, []), (0.2 * SCORE, ["valve_wear"])):
+        chosen = selection(option("valve_wear", score=score), option("fluid_lag", score=0.05 * SCORE))
+        assert judged(replace(chosen, neutral=("fluid_lag",)), forces=(10.8, 10.05, 10.0)).causes == causes
+
+
 def test_a_rival_of_one_of_two_causes_is_judged_beside_the_other() -> None:
     pair = selection(option("side_load_friction", "valve_wear", score=1.0), option("position_friction", score=1.1))
     rounds = [[option("side_load_friction", score=30.0), option("position_friction", score=30.5)]]

@@ -115,7 +115,7 @@ class Rules:
     odd_little: float = records(0.02, "1", "the like of a record whose misfit is far beyond all others ...", DEVELOPMENT)
     odd_clear: float = records(50.0, "1", "... so many times", DEVELOPMENT)
     odd_spread: float = records(
-        0.5, "1", "of its intervals in which a record of something else is off: a moved step is not one", DEVELOPMENT
+        0.4, "1", "of its intervals in which a record of something else is off: a moved step is not one", DEVELOPMENT
     )
     odd_zero: float = records(
         0.2, "1", "of the zeros' scatter, that is left without a single record: it is its own", JUDGEMENT
@@ -295,7 +295,9 @@ class Rules:
     rest_share: float = selection(
         0.75, "1", "... and of what is left, which a smaller further cause must explain", DEVELOPMENT
     )
-    near_best: float = selection(0.75, "1", "of the best gain, from which a third less squared error decides", TRIALS)
+    near_best: float = selection(
+        0.75, "1", "of the best gain, where a third less squared error decides; of any, for a cause within noise", TRIALS
+    )
     near_sampling: float = selection(
         0.85, "1", "of the gain of a cause, that what every measurement has reaches, too", DEVELOPMENT
     )

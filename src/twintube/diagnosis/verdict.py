@@ -71,6 +71,8 @@ def judge(
     if quiet and all(candidates[name].fault for name in causes):
         # So little is within what a careful bench is off by, which an effect of the damper is not.
         enough = selection.final.score <= (1 - RULES.half) * selection.start.score
+    if quiet and surpassed(selection):
+        enough = False
     if late and base <= RULES.quiet_late * floor:
         enough = False  # sampling moves the steps of the force, too
     close = rivals(selection, extended > RULES.quiet * floor)
@@ -100,6 +102,13 @@ def judge(
         outside=outside if remaining == "unexplained" else [],
         explained=gain.heldout,
     )
+
+
+def surpassed(selection: Selection) -> bool:
+    """Whether a single cause that may not be named, as every measurement has some of it, explains far more."""
+    best = min((o.score for o in selection.rounds[0] if o.names[-1] != RECALIBRATE), default=np.inf)
+    start = selection.start.score
+    return start - selection.final.score < RULES.near_best * (start - best)
 
 
 def doubtful(candidate: Candidate, values: Mapping[str, Estimate]) -> str:
