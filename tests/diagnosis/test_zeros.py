@@ -151,3 +151,15 @@ def test_a_zero_of_its_own_that_a_good_load_cell_may_have_is_none_of_the_damper(
     small, large = (zeroed(records, size * peak * own + zeros) for size in (0.003, 0.02))
     assert np.all(zero_drift(small)[0].misfits(zero_drift(small)[0].residual({})) < 2.0)
     assert zero_drift(large)[0].drift < 1.0
+
+
+def test_zeros_whose_bends_are_small_by_chance_without_some_record_scatter_as_all_do(records: list[PreparedRecord]) -> None:
+    several = [replace(records[0], top_speed=0.1 * (i + 1)) for i in range(8)]
+    zeros = np.random.default_rng(5).standard_normal((COUNT, 8))
+    assert np.mean([scatter(several, row) < 0.25 for row in zeros]) < 0.02
+
+
+def test_zeros_are_not_known_to_less_than_a_load_cell_has(records: list[PreparedRecord]) -> None:
+    drifting, remarks = zero_drift(zeroed(records, np.zeros(len(records)).tolist()))
+    assert drifting.drift == RULES.least_zero * max(record.peak for record in drifting.records)
+    assert not remarks

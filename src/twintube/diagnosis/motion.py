@@ -3,17 +3,33 @@
 from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import Akima1DInterpolator, CubicSpline, PPoly, make_interp_spline
+from numpy.typing import NDArray
+from scipy.interpolate import Akima1DInterpolator, CubicHermiteSpline, CubicSpline, PPoly, make_interp_spline
+from scipy.ndimage import maximum_filter1d
 
+from twintube.arrays import Array
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.rules import RULES
 from twintube.fitting.strokes import quiet
 
 
 def straight_sided(path: PPoly) -> PPoly:
-    """The path through the same samples with the slopes of Akima (1970): those of the straight side at a sharp turn."""
-    spline = Akima1DInterpolator(path.x, path(path.x))
-    return PPoly(spline.c, spline.x)
+    """The path through the same samples, about sharp turns with the slopes of Akima (1970): those of the straight side."""
+    t, x = path.x, path(path.x)
+    slopes = np.where(about_sharp_turns(t, x), Akima1DInterpolator(t, x)(t, 1), path(t, 1))
+    return CubicHermiteSpline(t, x, slopes)
+
+
+def about_sharp_turns(t: Array, x: Array) -> NDArray[np.bool_]:
+    """Whether samples (n,) of a motion x(t) are near to where it turns from side to side within one or two of them."""
+    side = np.diff(x) / np.diff(t)
+    speed = np.abs(side)
+    around = maximum_filter1d(speed, 2 * RULES.turn_reach + 1)
+    fast = speed > RULES.sharp * np.maximum(around, RULES.sharp * speed.max())
+    turns = np.zeros(len(x), dtype=bool)
+    turns[1:-2] = (side[:-2] * side[2:] < 0.0) & fast[:-2] & fast[2:]
+    return np.asarray(maximum_filter1d(turns, 2 * RULES.turn_reach + 1))
 
 
 def between_samples(problem: Problem) -> Problem:

@@ -137,6 +137,7 @@ class Rules:
     limit_alike: float = records(0.02, "1", "of a limit, within which those of several records are equal", JUDGEMENT)
 
     small_zero: float = measurement(0.005, "1", "of the largest force: zero of a good load cell", JUDGEMENT)
+    least_zero: float = measurement(5e-4, "1", "of the largest force: zeros are not known to less", DEVELOPMENT)
     small_delay: float = measurement(3e-4, "s", "delay that sampling leaves open; a shorter lag is not a cause", JUDGEMENT)
     small_gain: float = measurement(0.003, "1", "error of a calibrated channel's gain", DEVELOPMENT)
     small_force: float = measurement(1e-3, "1", "of the largest force: less of a force is not a cause", JUDGEMENT)
@@ -175,8 +176,12 @@ class Rules:
     sampling_known: float = measurement(0.02, "1", "of that delay, to which it is sought", JUDGEMENT)
     sampling_rounds: int = measurement(4, "", "rounds in which records that differ lose weight", NUMERICS)
     motion_gain: float = measurement(
-        0.5, "1", "of log-likelihood per interval, from which another motion between samples is taken", DEVELOPMENT
+        0.1, "1", "of log-likelihood per interval, from which another motion between samples is taken", DEVELOPMENT
     )
+    sharp: float = measurement(
+        0.5, "1", "of the speed around, before and after a turn that a sample or two hold: it is sharp", JUDGEMENT
+    )
+    turn_reach: int = measurement(5, "", "samples around a sharp turn in which its motion is another", JUDGEMENT)
     open_motion: float = measurement(
         2.0, "1", "of what another spline through the stroke changes in the force: error between samples", DEVELOPMENT
     )

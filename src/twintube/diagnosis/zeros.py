@@ -24,7 +24,7 @@ EVENLY, RUNNING = 0, -1  # a zero moves from record to record, or with the time 
 def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
     """The problem with the scatter of the records' zeros in it, and a remark where a good load cell has less."""
     means = problem.means(problem.errors({}) * problem.weight)
-    drift = scatter(problem.records, means)
+    drift = max(scatter(problem.records, means), RULES.least_zero * largest(problem.records))
     drift = max(drift, own_zero(problem, means, RULES.usual_zeros * drift) / RULES.usual_zeros)
     share = drift / largest(problem.records)
     size = f"about {drift:.2g} N, {100 * share:.2g} % of the largest force"
@@ -159,25 +159,47 @@ def own_zero(problem: Problem, means: Array, usual: float) -> float:
 def scatter(records: Sequence[PreparedRecord], means: Array) -> float:
     """Standard deviation [N] of the zeros from the mean errors (r,) [N] of the records; 0 where there are too few.
 
-    A single record far from all others, say of another damper, does not make their zeros scatter.
+    A single record far from all others, say of another damper, does not make their zeros scatter. Whether it is far is not
+    told by the median of few bends, which is small by chance without some record.
     """
-    every, at = scatter_of(records, means), range(len(means))
-    others = [scatter_of([r for k, r in enumerate(records) if k != i], np.delete(means, i)) for i in at if len(at) > 2]
-    least = min(others, default=every)
-    return least if least < RULES.odd_zero * every else every
+    if len(means) < 3:
+        return scatter_of(records, means)
+    fewer = [([r for k, r in enumerate(records) if k != i], np.delete(means, i)) for i in range(len(means))]
+    sizes = [root_mean_square(bends(*some)) for some in fewer]
+    i = int(np.argmin(sizes))
+    far = sizes[i] < RULES.odd_zero * root_mean_square(bends(records, means))
+    return scatter_of(*(fewer[i] if far else (records, means)))
 
 
 def scatter_of(records: Sequence[PreparedRecord], means: Array) -> float:
     """The like, whichever records there are."""
-    several = states(records)
-    bent = np.concatenate([np.diff(means[some], 2) for some in several])
-    if len(bent) >= RULES.least_bends:
-        return SCATTER * float(np.median(np.abs(bent))) / BEND
+    bent = bends(records, means)
+    if triples(records) >= RULES.least_bends:
+        return SCATTER * float(np.median(np.abs(bent)))
     # Few records tell zeros from a smooth error no better than by their scatter, of which a good load cell has little.
+    return min(RULES.small_zero * largest(records), root_mean_square(bent))
+
+
+def bends(records: Sequence[PreparedRecord], means: Array) -> Array:
+    """How far mean errors (r,) [N] are from those of neighbouring velocities, or from all where these are few.
+
+    In units of a standard deviation of the zeros.
+    """
+    several = states(records)
+    if triples(records) >= RULES.least_bends:
+        return np.concatenate([np.diff(means[some], 2) for some in several]) / BEND
     apart = np.concatenate([means[some] - means[some].mean() for some in several])
-    free = max(1, len(means) - len(several))
-    most = RULES.small_zero * largest(records)
-    return min(most, float(np.sqrt(np.sum(apart**2) / free)))
+    return np.asarray(apart * np.sqrt(len(means) / max(1, len(means) - len(several))))
+
+
+def triples(records: Sequence[PreparedRecord]) -> int:
+    """Number of triples of neighbouring velocities."""
+    return sum(max(0, len(some) - 2) for some in states(records))
+
+
+def root_mean_square(values: Array) -> float:
+    """Root mean square; 0 of nothing."""
+    return float(np.sqrt(np.mean(values**2))) if len(values) else 0.0
 
 
 def step(records: Sequence[PreparedRecord], means: Array) -> float:
