@@ -11,6 +11,7 @@ from twintube.report.diagnosis_records import (
     closed,
     compared,
     drawn,
+    format_of,
     middle,
     name_of,
     oscillations,
@@ -68,7 +69,8 @@ def answer_loop(d: Diagnosis, narrow: bool = False) -> Figure:
         at = middle(signal, ends) * factor
         ax.plot(at, result.measured[ends], "o", color=style.INK, ms=3, mew=0, zorder=3, label="measured")
         for model in drawn(result, compared(d)):
-            ax.plot(at, broken(result, model.force(result), ends), model.dash, color=model.colour, lw=1.7, label=model.label)
+            force = broken(result, model.force(result), ends)
+            ax.plot(at, force, format_of(model, record), color=model.colour, lw=1.7, ms=8, label=model.label)
         ax.set_xlabel(label)
     for ax in axes.flat if narrow else axes[0, :1]:
         ax.set_ylabel("force [N]")

@@ -21,6 +21,7 @@ from twintube.report.diagnosis_records import (
     broken,
     compared,
     drawn,
+    format_of,
     middle,
     models,
     name_of,
@@ -76,7 +77,8 @@ def loops(d: Diagnosis) -> Figure:
             ax.plot(at, measured, "o", color=style.INK, ms=2.5 * thin, mew=0, zorder=3, label="measured")
             for model in drawn(result, compared(d)):
                 force = broken(result, model.force(result), ends)
-                ax.plot(at, force, model.dash, color=model.colour, lw=1.2 * thin, label=model.label)
+                dots = 7.0 * thin
+                ax.plot(at, force, format_of(model, record), color=model.colour, lw=1.2 * thin, ms=dots, label=model.label)
             small_title(ax, which)
             ax.set_xlabel("stroke [mm]" if signal is record.stroke else "velocity [m/s]", fontsize=8)
         for ax in row[len(some) :]:

@@ -100,6 +100,11 @@ def parts(record: PreparedRecord) -> list[tuple[str, NDArray[np.int64]]]:
     return first if len(block) == 1 else [*first, (f"oscillation {len(block)}", closed(record, block[-1]))]
 
 
+def format_of(model: Model, record: PreparedRecord) -> str:
+    """How a model's force over stroke or velocity is drawn: a line is a chord between the few intervals of whole records."""
+    return model.dash if oscillations(record) else "."
+
+
 def closed(record: PreparedRecord, ends: NDArray[np.int64]) -> NDArray[np.int64]:
     """An oscillation with the interval that follows or else the interval before, so that its loop closes."""
     after = int(ends[-1]) + 1
