@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tests.diagnosis import small
 from twintube.arrays import Array
@@ -11,7 +12,7 @@ from twintube.dampers import load
 from twintube.data import Record
 from twintube.diagnosis.edges import alone, less_noise, with_edges, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.noise import averaging_noise, correlation, neighbour_noise
+from twintube.diagnosis.noise import averaging_noise, correlation, neighbour_noise, noise
 from twintube.diagnosis.prepare import kicks, prepared
 from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
@@ -156,6 +157,13 @@ def test_what_a_fill_leaves_open_at_a_jump_is_no_misfit() -> None:
     assert misfits[1].max() < 1.5
 
 
+def seen(force: Array, held: NDArray[np.int64]) -> tuple[float, float]:
+    """Noise of a sample and correlation of neighbours, from all intervals."""
+    calm = np.ones(len(force), dtype=bool)
+    alike = correlation(force, held, calm)
+    return neighbour_noise(force, held, calm, alike), alike
+
+
 def coloured(alike: float, seed: int, count: int = 1500) -> Array:
     """Noise of standard deviation 1 whose neighbours have a correlation."""
     fresh = np.random.default_rng(seed).standard_normal(count)
@@ -169,7 +177,7 @@ def coloured(alike: float, seed: int, count: int = 1500) -> Array:
 def test_noise_whose_neighbours_are_alike_is_not_taken_too_small(alike: float) -> None:
     """Of a random motion no oscillation repeats; its noise is seen from neighbours alone."""
     held = np.full(1500, 1000)
-    several = [neighbour_noise(coloured(alike, seed), held) for seed in range(12)]
+    several = [seen(coloured(alike, seed), held) for seed in range(12)]
     # By second differences alone it would be 0.6 at a correlation of 0.5, and 0.33 at 0.8.
     assert 0.75 < float(np.median([size * averaging_noise(held[:1], c)[0] for size, c in several])) < 1.25
 
@@ -184,7 +192,7 @@ def test_noise_of_means_of_few_samples_whose_ends_they_share(alike: float, held:
     for seed in range(12):
         samples = coloured(alike, seed, int(ends[-1]) + 1)
         sums = np.add.reduceat(samples[:-1], ends[:-1]) - 0.5 * samples[ends[:-1]] + 0.5 * samples[ends[1:]]
-        size, c = neighbour_noise(sums / counts, counts)
+        size, c = seen(sums / counts, counts)
         sizes.append(size)
         weighted.append(float(np.std(sums / counts / averaging_noise(counts, c) / size)))
     assert 0.8 < float(np.median(sizes)) < 1.25
@@ -195,8 +203,8 @@ def test_noise_of_means_of_few_samples_whose_ends_they_share(alike: float, held:
 def test_an_error_of_the_model_is_not_taken_for_coloured_noise(period: int) -> None:
     error = 2.0 * np.sin(2 * np.pi * np.arange(1500) / period)
     held = np.full(1500, 1000)
-    assert correlation(coloured(0.0, 1) + error, held) ** 1000 < 0.15
-    assert correlation(error, held) == 0.0
+    assert seen(coloured(0.0, 1) + error, held)[1] ** 1000 < 0.15
+    assert seen(error, held)[1] == 0.0
 
 
 def test_noise_is_no_larger_than_the_errors_it_is_seen_in() -> None:
@@ -205,8 +213,45 @@ def test_noise_is_no_larger_than_the_errors_it_is_seen_in() -> None:
     error[::6] += 20.0
     error[1::6] += 15.0
     held = np.full(1500, 10)
-    size = neighbour_noise(error * np.sqrt(9.5) / 10, held)[0]
+    size = seen(error * np.sqrt(9.5) / 10, held)[0]
     assert size < 1.6 * float(np.median(np.abs(error - np.median(error))))
+
+
+@pytest.mark.parametrize("turns", [1, 8])
+def test_noise_is_read_where_the_steps_of_the_model_leave_nothing_open(turns: int) -> None:
+    """By neighbours, where no oscillation repeats, and by repeats."""
+    (ready,) = small.problem([small.record(small.run(0.3, turns=turns, slow=2))]).records
+    error = 0.5 * coloured(0.0, 5, len(ready.time))
+    steps = np.arange(len(error)) % 12 < 6
+    alone = noise(ready, error)
+    error[steps] *= 20.0
+    open_there = replace(ready, noise=alone, edges=np.where(steps, 10.0, 0.0))
+    assert float(np.median(noise(ready, error))) > 2.0 * float(np.median(alone))
+    assert float(np.median(noise(open_there, error))) < 1.3 * float(np.median(alone))
+
+
+def test_rounding_is_no_larger_than_the_errors_that_hold_it() -> None:
+    """Where the force moves through the steps of a coarse channel, their errors average out over an interval."""
+    step = 20.0
+    fine = small.record(small.run(0.3), noise=0.0)
+    rounded = replace(fine, force=step * np.round(fine.force / step))
+    problem = with_noise(small.problem([rounded]))
+    (ready,) = problem.records
+    assert ready.resolution == pytest.approx(step)
+    error = problem.errors({})[ready.judged]
+    assert float(np.median(ready.noise)) < 1.6 * float(np.std(error))
+    assert float(np.std(error)) < step / np.sqrt(12.0)
+
+
+def test_the_colour_of_noise_is_that_of_the_channel() -> None:
+    """Of a record in which it does not show, too: a mean of many samples has more of it than of white noise."""
+    several = [small.record(small.run(v, turns=6, slow=2), noise=0.0) for v in (0.3, 0.6, 1.0)]
+    noisy = [replace(r, force=r.force + 5.0 * coloured(0.9, i, len(r.force))) for i, r in enumerate(several)]
+    problem = with_noise(small.problem(noisy))
+    assert len({record.colour for record in problem.records}) == 1
+    assert problem.records[0].colour > 0.5
+    slow = [problem.misfits(problem.residual({})).max(), with_noise(small.problem(several)).records[0].colour]
+    assert slow[0] < 2.0 and slow[1] < 0.5
 
 
 def test_the_errors_of_a_better_model_hold_less_noise() -> None:

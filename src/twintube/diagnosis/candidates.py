@@ -109,6 +109,7 @@ def candidates(problem: Problem) -> list[Candidate]:
     reach = max(float(np.abs(record.stroke).max()) for record in problem.records)
     several = []
     peak = max(record.peak for record in problem.records)
+    longest = max(float(np.ptp(record.time)) for record in problem.records)
     for effect in effects.EFFECTS.values():
         if effect.acts(problem.damper.parameters):
             continue
@@ -124,7 +125,7 @@ def candidates(problem: Problem) -> list[Candidate]:
             if meta["role"] == "strength":
                 # What is over within a sample cannot be told from sampling.
                 time = max(RULES.small_delay, period(problem))
-                usual = {"s": time, "N": RULES.small_force * peak}
+                usual = {"s": time, "N": RULES.small_force * peak, "1/s": RULES.small_decay / longest}
                 usual |= {"m": turned_way(problem, time)} if effect.name in TURNING else {}
                 least[item.name] = usual.get(meta["unit"], RULES.acts * (high - low))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}

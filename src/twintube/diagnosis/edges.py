@@ -17,7 +17,7 @@ from twintube.diagnosis.candidates import period
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.history import logs, sudden
 from twintube.diagnosis.motion import along, between_samples, measured_again, straight_sided
-from twintube.diagnosis.noise import SCATTER, noise
+from twintube.diagnosis.noise import SCATTER, colour, noise
 from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import BENDS, DELAY, SAMPLING, STROKE_GAIN
@@ -58,7 +58,7 @@ def with_edges(problem: Problem) -> Problem:
         sharp = np.hypot(alone(late[a:b]), motion[a:b])
         edges = np.sqrt(record.edges**2 + several[a:b] ** 2 + passed_on(record, base[a:b], sharp, filtered) ** 2)
         records.append(replace(record, edges=edges))
-    return problem.with_records(records)
+    return with_noise(problem.with_records(records))
 
 
 def between_readings(problem: Problem) -> float:
@@ -93,9 +93,10 @@ def refilled(problem: Problem, more: float) -> Problem:
 
 def with_noise(problem: Problem) -> Problem:
     """The problem with the noise of its records from what does not repeat in the errors of the model as given."""
-    errors = problem.errors({})
-    pairs = zip(problem.records, itertools.pairwise(problem.starts), strict=True)
-    return problem.with_records([replace(record, noise=noise(record, errors[a:b])) for record, (a, b) in pairs])
+    errors = np.split(problem.errors({}), problem.starts[1:-1])
+    alike = colour(problem.records, errors)
+    records = [replace(record, colour=alike) for record in problem.records]
+    return problem.with_records([replace(r, noise=noise(r, error)) for r, error in zip(records, errors, strict=True)])
 
 
 def less_noise(problem: Problem, models: Sequence[Mapping[str, float]], known: Mapping[str, Array]) -> dict[str, Array]:

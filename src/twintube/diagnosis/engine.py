@@ -15,6 +15,7 @@ from twintube.diagnosis.faults import Fault, force_averaging, read, really_turne
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.history import bare_of_strokes, settled, with_history
+from twintube.diagnosis.jitter import with_jitter
 from twintube.diagnosis.odd import STRANGER, odd_records
 from twintube.diagnosis.options import Fold
 from twintube.diagnosis.prepare import prepare
@@ -57,7 +58,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     smoothed, problem, notes = force_averaging(dataset.records, problem)
     problem = with_motion(with_sampling(settled(problem)))
     recorded = recorded.with_usual(problem.usual)
-    stepped, problem = zero_change(with_edges(with_noise(problem)))
+    stepped, problem = zero_change(with_jitter(with_edges(with_noise(problem))))
     problem, drift = zero_drift(problem)
     known = not bare_of_strokes(problem)
     problem, bare = with_history(problem)
@@ -173,7 +174,8 @@ def selector_of(problem: Problem, folds: Sequence[Halves], *, history: bool = Tr
 def known_gain(path: str | Path, causes: Sequence[str]) -> float:
     """Share of the explainable held-out error that goes away with the given causes, whatever a diagnosis would choose."""
     dataset, _ = read(path)
-    problem, _ = zero_drift(with_edges(with_noise(with_sampling(settled(Problem(dataset.damper, prepare(dataset)))))))
+    sampled = with_sampling(settled(Problem(dataset.damper, prepare(dataset))))
+    problem, _ = zero_drift(with_jitter(with_edges(with_noise(sampled))))
     selector = selector_of(problem, split(dataset.title, problem.records)[0])
     option = selector.start
     for name in causes:

@@ -76,7 +76,10 @@ class Judge:
         less, whole = before.total - after.total, self.excess(self.start)
         if less >= RULES.rest_share * self.excess(before) and less >= RULES.little_share * whole and self.near(after):
             return ""
-        if less < RULES.second_share * whole and len(after.names) > len(before.names):  # a cause exchanged is none more
+        little = less < RULES.second_share * whole
+        if after.names[-1] not in LATE:  # what is late follows steps that another law of the first cause would move
+            little = little and gained < RULES.second_share * self.start.score
+        if little and len(after.names) > len(before.names):  # a cause exchanged is none more
             much, rest = RULES.second_share, RULES.rest_share
             return (
                 f"explains less than {much:.0%} of the error and {rest:.0%} of what is left, or does not leave noise alone"

@@ -1,6 +1,7 @@
 """Noise of mean forces: what does not repeat from oscillation to oscillation, else what intervals do not share."""
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -11,19 +12,28 @@ from twintube.diagnosis.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 
 SCATTER = 1.4826  # standard deviation of normal errors over their median absolute value
+TINY = np.finfo(float).tiny
 BEND = math.sqrt(6.0)  # standard deviation of a second difference over that of its values
 
 
-def repeat_noise(force: Array, cycle: NDArray[np.int64]) -> float:
-    """Standard deviation [N] of what does not repeat from oscillation to oscillation, slow trends apart."""
+def repeat_noise(force: Array, cycle: NDArray[np.int64], calm: NDArray[np.bool_]) -> float:
+    """Standard deviation [N] of what does not repeat from oscillation to oscillation, slow trends apart.
+
+    It is read where the force is `calm` (n,), with no step of the model's own.
+    """
     numbers, counts = np.unique(cycle[cycle >= 0], return_counts=True)
-    if len(numbers) < RULES.repeats:
+    usual = int(np.median(counts)) if len(counts) else 0
+    same = [cycle == i for i, n in zip(numbers, counts, strict=True) if n == usual]
+    if len(same) < RULES.repeats:
         return 0.0
-    usual = int(np.median(counts))
-    rows = [np.interp(np.linspace(0, 1, usual), np.linspace(0, 1, n), force[cycle == i]) for i, n in
-            zip(numbers, counts, strict=True) if n == usual]  # fmt: skip
-    apart = np.diff(np.array(rows), 2, axis=0) / BEND if len(rows) >= RULES.repeats else np.zeros((0, 1))
-    return SCATTER * float(np.median(np.abs(apart))) if apart.size else 0.0
+    apart = np.diff(np.array([force[own] for own in same]), 2, axis=0) / BEND
+    return SCATTER * float(np.median(np.abs(apart[all_of_three(np.array([calm[own] for own in same]))])))
+
+
+def all_of_three(calm: NDArray[np.bool_], apart: int = 1) -> NDArray[np.bool_]:
+    """Whether all values (n, ...) of a second difference (n - 2 apart, ...) are calm; of all of them, where few are."""
+    three = calm[2 * apart :] & calm[apart:-apart] & calm[: -2 * apart]
+    return three if three.sum() >= RULES.calm_share * three.size else np.ones_like(three)
 
 
 def averaging_noise(held: NDArray[np.int64], alike: float = 0.0) -> Array:
@@ -55,27 +65,27 @@ def bend_variance(held: int, apart: int, alike: float) -> float:
     return 6.0 * covariance(held, 0, alike) - 8.0 * covariance(held, apart, alike) + 2.0 * covariance(held, 2 * apart, alike)
 
 
-def neighbour_noise(force: Array, held: NDArray[np.int64]) -> tuple[float, float]:
+def neighbour_noise(force: Array, held: NDArray[np.int64], calm: NDArray[np.bool_], alike: float) -> float:
     """Standard deviation [N] of a sample from neighbouring intervals, for records without enough oscillations.
 
-    Beside it the correlation of neighbouring samples.
+    It is read where the force is `calm` (n,); `alike` is the correlation of neighbouring samples.
     """
     if len(force) <= 2:
-        return 0.0, 0.0
-    alike = correlation(force, held)
+        return 0.0
     white = force / averaging_noise(held, alike)
     most = float(np.median(np.abs(white - np.median(white))))  # a model's errors are no smaller than their noise
-    return SCATTER * min(bent(force, held, 1, alike), most), alike
+    return SCATTER * min(bent(force, held, calm, 1, alike), most)
 
 
-def bent(force: Array, held: NDArray[np.int64], apart: int, alike: float) -> float:
+def bent(force: Array, held: NDArray[np.int64], calm: NDArray[np.bool_], apart: int, alike: float) -> float:
     """Median second difference [N] of means (n,) so many intervals apart, in units of what a sample's noise makes it."""
     counts, of = np.unique(held[apart:-apart], return_inverse=True)
     expected = np.sqrt([bend_variance(int(n), apart, alike) for n in counts])[of]
-    return float(np.median(np.abs(force[2 * apart :] - 2.0 * force[apart:-apart] + force[: -2 * apart]) / expected))
+    bends = np.abs(force[2 * apart :] - 2.0 * force[apart:-apart] + force[: -2 * apart]) / expected
+    return float(np.median(bends[all_of_three(calm, apart)]))
 
 
-def correlation(force: Array, held: NDArray[np.int64]) -> float:
+def correlation(force: Array, held: NDArray[np.int64], calm: NDArray[np.bool_]) -> float:
     """Correlation of neighbouring samples of noise, seen in mean forces (n,) [N]; 0 where it is none.
 
     Second differences of neighbours and of every second interval ask for the same noise with it, those of every third say
@@ -84,10 +94,25 @@ def correlation(force: Array, held: NDArray[np.int64]) -> float:
     if len(force) < RULES.coloured_least:
         return 0.0
     several = np.linspace(0.0, RULES.most_alike, 50) ** (1.0 / float(np.median(held)))
-    gains = [bent(force, held, 2, c) / max(bent(force, held, 1, c), np.finfo(float).tiny) for c in several.tolist()]
-    alike = float(several[int(np.argmin(np.abs(np.log(np.maximum(gains, np.finfo(float).tiny)))))])
-    smooth = bent(force, held, 3, alike) > RULES.smooth * bent(force, held, 1, alike)
+    gains = [bent(force, held, calm, 2, c) / max(bent(force, held, calm, 1, c), TINY) for c in several.tolist()]
+    alike = float(several[int(np.argmin(np.abs(np.log(np.maximum(gains, TINY)))))])
+    smooth = bent(force, held, calm, 3, alike) > RULES.smooth * bent(force, held, calm, 1, alike)
     return 0.0 if smooth else alike
+
+
+def colour(records: Sequence[PreparedRecord], forces: Sequence[Array]) -> float:
+    """Correlation of neighbouring samples of noise, in forces (n,) [N] of each record: the channel has the same in all."""
+    several = [
+        correlation(force[whole], record.samples[whole], calm(record)[whole])
+        for record, force, whole in ((r, f, r.samples > 0) for r, f in zip(records, forces, strict=True))
+        if whole.sum() >= RULES.coloured_least
+    ]
+    return float(np.median(several)) if several else 0.0
+
+
+def calm(record: PreparedRecord) -> NDArray[np.bool_]:
+    """The intervals (n,) in which the model's own steps leave less open than noise does."""
+    return np.asarray(record.edges <= RULES.calm_edges * record.noise)
 
 
 def noise(record: PreparedRecord, force: Array) -> Array:
@@ -96,7 +121,7 @@ def noise(record: PreparedRecord, force: Array) -> Array:
     Of a model's errors that is noise alone; a force itself is sampled at other phases in every oscillation. Oscillations of
     like duration and range share it; what belongs to none has that of the most common, by its number of samples.
     """
-    cycle, held = record.cycle, np.maximum(record.samples, 1)
+    cycle, held, quiet = record.cycle, np.maximum(record.samples, 1), calm(record)
     numbers = np.unique(cycle[cycle >= 0])
     shape = np.array([(held[cycle == i].sum(), np.ptp(record.stroke[cycle == i])) for i in numbers])
     each = np.full(len(force), np.nan)
@@ -105,17 +130,18 @@ def noise(record: PreparedRecord, force: Array) -> Array:
         alike = [i for i in left if np.all(np.abs(np.log(shape[i] / shape[left[0]])) < np.log(RULES.alike_turns))]
         left = [i for i in left if i not in alike and i != left[0]]
         inside = np.isin(cycle, numbers[alike])
-        size = repeat_noise(force[inside], cycle[inside])
+        size = repeat_noise(force[inside], cycle[inside], quiet[inside])
         if size > 0.0:
             usual = round(float(np.median(held[inside])))
-            sample = size / np.sqrt(covariance(usual, 0, 0.0))
-            each[inside] = sample * averaging_noise(held[inside])
+            sample = size / np.sqrt(covariance(usual, 0, record.colour))
+            each[inside] = sample * averaging_noise(held[inside], record.colour)
             if len(alike) > most:
                 most, common = len(alike), float(sample)
-    colour = 0.0
     if common == 0.0:
-        common, colour = neighbour_noise(force[record.samples > 0], held[record.samples > 0])
-    # Errors of rounding are like in neighbouring samples where no noise is larger than the step.
+        whole = record.samples > 0
+        common = neighbour_noise(force[whole], held[whole], quiet[whole], record.colour)
+    # Errors of rounding are like in neighbouring samples where no noise is larger than the step. A model's hold them, too.
     rounding = record.resolution / np.sqrt(12.0) if common < record.resolution else 0.0
-    every = np.where(np.isnan(each), common * averaging_noise(held, colour), each)
+    rounding = min(rounding, SCATTER * float(np.median(np.abs(force - np.median(force)))))
+    every = np.where(np.isnan(each), common * averaging_noise(held, record.colour), each)
     return np.hypot(every, max(rounding, RULES.least_noise * record.peak))

@@ -38,6 +38,7 @@ class PreparedRecord:
     edges: Array  # (n,) standard deviation [N] from what the model's own steps leave open
     warm: Array  # (n,) [K] warmer than records usually begin, 0 where no temperature is known
     gas_pressure: float | None  # gauge [Pa], where known
+    colour: float = 0.0  # correlation of the noise of neighbouring samples of the force
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through
     warmth_known: bool = False  # whether its temperature at the beginning is
     tenth: NDArray[np.int64] | None = None  # (n,) of its intervals, where every second tenth is compared

@@ -55,6 +55,15 @@ class Rules:
     peak_quantile: float = records(0.999, "1", "of the measured force: its peak without outliers", JUDGEMENT)
     speed_quantile: float = records(0.99, "1", "of the speed: the top speed of a record without outliers", JUDGEMENT)
     repeats: int = records(3, "", "oscillations from which noise is what does not repeat: second differences", METHOD)
+    calm_edges: float = records(
+        1.0, "1", "of the noise, that the model's own steps leave open where noise is read", JUDGEMENT
+    )
+    calm_share: float = records(0.25, "1", "of a record that must be so calm, or all of it counts", JUDGEMENT)
+    jitter_tried: float = records(0.005, "1", "of a sample period: jitter of the samples that is tried", NUMERICS)
+    jitter_draws: int = records(3, "", "draws of it", NUMERICS)
+    jitters: int = records(81, "", "sizes of jitter that are compared", NUMERICS)
+    jitter_least: int = records(30, "", "intervals that must show it", JUDGEMENT)
+    most_jitter: float = records(0.01, "1", "of a sample period: what asks for more is no jitter", DEVELOPMENT)
     coloured_least: int = records(200, "", "intervals from which the colour of noise is seen", JUDGEMENT)
     few_samples: int = records(8, "", "samples of an interval, up to which its ends that are shared count", NUMERICS)
     most_alike: float = records(0.9, "1", "correlation of samples an interval apart that noise has at most", JUDGEMENT)
@@ -140,6 +149,7 @@ class Rules:
     least_zero: float = measurement(5e-4, "1", "of the largest force: zeros are not known to less", DEVELOPMENT)
     small_delay: float = measurement(3e-4, "s", "delay that sampling leaves open; a shorter lag is not a cause", JUDGEMENT)
     small_gain: float = measurement(0.003, "1", "error of a calibrated channel's gain", DEVELOPMENT)
+    small_decay: float = measurement(0.05, "1", "of foam or gas: less of it lost in the longest record is none", JUDGEMENT)
     small_force: float = measurement(1e-3, "1", "of the largest force: less of a force is not a cause", JUDGEMENT)
     open_samples: float = measurement(
         0.6,
@@ -199,7 +209,7 @@ class Rules:
     )
     least_bends: int = measurement(3, "", "triples of neighbouring velocities that give the scatter of zeros", JUDGEMENT)
 
-    model_error: float = fitting(4e-4, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)
+    model_error: float = fitting(1e-4, "1", "of the peak: error of sampling and time step, tests/diagnosis", DEVELOPMENT)
     steps_per_interval: int = fitting(
         4, "", "steps of the model, as effects of short memory need; equal in all models", JUDGEMENT
     )
@@ -271,7 +281,7 @@ class Rules:
     least_share: float = selection(
         0.01, "1", "of the squared error of the held-out records, noise included, that a cause must take away", DEVELOPMENT
     )
-    clear_share: float = selection(0.03, "1", "the like where the base model is right within noise", DEVELOPMENT)
+    clear_share: float = selection(0.02, "1", "the like where the base model is right within noise", DEVELOPMENT)
     loose_share: float = selection(
         0.1,
         "1",
