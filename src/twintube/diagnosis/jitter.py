@@ -46,11 +46,12 @@ def jitter(problem: Problem, again: Sequence[Array]) -> float:
     """Jitter [1, of a sample period] that the errors ask for, from what it changes in the forces in several draws (n,) [N].
 
     Second differences of neighbouring errors hold what is white. It is seen where it would be more than all other noise.
-    What asks for more than jitter is does not jitter.
+    What asks for more than `most_jitter` is something else, say a wrong clock: 0.
     """
-    known = bends(np.where(problem.used, problem.sigma, np.inf), np.hypot) ** 2
-    asked = np.mean([bends(change, np.add) ** 2 for change in again], axis=0) / RULES.jitter_tried**2
-    errors = bends(problem.errors({}), np.add) ** 2
+    variance = np.where(problem.used, problem.sigma, np.inf) ** 2
+    known = variance[:-2] + 4.0 * variance[1:-1] + variance[2:]
+    asked = np.mean([np.diff(change, 2) ** 2 for change in again], axis=0) / RULES.jitter_tried**2
+    errors = np.diff(problem.errors({}), 2) ** 2
     shown = np.isfinite(known) & (asked * RULES.jitter_tried**2 > known)
     if shown.sum() < RULES.jitter_least:
         return 0.0
@@ -58,9 +59,3 @@ def jitter(problem: Problem, again: Sequence[Array]) -> float:
     middle = [float(np.median(errors[shown] / (known[shown] + size**2 * asked[shown]))) for size in sizes]
     size = float(sizes[int(np.argmin(np.abs(np.subtract(middle, MEDIAN))))])
     return size if size <= RULES.most_jitter else 0.0
-
-
-def bends(values: Array, joined: np.ufunc) -> Array:
-    """Second differences (n - 2,) of values (n,), or their standard deviation where `joined` is that of independent ones."""
-    sign = -2.0 if joined is np.add else 2.0
-    return np.asarray(joined(joined(values[:-2], sign * values[1:-1]), values[2:]))
