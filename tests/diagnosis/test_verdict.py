@@ -161,8 +161,8 @@ def test_a_doubt_is_said() -> None:
 
 def test_what_follows_much_must_explain_more_where_much_is_left() -> None:
     for name, gain, left, verdict in (
-        ("fluid_lag", 0.7, 50.0, "unexplained"), ("fluid_lag", 0.7, 12.0, "cause"), ("fluid_lag", 0.85, 50.0, "cause"),
-        ("valve_wear", 0.7, 50.0, "cause"), ("force_gain", 0.95, 50.0, "unexplained"), (RECALIBRATE, 0.7, 50.0, "unexplained"), (RECALIBRATE, 0.7, 12.0, "recalibrate"),
+        ("fluid_lag", 0.7, 50.0, "unexplained"), ("fluid_lag", 0.7, 12.0, "cause"), ("fluid_lag", 0.95, 50.0, "cause"),
+        ("fluid_lag", 0.85, 50.0, "unexplained"), (RECALIBRATE, 0.85, 50.0, "recalibrate"), ("valve_wear", 0.7, 50.0, "cause"), ("force_gain", 0.95, 50.0, "unexplained"), (RECALIBRATE, 0.7, 50.0, "unexplained"), (RECALIBRATE, 0.7, 12.0, "recalibrate"),
     ):  # fmt: skip
         chosen = selection(option(name, score=0.5 * SCORE))
         assert judged(chosen, gain=replace(GOOD, heldout=gain), forces=(100.0, left, 10.0)).verdict == verdict

@@ -336,9 +336,8 @@ class Rules:
         1.15, "1", "the like up to which nothing makes the force late: sampling moves its steps, too", DEVELOPMENT
     )
     explained: float = verdict(0.6, "1", "of the explainable squared error that named causes must explain", DEVELOPMENT)
-    explained_most: float = verdict(
-        0.8, "1", "the like of what is late and of other parameters, where far more than noise is left", DEVELOPMENT
-    )
+    explained_most: float = verdict(0.8, "1", "the like of other parameters, where far more than noise is left", DEVELOPMENT)
+    explained_late: float = verdict(0.9, "1", "the like there of what makes the force late", DEVELOPMENT)
     stiffer: float = verdict(
         0.4, "1", "factor of the force above 1, beyond which it is another damper or setting", JUDGEMENT
     )

@@ -63,9 +63,10 @@ def judge(
     enough = gain.heldout >= (RULES.half if right else RULES.explained)
     late = any(name in LATE for name in causes)
     much = extended**2 > RULES.odd_right * floor**2
-    if (late or RECALIBRATE in selection.chosen) and much:
-        # Play in a joint and a filter make a force late as well, and fourteen parameters follow a good part of any effect.
-        enough = gain.heldout >= RULES.explained_most
+    if much and late:
+        enough = gain.heldout >= RULES.explained_late  # play in a joint and a filter make a force late as well
+    elif much and RECALIBRATE in selection.chosen:
+        enough = gain.heldout >= RULES.explained_most  # fourteen parameters follow a good part of any effect
     if causes and {*causes} <= {*EXACT} and much:
         enough = False  # a gain of the force has no other formulation that would leave so much
     if quiet and all(candidates[name].fault for name in causes):
