@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 65f7efb1f8c39587, body 91ec7d98ab5678a4; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 8c0e49347cabadb5, body 184ab5115ac86837; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -63,6 +63,7 @@ struct kernel_Parameters {
     double air_at_rest;
     double column_share;
     double foam_decay_rate;
+    double dry_share;
     double exhaustion;
     double redissolution_rate;
     double reserve_share;
@@ -90,6 +91,7 @@ struct kernel_Parameters {
     double spot_width;
     double leak_film;
     double leak_power;
+    double cut_area;
     double side_load;
     double v_side;
     double side_lever;
@@ -334,7 +336,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if (p->leak_film != 0.0)
+    if ((p->leak_film != 0.0) || (p->cut_area != 0.0))
     {
         return 1;
     }
@@ -1099,27 +1101,32 @@ static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Der
 /* Give the oil and the gas of the decayed foam back; the volumes of the chambers stay. */
 static void kernel_foam_decay_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
 {
-    double share;
-    double gone;
+    double drained;
+    double burst;
     double oil;
-    share = 1.0 - exp((-p->foam_decay_rate) * dt);
+    double gas;
+    drained = 1.0 - exp((-p->foam_decay_rate) * dt);
+    burst = 1.0 - exp((-p->dry_share) * p->foam_decay_rate * dt);
     /* A trace of 1e-9 mL would still count as foam. */
-    gone = (s->V1_foam < 1e-15 ? s->V1_foam : share * s->V1_foam);
-    oil = (s->V1_foam < 1e-15 ? s->V1_foam_oil : share * s->V1_foam_oil);
-    s->V1_foam -= gone;
+    oil = (s->V1_foam < 1e-15 ? s->V1_foam_oil : drained * s->V1_foam_oil);
+    gas = double_max(2, 0.0, s->V1_foam - s->V1_foam_oil);
+    gas = (s->V1_foam < 1e-15 ? gas : burst * gas);
+    s->V1_foam = double_max(2, 0.0, s->V1_foam - oil - gas);
     s->V1_foam_oil -= oil;
     s->V1_oil += oil;
-    s->V1_gas += double_max(2, 0.0, gone - oil);
-    gone = (s->V2_foam < 1e-15 ? s->V2_foam : share * s->V2_foam);
-    oil = (s->V2_foam < 1e-15 ? s->V2_foam_oil : share * s->V2_foam_oil);
-    s->V2_foam -= gone;
+    s->V1_gas += gas;
+    oil = (s->V2_foam < 1e-15 ? s->V2_foam_oil : drained * s->V2_foam_oil);
+    gas = double_max(2, 0.0, s->V2_foam - s->V2_foam_oil);
+    gas = (s->V2_foam < 1e-15 ? gas : burst * gas);
+    s->V2_foam = double_max(2, 0.0, s->V2_foam - oil - gas);
     s->V2_foam_oil -= oil;
     s->V2_oil += oil;
-    s->V2_gas += double_max(2, 0.0, gone - oil);
+    s->V2_gas += gas;
     /* The reserve's gas is the rest of its volume. */
-    gone = (s->V3_foam < 1e-15 ? s->V3_foam : share * s->V3_foam);
-    oil = (s->V3_foam < 1e-15 ? s->V3_foam_oil : share * s->V3_foam_oil);
-    s->V3_foam -= gone;
+    oil = (s->V3_foam < 1e-15 ? s->V3_foam_oil : drained * s->V3_foam_oil);
+    gas = double_max(2, 0.0, s->V3_foam - s->V3_foam_oil);
+    gas = (s->V3_foam < 1e-15 ? gas : burst * gas);
+    s->V3_foam = double_max(2, 0.0, s->V3_foam - oil - gas);
     s->V3_foam_oil -= oil;
     s->V3_oil += oil;
 }
@@ -1155,6 +1162,14 @@ static void kernel_gas_redissolution_phases(struct kernel_Parameters* p, struct 
 static void kernel_oil_temperature_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
 {
     s->heat *= exp((-dt) / p->cooling_time);
+}
+
+/* Oil [m3/s] through the cut at a fluid force F [N] in rebound, which the ring of the piston carries. */
+static double kernel_cut_flow(struct kernel_Parameters* p, double F)
+{
+    double ring;
+    ring = 0.25 * M_PI * (p->D_li * p->D_li - p->D_PR * p->D_PR);
+    return p->cut_area * sqrt(2.0 * F / (870.0 * ring));
 }
 
 /* Take the oil for the stroke `way` >= 0 [m]. */
@@ -1194,6 +1209,13 @@ static void kernel_seal_leak_phases(struct kernel_Parameters* p, struct kernel_S
         s->V1_gas += oil;
         s->V_lost += oil;
     }
+    if ((p->cut_area > 0.0) && (s->F_fluid > 0.0) && (way > 0.0))
+    {
+        oil = double_min(2, kernel_cut_flow(p, s->F_fluid) * dt, s->V1_oil);
+        s->V1_oil -= oil;
+        s->V1_gas += oil;
+        s->V_lost += oil;
+    }
 }
 
 static void kernel_effects_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
@@ -1210,7 +1232,7 @@ static void kernel_effects_phases(struct kernel_Parameters* p, struct kernel_Sta
     {
         kernel_oil_temperature_phases(p, s, way, dt);
     }
-    if (p->leak_film != 0.0)
+    if ((p->leak_film != 0.0) || (p->cut_area != 0.0))
     {
         kernel_seal_leak_phases(p, s, way, dt);
     }

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.diagnosis import small
-from twintube.diagnosis.candidates import candidates, nuisances
+from twintube.diagnosis.candidates import RECALIBRATE, candidates, nuisances
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.options import Fold, Option
 from twintube.diagnosis.rules import RULES
@@ -96,6 +96,27 @@ def test_a_further_cause_must_take_a_good_part_of_what_is_left(selector: Selecto
     assert "of what is left" in selector.against(first, little)
     assert selector.worth(first, some)
     assert selector.worth(first, much)
+
+
+def test_other_parameters_are_not_known_from_a_single_record(selector: Selector) -> None:
+    wrong = 10.0 / selector.start.misfit
+    for asking, worth in ((1, False), (2, True)):
+        before = changed(selector, (), [*wrong[:asking], *(1.2 / selector.start.misfit)[asking:]])
+        option = changed(selector, (RECALIBRATE,), list(1.0 / selector.start.misfit))
+        assert selector.worth(before, option) == worth
+        assert worth or "not known from a single record" in selector.against(before, option)
+
+
+def test_a_second_cause_explains_a_good_part_of_the_error_or_of_its_logarithm_unless_it_is_late(selector: Selector) -> None:
+    first = changed(selector, ("gas_spring",), list(8.0 / selector.start.misfit))
+    assert RULES.second_share * (selector.start.misfit.mean() - 1.0) > 8.0 - 3.0
+    for name, left, worth in (
+        ("side_load_friction", 3.0, True),
+        ("side_load_friction", 6.0, False),
+        ("fluid_lag", 3.0, False),
+    ):
+        both = changed(selector, ("gas_spring", name), list(left / selector.start.misfit))
+        assert selector.worth(first, both) == worth
 
 
 def test_a_second_factor_of_the_force_leaves_noise_alone(selector: Selector) -> None:

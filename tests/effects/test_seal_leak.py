@@ -51,3 +51,32 @@ def test_the_loss_per_time_goes_with_a_power_of_the_speed(power: float) -> None:
         lost.append(s.V_lost)
     assert lost[0] == pytest.approx(1e-6 * 0.005, rel=1e-9)
     assert lost[1] / lost[0] == pytest.approx(4.0**power, rel=1e-9)
+
+
+def test_pressure_drives_oil_past_a_cut_in_rebound_and_air_comes_in_for_it() -> None:
+    air = {}
+    for cut in (0.0, 1e-8):
+        p = load("SA8").with_(cut_area=cut).parameters
+        d, s, f = blank(Derived), blank(State), blank(Flow)
+        model.set_up(p, d)
+        model.start(p, d, s, -0.03)
+        expected = 0.0
+        for i in range(1, 41):
+            expected += cut * (2.0 * max(0.0, s.F_fluid) / (870.0 * d.A_1)) ** 0.5 * 1e-3
+            model.advance(p, d, s, f, -0.03 + 2e-4 * i, 0.2, 0.2, 1e-3)
+        air[cut] = s.V1_gas + s.V2_gas - s.V3_oil, s.V_lost
+        assert s.V_lost == pytest.approx(expected, rel=1e-9)
+    assert air[1e-8][0] - air[0.0][0] == pytest.approx(s.V_lost, rel=1e-9), "or what the reserve made up for"
+    for i in range(1, 41):
+        model.advance(p, d, s, f, -0.022 - 2e-4 * i, -0.2, -0.2, 1e-3)
+    assert s.V_lost == pytest.approx(air[1e-8][1], rel=0.05), "nothing under the pressure of compression"
+
+
+def test_a_cut_takes_its_share_of_the_force_whatever_the_step(sa8: Damper) -> None:
+    block = harmonic_block(0.131)
+    works = []
+    for step in (1, 4):
+        z, v, t = (a[::step] for a in (block.stroke, block.velocity, block.time))
+        whole, less = (simulate(sa8.with_(oil_level=1.0, gas_preload=1, cut_area=cut), z, v, t) for cut in (0.0, 2e-8))
+        works.append(less.work[-1] / whole.work[-1])
+    assert works[0] == pytest.approx(works[1], abs=1e-5) and works[0] < 0.99

@@ -41,6 +41,18 @@ def test_foam_decays_at_rest_by_its_rate(sa8: Damper) -> None:
     assert oil_of(s) == pytest.approx(oil, rel=1e-12)
 
 
+def test_dry_foam_lasts_longer_than_its_oil_drains(sa8: Damper) -> None:
+    p, d, s, f = foamed(sa8.with_(foam_decay_rate=0.1, dry_share=0.2, oil_level=0.4))
+    wet, foam = s.V1_foam_oil + s.V2_foam_oil + s.V3_foam_oil, s.V1_foam + s.V2_foam + s.V3_foam
+    oil = oil_of(s)
+    for _ in range(4):
+        model.advance(p, d, s, f, s.z, 0.0, 0.0, 5.0)
+    left = s.V1_foam_oil + s.V2_foam_oil + s.V3_foam_oil
+    assert left == pytest.approx(wet * math.exp(-2.0), rel=1e-9)
+    assert s.V1_foam + s.V2_foam + s.V3_foam - left == pytest.approx((foam - wet) * math.exp(-0.4), rel=1e-9)
+    assert oil_of(s) == pytest.approx(oil, rel=1e-12)
+
+
 def test_freed_gas_dissolves_at_rest_by_its_rate(sa8: Damper) -> None:
     p, d, s, f = foamed(sa8.with_(redissolution_rate=0.1))
     freed, oil = s.V_cav, oil_of(s)

@@ -30,7 +30,7 @@ def best_calibration(
 ) -> dict[str, float]:
     """The values that explain the records of all problems best, without those that hardly help.
 
-    By differential evolution from where a search of parameter after parameter ends. `fixed` holds the other values in each
+    By differential evolution around where a search of parameter after parameter ends. `fixed` holds the other values in each
     of the problems; what of the measurement forces are linear in is free.
     """
     free = candidate.free
@@ -45,14 +45,14 @@ def best_calibration(
         ]
         return np.sum(some, axis=0)  # type: ignore[no-any-return]
 
+    rng = np.random.default_rng(1)
     result = differential_evolution(
         lambda x: costs([dict(zip(given, row, strict=True)) for row in x.T]),
         [(f.low, f.high) for f in free],
-        x0=list(begin.values()),
+        strategy="currenttobest1bin",
         maxiter=RULES.generations,
-        popsize=RULES.population,
-        init="sobol",
-        rng=np.random.default_rng(1),
+        init=few_changed(rng, free, list(begin.values())),
+        rng=rng,
         polish=False,
         tol=0.0,
         updating="deferred",
@@ -68,3 +68,16 @@ def best_calibration(
             break
         best, low = fewer[least], min(low, float(cost[least]))
     return best
+
+
+def few_changed(rng: np.random.Generator, free: Sequence[Free], begin: Sequence[float]) -> Array:
+    """Points (n, k) with up to `most_changed` values drawn, the others in turn as given and as in `begin`, the first.
+
+    Where all are drawn at once hardly any point explains more than the given values.
+    """
+    given, low, high = (np.array([getattr(f, name) for f in free]) for name in ("start", "low", "high"))
+    points = np.array([begin, given] * (RULES.population * len(free) // 2))
+    for point in points[1:]:
+        drawn = rng.choice(len(free), int(rng.integers(1, RULES.most_changed + 1)), replace=False)
+        point[drawn] = rng.uniform(low[drawn], high[drawn])
+    return points

@@ -147,7 +147,7 @@ def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
             error = (some.extended - r.measured) * r.weight
             left[i] += error @ error
             beside_zeros[i] += error @ error - (error @ r.weight) ** 2 / power
-    if RECALIBRATE in after and asked < 2:
+    if RECALIBRATE in after and asked < RULES.calibrated_records:
         return False  # so many parameters are not known from a single record
     if RECALIBRATE in before:
         return bool(left[1] <= (1.0 + RULES.close) * left[0])

@@ -50,6 +50,8 @@ class Judge:
             return "improves the held-out records not more than noise would"
         if len(by_record) > RULES.few_records and gained - float(by_record.max()) <= self.limit:
             return "improves a single held-out record, all others together not more than noise would"
+        if after.names[-1] == RECALIBRATE and np.sum(before.misfit > RULES.odd_right) < RULES.calibrated_records:
+            return "so many parameters are not known from a single record, and the others do not ask for them"
         if self.levelled(before, after):
             return ""
         right = before.score <= RULES.right * self.count

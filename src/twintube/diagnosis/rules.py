@@ -248,6 +248,7 @@ class Rules:
     )
     generations: int = starts(40, "", "of differential evolution, in the search for degradation parameters", NUMERICS)
     population: int = starts(4, "", "of it, per parameter", NUMERICS)
+    most_changed: int = starts(5, "", "parameters that differ at most where it begins", DEVELOPMENT)
     shares_moving: tuple[float, float, int] = starts(
         (2e-4, 0.8, 36), "1", "the like of what moves steps of the force: from, to, number", DEVELOPMENT
     )
@@ -326,6 +327,7 @@ class Rules:
     )
     rounds: int = selection(2, "", "most causes: what two leave is mostly their formulation", DEVELOPMENT)
     few_records: int = selection(2, "", "held-out records up to which a single record may decide", JUDGEMENT)
+    calibrated_records: int = selection(2, "", "records that must ask for other degradation parameters", JUDGEMENT)
     acts: float = selection(1e-3, "1", "of its range: a strength below it is neutral", JUDGEMENT)
 
     right: float = verdict(0.1, "1", "log-misfit per sample up to which nothing is missing: 5 % above the noise", JUDGEMENT)

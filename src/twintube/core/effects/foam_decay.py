@@ -1,4 +1,7 @@
-"""Foam separates with time, at rest too: first-order decay of every chamber's foam into its oil and its gas."""
+"""Foam separates with time, at rest too: first-order decay of every chamber's foam into its oil and its gas.
+
+The oil drains out first; dry bubbles may burst slower, at `dry_share` of the rate.
+"""
 
 import math
 from dataclasses import dataclass
@@ -16,31 +19,38 @@ NEEDS_TIME = True
 
 @dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
-    """Rate of the decay."""
+    """Rate of the decay, and how long dry foam lasts."""
 
     foam_decay_rate: float = var("foam_decay", "", "1/s", "share of the foam that separates per second", lower=0, upper=10,
                                  source="first-order foam decay; Bikerman, Foams", default=0.0, role="strength")  # fmt: skip
+    dry_share: float = var("foam_decay", "", "1", "rate at which the gas leaves, of that of the oil", lower=0.1, upper=1,
+                           source="1: both alike; drainage before collapse: Bikerman, Foams", default=1.0,
+                           role="law")  # fmt: skip
 
 
 def foam_decay_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:
     """Give the oil and the gas of the decayed foam back; the volumes of the chambers stay."""
-    share = 1.0 - math.exp(-p.foam_decay_rate * dt)
+    drained = 1.0 - math.exp(-p.foam_decay_rate * dt)
+    burst = 1.0 - math.exp(-p.dry_share * p.foam_decay_rate * dt)
     # A trace of 1e-9 mL would still count as foam.
-    gone = s.V1_foam if s.V1_foam < 1e-15 else share * s.V1_foam
-    oil = s.V1_foam_oil if s.V1_foam < 1e-15 else share * s.V1_foam_oil
-    s.V1_foam -= gone
+    oil = s.V1_foam_oil if s.V1_foam < 1e-15 else drained * s.V1_foam_oil
+    gas = max(0.0, s.V1_foam - s.V1_foam_oil)
+    gas = gas if s.V1_foam < 1e-15 else burst * gas
+    s.V1_foam = max(0.0, s.V1_foam - oil - gas)
     s.V1_foam_oil -= oil
     s.V1_oil += oil
-    s.V1_gas += max(0.0, gone - oil)
-    gone = s.V2_foam if s.V2_foam < 1e-15 else share * s.V2_foam
-    oil = s.V2_foam_oil if s.V2_foam < 1e-15 else share * s.V2_foam_oil
-    s.V2_foam -= gone
+    s.V1_gas += gas
+    oil = s.V2_foam_oil if s.V2_foam < 1e-15 else drained * s.V2_foam_oil
+    gas = max(0.0, s.V2_foam - s.V2_foam_oil)
+    gas = gas if s.V2_foam < 1e-15 else burst * gas
+    s.V2_foam = max(0.0, s.V2_foam - oil - gas)
     s.V2_foam_oil -= oil
     s.V2_oil += oil
-    s.V2_gas += max(0.0, gone - oil)
+    s.V2_gas += gas
     # The reserve's gas is the rest of its volume.
-    gone = s.V3_foam if s.V3_foam < 1e-15 else share * s.V3_foam
-    oil = s.V3_foam_oil if s.V3_foam < 1e-15 else share * s.V3_foam_oil
-    s.V3_foam -= gone
+    oil = s.V3_foam_oil if s.V3_foam < 1e-15 else drained * s.V3_foam_oil
+    gas = max(0.0, s.V3_foam - s.V3_foam_oil)
+    gas = gas if s.V3_foam < 1e-15 else burst * gas
+    s.V3_foam = max(0.0, s.V3_foam - oil - gas)
     s.V3_foam_oil -= oil
     s.V3_oil += oil

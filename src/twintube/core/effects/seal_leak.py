@@ -5,6 +5,8 @@ The film grows with the speed to the power leak_power - 1: a film of constant th
 
 It comes from the reserve, where the seal is. Without oil there, the rod guide passes on what V1 presses through it and what
 then misses in V2, whose oil gives way to gas; V1 itself draws no gas while it is under pressure.
+
+Past a cut through seal and guide the pressure of V1 drives oil out as through an orifice, and air comes in for it.
 """
 
 import math
@@ -13,6 +15,9 @@ from dataclasses import dataclass
 from twintube.core import variables
 from twintube.core.frame import Frame
 from twintube.core.variables import var
+
+OIL = 870.0  # [kg/m3] density
+F_USUAL = 1000.0  # [N] fluid force at which a cut loses oil in half of the time of records before
 
 TITLE = "Oil leaks past the rod seal"
 CAUSE = "A worn seal lets a film of oil out with every stroke, so that the oil level falls during the measurement."
@@ -23,13 +28,15 @@ NEEDS_TIME = True
 
 @dataclass(frozen=True, slots=True)
 class Parameters(variables.Parameters):
-    """The film's cross-section and what it depends on."""
+    """The film's cross-section and what it depends on; the cut's area."""
 
     leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled, at 0.1 m/s", lower=0, upper=1e-5,
                            source="film on the rod; Mueller and Nau, Fluid Sealing Technology", default=0.0,
                            role="strength")  # fmt: skip
     leak_power: float = var("seal_leak", "", "1", "oil lost per time goes with the speed to this power", lower=0, upper=2,
                             source="1: constant film", default=1.0, role="law")  # fmt: skip
+    cut_area: float = var("seal_leak", "", "m2", "area of a cut, times its discharge coefficient", lower=0, upper=1e-7,
+                          source="orifice; Merritt, Hydraulic Control Systems", default=0.0, role="strength")  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -37,6 +44,12 @@ class State(Frame):
     """What is outside."""
 
     V_lost: float = var("seal_leak", "", "m3", "oil lost since the start", default=0.0)
+
+
+def cut_flow(p: Parameters, F: float) -> float:
+    """Oil [m3/s] through the cut at a fluid force F [N] in rebound, which the ring of the piston carries."""
+    ring = 0.25 * math.pi * (p.D_li * p.D_li - p.D_PR * p.D_PR)
+    return p.cut_area * math.sqrt(2.0 * F / (OIL * ring))
 
 
 def seal_leak_phases(p: Parameters, s: State, way: float, dt: float) -> None:
@@ -65,16 +78,23 @@ def seal_leak_phases(p: Parameters, s: State, way: float, dt: float) -> None:
         s.V1_oil -= oil
         s.V1_gas += oil
         s.V_lost += oil
+    if p.cut_area > 0.0 and s.F_fluid > 0.0 and way > 0.0:
+        oil = min(cut_flow(p, s.F_fluid) * dt, s.V1_oil)
+        s.V1_oil -= oil
+        s.V1_gas += oil
+        s.V_lost += oil
 
 
 def seal_leak_lost(p: Parameters, duration: float, way: float, square: float) -> float:
     """Oil [m3] lost in a `duration` [s] of a `way` [m], where the squared speed has the integral `square` [m2/s].
 
-    That of the speed to a power between those of the three is taken by the parabola of their logarithms.
+    That of the speed to a power between those of the three is taken by the parabola of their logarithms, a cut's at a usual
+    force.
     """
     if duration <= 0.0 or way <= 0.0 or square <= 0.0:
         return 0.0
+    cut = 0.5 * duration * cut_flow(p, F_USUAL)
     n = p.leak_power
     low = 0.5 * (n - 1.0) * (n - 2.0) * math.log(duration)
     high = 0.5 * n * (n - 1.0) * math.log(square)
-    return p.leak_film * 0.1 * math.exp(low + n * (2.0 - n) * math.log(way) + high - n * math.log(0.1))
+    return cut + p.leak_film * 0.1 * math.exp(low + n * (2.0 - n) * math.log(way) + high - n * math.log(0.1))
