@@ -307,3 +307,20 @@ def test_a_calibration_that_explains_few_records_is_not_preferred_to_a_cause_in_
     assert gained["gas_spring",] > RULES.near_best * gained["recalibrate",]
     assert selector.taken(start, several) is most
     assert selector.taken(start, [few, some]) is few, "it explains far less"
+
+
+def test_a_calibration_counts_against_an_unknown_history_where_it_leaves_little(
+    problem: Problem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    selector = crossed(problem)
+    selector.history = False
+    monkeypatch.setattr(selector, "tried", lambda *some: [])
+    monkeypatch.setattr(selector, "calibrated", dict)
+    for left, shown in ((0.1, False), (0.04, True)):
+        misfit = list((1.0 + left * (selector.start.misfit - 1.0)) / selector.start.misfit)
+        option = changed(selector, (RECALIBRATE,), misfit)
+        monkeypatch.setattr(selector, "extended", lambda *some, option=option: option)
+        monkeypatch.setattr(selector, "acts", lambda o: True)
+        recalibrated, options = selector.single(lambda text: None)
+        assert recalibrated is option and options == [option] * shown
+        assert not selector.enough(option)

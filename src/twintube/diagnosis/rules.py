@@ -76,6 +76,7 @@ class Rules:
     still: float = records(1e-3, "1", "of the range of the stroke: an interval of less is at rest ...", JUDGEMENT)
     outlier: float = records(8.0, "1", "usual residuals of a record: an interval beyond is an outlier ...", DEVELOPMENT)
     outliers: float = records(0.01, "1", "... where no more of its intervals are than this share", DEVELOPMENT)
+    outlier_records: int = records(2, "", "records with outliers at most, in more they are none", DEVELOPMENT)
     outlier_phase: float = records(0.02, "1", "of an oscillation, within which outliers of several are one", JUDGEMENT)
     kick: float = records(
         0.3, "1", "of the top speed: a larger change from interval to interval is a kick of the rig", DEVELOPMENT
@@ -327,6 +328,9 @@ class Rules:
     )
     rounds: int = selection(2, "", "most causes: what two leave is mostly their formulation", DEVELOPMENT)
     few_records: int = selection(2, "", "held-out records up to which a single record may decide", JUDGEMENT)
+    unknown_history: float = selection(
+        0.05, "1", "of the error that other degradation parameters leave at most, or noise, where it is unknown", DEVELOPMENT
+    )
     calibrated_records: int = selection(2, "", "records that must ask for other degradation parameters", JUDGEMENT)
     acts: float = selection(1e-3, "1", "of its range: a strength below it is neutral", JUDGEMENT)
 

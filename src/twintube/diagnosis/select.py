@@ -183,7 +183,9 @@ class Selector(Chooser):
         else:
             progress(f"{label}: degradation parameters")
             recalibrated = self.extended(self.start, RECALIBRATE, self.calibrated())
-        shown = [recalibrated] if self.history or self.enough(recalibrated) else []
+        # Foam and gas of an unknown history are followed in part, too.
+        left = self.excess(recalibrated) / max(self.excess(self.start), 1.0)
+        shown = [recalibrated] if self.history or self.enough(recalibrated) or left <= RULES.unknown_history else []
         return recalibrated, sorted([*options, *shown], key=lambda o: (not self.acts(o), o.score))
 
     def calibrated(self) -> dict[str, float]:
