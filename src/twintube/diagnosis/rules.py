@@ -239,6 +239,7 @@ class Rules:
     moves: int = fitting(4, "", "most such moves", DEVELOPMENT)
 
     start_records: int = starts(6, "", "records to fit that a search looks at, of all states and velocities", JUDGEMENT)
+    start_moving: int = starts(20, "", "the like for what moves steps of the force", DEVELOPMENT)
     joins: float = starts(0.02, "1", "of the squared error that a further strength of a cause must take away", DEVELOPMENT)
     shapes: int = starts(2, "", "lengths, times and powers that are sought, the first in the effect's file", JUDGEMENT)
     shares: tuple[float, ...] = starts(

@@ -7,7 +7,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.diagnosis.calibration import best_calibration, calibration
-from twintube.diagnosis.candidates import LATE, RECALIBRATE, Candidate, linear, nuisances
+from twintube.diagnosis.candidates import LATE, MOVING, RECALIBRATE, Candidate, linear, nuisances
 from twintube.diagnosis.choice import Chooser
 from twintube.diagnosis.edges import less_noise
 from twintube.diagnosis.fit import Fit, Free, Problem
@@ -43,8 +43,10 @@ class Selector(Chooser):
         self.whole = whole.balanced(whole.misfits(whole.residual(first)))
         pairs = zip(folds, self.start.fits, strict=True)
         self.folds = [replace(fold, fitted=fold.fitted.balanced(fit.misfit)) for fold, fit in pairs]
-        fits = zip(self.folds, self.start.fits, strict=True)
-        self.sketches = [fold.fitted.sparse(RULES.start_records, fit.misfit) for fold, fit in fits]
+        self.sketches, self.wider = (
+            [fold.fitted.sparse(most, fit.misfit) for fold, fit in zip(self.folds, self.start.fits, strict=True)]
+            for most in (RULES.start_records, RULES.start_moving)
+        )
 
     def option(self, names: Sequence[str], frees: Sequence[Sequence[Free]]) -> Option:
         """The model with some causes, fitted in every fold of balanced records."""
@@ -71,13 +73,14 @@ class Selector(Chooser):
         """Where a further cause begins in all folds, and the sum of squares there.
 
         From starts of their own the folds may end in different laws, of which a single law holds for the others' records.
-        A search is not repeated where only the noise of the same records is known better.
+        A search is not repeated where only the noise of the same records is known better. What moves steps of the force is
+        sought in more records: a few are explained by many strengths.
         """
         fixed = [fit.values for fit in current.fits]
         key = (current.names, name, tuple(record.name for sketch in self.sketches for record in sketch.records))
         if key not in self.begun:
-            low, self.begun[key] = best_start(self.sketches, self.known(name), fixed, self.whole)
-            return low, self.begun[key]
+            looked_at = self.wider if name in MOVING else self.sketches
+            self.begun[key] = best_start(looked_at, self.known(name), fixed, self.whole)[1]
         return start_cost(self.sketches, self.begun[key], fixed, measured(name, self.whole)), self.begun[key]
 
     def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
