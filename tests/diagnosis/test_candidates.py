@@ -206,3 +206,14 @@ def test_oil_that_leaked_in_a_record_is_missing_in_those_after_it(power: float) 
     assert "loss_carried" in leak.laws and "loss_carried" not in leak.strength
     alone = small.problem([small.record(r) for r in runs[:1]])
     assert "loss_carried" not in {f.name for f in named(alone, "seal_leak").free}
+
+
+def test_oil_that_a_cut_lost_in_a_record_is_missing_in_those_after_it_at_a_usual_force() -> None:
+    damper = load("SA8")
+    runs = [small.run(speed, fill) for fill, speed in ((small.INTACT, 0.3), (small.DEGRADED, 0.1), (small.DEGRADED, 0.6))]
+    problem = small.problem([small.record(r) for r in runs])
+    ring = 0.25 * np.pi * (damper.parameters.D_li**2 - damper.parameters.D_PR**2)
+    flow = 1e-9 * (2.0 * 1000.0 / (870.0 * ring)) ** 0.5
+    missing = (problem.states[:, 0] - problem.drained({"cut_area": 1e-9}, 1.0)[:, 0]) * damper.parameters.V_oil
+    lost = [0.5 * flow * float(np.ptp(r.time)) for r in runs]
+    assert missing == pytest.approx([0.0, lost[0], lost[0] + lost[1]], rel=0.03)
