@@ -209,6 +209,16 @@ def test_nothing_hidden_is_nothing_named(tmp_path: Path) -> None:
     assert answer.extended.parameters == load("SA8").parameters
 
 
+def test_spikes_in_several_records_that_nothing_explains_are_left_out(tmp_path: Path, good: list[Record]) -> None:
+    spoilt = []
+    for i, record in enumerate(good):
+        force = record.force.copy()
+        force[len(force) // 2 + 37 * i] += 2000.0
+        spoilt.append(replace(record, force=force))
+    answer = diagnose(small.write(spoilt, tmp_path))
+    assert answer.verdict == "none" and answer.causes == []
+
+
 @pytest.mark.slow
 def test_valve_wear_is_named_and_gains_on_held_out_records(tmp_path: Path) -> None:
     answer = answered("valve_wear", tmp_path)

@@ -121,20 +121,6 @@ def test_a_spike_is_left_out_and_a_model_that_is_wrong_everywhere_is_not(runs: l
     assert sum(wrong.counts) == sum(without_outliers(wrong)[0].counts)
 
 
-def test_what_comes_in_several_records_is_no_outlier() -> None:
-    """Once each, in as many records as a good damper seldom has them, and in one more."""
-    runs = [small.run(v, small.DEGRADED) for v in (*small.SPEEDS, 0.8)]
-    records = [small.record(r, seed=i) for i, r in enumerate(runs)]
-    for i, record in enumerate(records):
-        force = record.force.copy()
-        force[700] += 2000.0
-        records[i] = replace(record, force=force, name=f"record_{i}")
-        spoilt = small.problem([*records[: i + 1], *(replace(r, name=f"good_{r.name}") for r in records[i + 1 :])])
-        cleaned, outliers = without_outliers(spoilt)
-        assert len(outliers) == (i + 1 if i < RULES.outlier_records else 0)
-        assert (cleaned is spoilt) == (not outliers)
-
-
 def test_what_comes_again_in_every_oscillation_is_no_outlier(runs: list[small.Run]) -> None:
     records = [small.record(r, seed=i) for i, r in enumerate(runs)]
     ready = small.problem(records).records[0]

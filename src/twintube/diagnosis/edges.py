@@ -116,8 +116,7 @@ def without_outliers(problem: Problem) -> tuple[Problem, dict[str, NDArray[np.bo
     """The problem without the few intervals of each record that contradict the model far beyond all its others, and these.
 
     They are left out for every model alike. What happened there - a spike, a stop of the rig - is not in the records. What
-    comes again at the same phase of other oscillations did not happen once: it stays, where the record's start is known. So
-    does what comes in several records.
+    comes again at the same phase of other oscillations did not happen once: it stays, where the record's start is known.
     """
     residual = problem.residual({})
     records, outliers = [], {}
@@ -131,8 +130,6 @@ def without_outliers(problem: Problem) -> tuple[Problem, dict[str, NDArray[np.bo
         if few and out.any():
             outliers[record.name] = out
         records.append(replace(record, judged=record.judged & ~out) if few else record)
-    if len(outliers) > RULES.outlier_records:
-        return problem, {}
     return problem.with_records(records), outliers
 
 

@@ -98,11 +98,19 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
         return replace(answered, remarks=[*split_remarks, *remarks, *answered.remarks])
 
     before = [fault for fault in (turned, wrong, smoothed, stepped) if fault is not None]
-    odd, others = odd_records(problem)
-    answered = concluded(problem) if odd is None or odd.effect == STRANGER else concluded(others, odd)
-    # Some records may differ because a cause acts in them alone, as foam does after a rest.
-    if odd is not None and odd.effect == STRANGER and len(answered.causes) == len(before):
-        answered = concluded(others, odd)
+
+    def answer_of(judged: Problem) -> Diagnosis:
+        odd, others = odd_records(judged)
+        answered = concluded(judged) if odd is None or odd.effect == STRANGER else concluded(others, odd)
+        # Some records may differ because a cause acts in them alone, as foam does after a rest.
+        if odd is not None and odd.effect == STRANGER and len(answered.causes) == len(before):
+            answered = concluded(others, odd)
+        return answered
+
+    # A step that a cause moves is wrong in few intervals, too, but in several records.
+    answered = answer_of(with_outliers(problem, outliers)) if len(outliers) > RULES.outlier_records else None
+    if answered is None or (len(answered.causes) == len(before) and answered.verdict != RECALIBRATE):
+        answered = answer_of(problem)
     return replace(answered, seconds=time.monotonic() - began, tolerance=tolerance)
 
 

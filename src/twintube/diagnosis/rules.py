@@ -76,7 +76,9 @@ class Rules:
     still: float = records(1e-3, "1", "of the range of the stroke: an interval of less is at rest ...", JUDGEMENT)
     outlier: float = records(8.0, "1", "usual residuals of a record: an interval beyond is an outlier ...", DEVELOPMENT)
     outliers: float = records(0.01, "1", "... where no more of its intervals are than this share", DEVELOPMENT)
-    outlier_records: int = records(2, "", "records with outliers at most, in more they are none", DEVELOPMENT)
+    outlier_records: int = records(
+        2, "", "records with outliers at most, of more it is asked what they would name", DEVELOPMENT
+    )
     outlier_phase: float = records(0.02, "1", "of an oscillation, within which outliers of several are one", JUDGEMENT)
     kick: float = records(
         0.3, "1", "of the top speed: a larger change from interval to interval is a kick of the rig", DEVELOPMENT
