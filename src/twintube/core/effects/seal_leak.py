@@ -6,7 +6,8 @@ The film grows with the speed to the power leak_power - 1: a film of constant th
 It comes from the reserve, where the seal is. Without oil there, the rod guide passes on what V1 presses through it and what
 then misses in V2, whose oil gives way to gas; V1 itself draws no gas while it is under pressure.
 
-Past a cut through seal and guide the pressure of V1 drives oil out as through an orifice, and air comes in for it.
+Past a cut through seal and guide the pressure of V1 drives oil out as through an orifice. Gas takes its place at once: the
+force falls by the share of the oil that no longer passes the valves.
 """
 
 import math
