@@ -403,7 +403,8 @@ def test_the_command_writes_what_is_named_and_leaves_nothing_of_an_earlier_run(d
     second = diagnosed("none", out, "--tolerance", "3%")
     assert second.exit_code == 0 and "extended.toml" not in second.stdout and "tolerance of 3 %" in second.stdout
     assert not (out / "extended.toml").exists()
-    assert json.loads((out / "diagnosis.json").read_text())["tolerance"] == pytest.approx(0.03)
+    content = json.loads((out / "diagnosis.json").read_text())
+    assert content["tolerance"] == pytest.approx(0.03) and content["next_step"] in second.stdout
 
 
 @pytest.mark.parametrize("text", ["three", "3", "30%", "-1%", "nan", "5,5%", ""])

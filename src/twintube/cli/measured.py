@@ -145,7 +145,7 @@ def diagnose(
     from twintube.diagnosis import as_json
     from twintube.diagnosis import diagnose as run
     from twintube.diagnosis.rules import RULES
-    from twintube.report.answer import has_extension, lines
+    from twintube.report.answer import has_extension, lines, next_step
     from twintube.report.diagnosis import write_report
     from twintube.report.engineering import in_words
 
@@ -158,7 +158,8 @@ def diagnose(
         write_text(extended, to_toml(result.extended))
     else:
         extended.unlink(missing_ok=True)  # of an earlier run
-    write_text(output / "diagnosis.json", json.dumps(as_json(result), indent=1) + "\n")
+    content = as_json(result) | {"next_step": next_step(result)}
+    write_text(output / "diagnosis.json", json.dumps(content, indent=1) + "\n")
     write_report(result, output)
     for line in lines(result):
         typer.echo(line)
