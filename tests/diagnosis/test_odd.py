@@ -97,6 +97,18 @@ def test_a_record_of_something_else_is_named(good: list[Record], stranger: str) 
     assert "stray" not in rest
 
 
+def test_little_makes_a_record_of_the_intact_damper_odd(good: list[Record]) -> None:
+    """As of another damper: its force has no step that a fill would move. With less oil, foam may act in a single record."""
+
+    def turned_up(r: Record) -> Record:
+        return replace(r, force=r.force + 0.02 * abs(r.force).max() * (2.0 * abs(r.force / r.force.max()) - 1.0))
+
+    fault, _ = judged(changed(good, turned_up))
+    assert fault is not None and (fault.effect, fault.records) == ("odd_record", (good[ODD].name,))
+    degraded = [small.record(small.run(speed, small.DEGRADED)) for speed in (0.3, 0.6, 1.0)]
+    assert judged([*good, degraded[0], turned_up(degraded[1]), degraded[2]])[0] is None
+
+
 def test_what_is_wrong_in_most_records_makes_none_of_them_odd(good: list[Record]) -> None:
     assert judged([replace(r, force=1.3 * r.force) for r in good])[0] is None
 

@@ -34,6 +34,8 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     if fault is None or gain:
         zero = RULES.small_zero * max(record.peak for record in problem.records)
         least = RULES.odd_little if beyond >= RULES.odd_clear else RULES.odd_force
+        if all(record.intact for record in part.records):  # no fill may be to blame
+            least = RULES.odd_intact
         apart = differ(part, least, zero) if fault is None else abs(fault.factor - 1.0) >= least
         filled = own_fill(part, names) if fault is None else None
         fault = filled or (stranger(part, names) if apart else None)

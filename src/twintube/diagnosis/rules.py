@@ -126,8 +126,9 @@ class Rules:
     )
     odd_little: float = records(0.02, "1", "the like of a record whose misfit is far beyond all others ...", DEVELOPMENT)
     odd_clear: float = records(50.0, "1", "... so many times", DEVELOPMENT)
+    odd_intact: float = records(0.005, "1", "the like of records of the intact damper, which have no fill", DEVELOPMENT)
     odd_spread: float = records(
-        0.4, "1", "of its intervals in which a record of something else is off: a moved step is not one", DEVELOPMENT
+        0.3, "1", "of its intervals in which a record of something else is off: a moved step is not one", DEVELOPMENT
     )
     odd_zero: float = records(
         0.2, "1", "of the zeros' scatter, that is left without a single record: it is its own", JUDGEMENT
