@@ -163,3 +163,14 @@ def test_zeros_are_not_known_to_less_than_a_load_cell_has(records: list[Prepared
     drifting, remarks = zero_drift(zeroed(records, np.zeros(len(records)).tolist()))
     assert drifting.drift == RULES.least_zero * max(record.peak for record in drifting.records)
     assert not remarks
+
+
+def test_a_mean_error_that_a_good_load_cell_may_have_is_a_zero_and_a_larger_one_the_models(
+    records: list[PreparedRecord],
+) -> None:
+    """However little the zeros of the others scatter."""
+    problem = zeroed(records, np.zeros(len(records)).tolist()).with_drift(1.0)
+    good = RULES.small_zero * max(record.peak for record in records)
+    for mean, most in ((0.8 * good, good), (4.0 * good, good)):
+        zeros = problem.zeros(np.full(len(problem.measured), mean))
+        assert zeros == pytest.approx(min(mean, most), rel=0.1)

@@ -173,11 +173,12 @@ class Problem(SeenRecords):
     def zeros(self, errors: Array) -> Array:
         """The expected zero [N] of each sample's record (n,) for errors (n,) [N] of a model.
 
-        A value larger than such zeros is the model's error, say a preload that is not known.
+        What is larger, and more than a good load cell has, is the model's error, say a preload that is not known.
         """
         pull = self.drift**2 * self.power
         expected = pull / (1.0 + pull) * self.means(errors * self.weight)
-        most = RULES.usual_zeros * self.drift
+        good = RULES.small_zero * max(record.peak for record in self.records)
+        most = max(RULES.usual_zeros * self.drift, good)
         return self.spread(np.clip(expected, -most, most))
 
     def adjusted(self, values: Mapping[str, float], free: Sequence[Free]) -> dict[str, float]:
