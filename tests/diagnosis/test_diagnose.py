@@ -1,6 +1,7 @@
 """Hidden causes are named, nothing is named where nothing is hidden, and bad input gets a clear answer."""
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -15,7 +16,8 @@ from twintube.arrays import Array
 from twintube.cli import app
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis import Diagnosis, diagnose
+from twintube.diagnosis import Diagnosis, diagnose, engine
+from twintube.diagnosis.candidates import candidates
 from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.engine import contradicted, says_more, split
 from twintube.diagnosis.fit import Free, Problem
@@ -123,6 +125,25 @@ def test_turned_sign_is_named_by_the_command_and_nothing_else(tmp_path: Path) ->
     assert answer["error"]["noise_floor"]["force_rmse_N"] <= answer["error"]["extended"]["force_rmse_N"]
     assert not (tmp_path / "out" / "extended.toml").exists()  # the damper is as given
     assert "sign" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_a_record_of_another_damper_is_left_out_and_shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(engine, "candidates", lambda problem: [c for c in candidates(problem) if c.fault])
+    records = small.records(speeds=(0.1, 0.3, 0.6, 1.0, 1.3))
+    records[2] = replace(small.record(small.run(0.6, damper=load("SA7"))), name="stray", file="stray.csv")
+    folder = small.write(records, tmp_path / "data")
+    result = CliRunner().invoke(app, ["diagnose", str(folder), "--output", str(tmp_path / "out")])
+    assert result.exit_code == 0, result.output
+    answer = json.loads((tmp_path / "out" / "diagnosis.json").read_text())
+    assert [cause["effect"] for cause in answer["causes"]] == ["odd_record"]
+    assert "Without it: Nothing is missing" in answer["sentence"]
+    (left,) = answer["left_out"]
+    assert left["record"] == "stray" and left["base_rmse_N"] > 10.0 * left["noise_N"]
+    assert f"error {left['base_rmse_N']:.0f} N" in answer["sentence"]
+    assert "stray" not in [r["record"] for r in answer["records"]]
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "Record stray (100 % oil, 0.6 m/s; left out)" in page
+    assert re.search(r"<td[^>]*>stray</td><td[^>]*>left out</td>", page)
 
 
 def test_records_of_a_single_velocity_are_split_and_judged(tmp_path: Path) -> None:

@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.diagnosis.answer import answer, predictions
+from twintube.diagnosis.answer import answer, predictions, simulated
 from twintube.diagnosis.candidates import LATE, RECALIBRATE, candidates
 from twintube.diagnosis.edges import with_edges, with_motion, with_noise, with_outliers, without_outliers
-from twintube.diagnosis.faults import Fault, force_averaging, read, really_turned, scaled, unit_error
+from twintube.diagnosis.faults import STRANGER, Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.history import bare_of_strokes, settled, with_history
 from twintube.diagnosis.jitter import with_jitter
-from twintube.diagnosis.odd import STRANGER, odd_records
+from twintube.diagnosis.odd import odd_records
 from twintube.diagnosis.options import Fold
 from twintube.diagnosis.prepare import prepare
 from twintube.diagnosis.record import PreparedRecord
@@ -101,11 +101,15 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
 
     def answer_of(judged: Problem) -> Diagnosis:
         odd, others = odd_records(judged)
-        answered = concluded(judged) if odd is None or odd.effect == STRANGER else concluded(others, odd)
-        # Some records may differ because a cause acts in them alone, as foam does after a rest.
-        if odd is not None and odd.effect == STRANGER and len(answered.causes) == len(before):
-            answered = concluded(others, odd)
-        return answered
+        if odd is None:
+            return concluded(judged)
+        if odd.effect == STRANGER:
+            # Some records may differ because a cause acts in them alone, as foam does after a rest.
+            answered = concluded(judged)
+            if len(answered.causes) > len(before):
+                return answered
+        part = judged.with_records([record for record in judged.records if record.name in odd.records])
+        return replace(concluded(others, odd), left_out=simulated(part, "left_out", [{}, {}, {}]))
 
     # A step that a cause moves is wrong in few intervals, too, but in several records.
     answered = answer_of(with_outliers(problem, outliers)) if len(outliers) > RULES.outlier_records else None

@@ -31,12 +31,8 @@ STROKE_UNITS = {
 }
 
 
-PUT_RIGHT = (
-    "sign_flip",
-    "unit_error",
-    "force_averaging",
-    "odd_record",
-)  # faults that are put right before anything is fitted
+STRANGER = "odd_record"  # a record of something else
+PUT_RIGHT = ("sign_flip", "unit_error", "force_averaging", STRANGER)  # put right before anything is fitted
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,11 @@ from scipy.optimize import minimize_scalar
 
 from twintube.diagnosis.candidates import faults
 from twintube.diagnosis.edges import with_edges, with_noise
-from twintube.diagnosis.faults import Fault, unit_error
+from twintube.diagnosis.faults import STRANGER, Fault, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.jitter import with_jitter
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import STROKE_GAIN
-
-STRANGER = "odd_record"
 
 
 def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
@@ -135,7 +133,7 @@ def own_fill(part: Problem, names: tuple[str, ...]) -> Fault | None:
         return None
     of, as_if = 100.0 * record.oil_level, 100.0 * level
     text = f"The record {names[0]} does not belong to the others: it is as with {as_if:.0f} % oil, recorded with {of:.0f} %."
-    return Fault(STRANGER, f"The record {names[0]}", text, level, "oil_level", "1", names)
+    return Fault(STRANGER, "Odd record", text, level, "oil_level", "1", names)
 
 
 def right(part: Problem, values: dict[str, float], usual: float = 1.0) -> bool:
@@ -156,8 +154,9 @@ def differ(part: Problem, least: float, zero: float) -> bool:
 
 
 def stranger(part: Problem, names: tuple[str, ...]) -> Fault:
-    """Records of something else."""
-    size = max(share * record.peak for share, record in zip(shares(part), part.records, strict=True))
+    """Records of something else, with their error as the page shows it: by uncertainty, beside a zero."""
+    errors = part.begun_forces({}) - part.measured
+    size = float(np.linalg.norm((errors - part.zeros(errors)) * part.weight) / np.linalg.norm(part.weight))
     kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
     text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."
-    return Fault(STRANGER, f"The {kind} {', '.join(names)}", text, size, "force_rmse_N", "N", names)
+    return Fault(STRANGER, f"Odd {kind}", text, size, "force_rmse_N", "N", names)

@@ -142,7 +142,7 @@ class RecordResult:
     """A record: measured and simulated mean forces (n,) over its intervals, and errors [N]."""
 
     record: PreparedRecord
-    split: str  # fit | heldout
+    split: str  # fit | heldout | left_out
     measured: Array
     base: Array
     recalibrated: Array
@@ -191,6 +191,7 @@ class Diagnosis:
     remarks: list[str] = field(default_factory=list)
     seconds: float = 0.0
     tolerance: float = 0.0  # accepted error of a good damper, share of each record's largest force
+    left_out: list[RecordResult] = field(default_factory=list)  # records that do not belong, by the base model
 
 
 def as_json(d: Diagnosis) -> dict[str, Any]:
@@ -232,6 +233,9 @@ def as_json(d: Diagnosis) -> dict[str, Any]:
                 "extended_rmse_N": r.rms(r.extended), "noise_N": r.noise,
             }
             for r in d.records
+        ],
+        "left_out": [
+            {"record": r.record.name, "base_rmse_N": r.rms(r.base), "noise_N": r.noise} for r in d.left_out
         ],
         "next_measurements": d.next_measurements,
         "remarks": d.remarks,

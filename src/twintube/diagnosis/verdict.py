@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from twintube.diagnosis.candidates import EXACT, FACTORS, LATE, RECALIBRATE, Candidate
-from twintube.diagnosis.faults import Fault
+from twintube.diagnosis.faults import STRANGER, Fault
 from twintube.diagnosis.options import Option, Selection
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
 from twintube.diagnosis.rivals import rivals
@@ -141,7 +141,9 @@ def sentence(judgement: Judgement, candidates: Mapping[str, Candidate], faults: 
     if not faults:
         return rest
     wrong = "; ".join(lower(fault.explanation.rstrip(".")) for fault in faults)
-    return f"The measurement is faulty: {wrong}. With this put right: {rest}"
+    odd = [fault for fault in faults if fault.effect == STRANGER]
+    how = "With this put right" if len(odd) < len(faults) else "Without it" if len(odd[0].records) == 1 else "Without them"
+    return f"The measurement is faulty: {wrong}. {how}: {rest}"
 
 
 def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]) -> str:

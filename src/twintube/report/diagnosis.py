@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from twintube.core.effects import EFFECTS, Parameters
-from twintube.diagnosis.result import Cause, Diagnosis, Errors, Estimate
+from twintube.diagnosis.result import Cause, Diagnosis, Errors, Estimate, RecordResult
 from twintube.diagnosis.rules import RULES
 from twintube.files import write_bytes, write_text
 from twintube.readable import MISSING, amount, digits, percent, unit_of, with_interval
@@ -16,7 +16,7 @@ from twintube.report.diagnosis_live import MOST as MOST_LIVE
 from twintube.report.diagnosis_live import live_part
 from twintube.report.diagnosis_loop import caption
 from twintube.report.diagnosis_pictures import MOST, NARROW, PICTURES, pictures, shown_record
-from twintube.report.diagnosis_records import compared, models, name_of, ranked
+from twintube.report.diagnosis_records import KINDS, Model, compared, models, name_of, ranked
 from twintube.report.engineering import is_share, meaning, title_of
 from twintube.report.page import Headline, Picture, Section, Table, html
 
@@ -172,10 +172,14 @@ def totals(d: Diagnosis) -> Table:
 def record_table(d: Diagnosis) -> Table:
     """Every record with its errors."""
     shown = models(d)
+
+    def rms(r: RecordResult, model: Model) -> str:
+        return MISSING if r.split == "left_out" and model.name != "base" else amount(r.rms(model.force(r)), "N")
+
     rows = [
-        [r.record.name, "held out" if r.split == "heldout" else "fitted", name_of(r),
-         *(amount(r.rms(m.force(r)), "N") for m in shown), amount(r.noise, "N"), amount(r.record.peak, "N")]
-        for r in ranked(d)
+        [r.record.name, KINDS[r.split], name_of(r), *(rms(r, m) for m in shown), amount(r.noise, "N"),
+         amount(r.record.peak, "N")]
+        for r in [*d.left_out, *ranked(d)]
     ]  # fmt: skip
     head = ["record", "", "state", *(m.label for m in shown), "noise floor", "peak force"]
     return Table(head, rows, "Root mean square error of the force", range(3, len(head)))

@@ -5,7 +5,7 @@ import numpy as np
 from twintube.diagnosis.result import Diagnosis, RecordResult
 from twintube.readable import amount
 from twintube.report import style
-from twintube.report.diagnosis_records import broken, middle, models, name_of, oscillations, ranked
+from twintube.report.diagnosis_records import KINDS, broken, middle, models, name_of, oscillations, ranked
 from twintube.report.live import Curve, Look, live
 
 MOST = 12  # records, those of the largest base error first
@@ -28,7 +28,7 @@ def look(d: Diagnosis, result: RecordResult) -> Look:
     marks = np.cumsum([0, *map(len, block)]).tolist() if block else []
     forces = {m.name: broken(result, m.force(result), ends) for m in models(d)}
     errors = ", ".join(f"{m.label} {amount(result.rms(m.force(result)), 'N')}" for m in models(d))
-    where = "held out" if result.split == "heldout" else "fitted"
+    where = KINDS[result.split]
     return Look(
         f"{record.name}: {name_of(result)}",
         f"{where[0].upper()}{where[1:]} record; root mean square error: {errors}; noise floor {amount(result.noise, 'N')}.",

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 from twintube.diagnosis.result import Diagnosis, RecordResult
 from twintube.report import style
 from twintube.report.diagnosis_records import (
+    BASE,
+    KINDS,
     broken,
     closed,
     compared,
@@ -27,8 +29,11 @@ OPEN = 0.05  # of the range of the stroke: an oscillation that ends farther from
 def telling(d: Diagnosis) -> RecordResult:
     """The record, held out if any is, in which the error falls most relative to its largest force.
 
-    Where nothing is named it is the record whose error stands out most from its noise.
+    Where nothing is named it is the record whose error stands out most from its noise; where records do not belong to the
+    others, the one that is off most.
     """
+    if d.left_out:
+        return max(d.left_out, key=lambda r: r.rms(r.base) / r.record.peak)
     best = compared(d)[1:]
 
     def worth(r: RecordResult) -> tuple[bool, bool, float]:
@@ -68,7 +73,7 @@ def answer_loop(d: Diagnosis, narrow: bool = False) -> Figure:
     ):
         at = middle(signal, ends) * factor
         ax.plot(at, result.measured[ends], "o", color=style.INK, ms=3, mew=0, zorder=3, label="measured")
-        for model in drawn(result, compared(d)):
+        for model in [BASE] if d.left_out else drawn(result, compared(d)):
             force = broken(result, model.force(result), ends)
             ax.plot(at, force, format_of(model, record), color=model.colour, lw=1.7, ms=8, label=model.label)
         ax.set_xlabel(label)
@@ -82,6 +87,6 @@ def caption(d: Diagnosis) -> str:
     """What the picture shows."""
     result = telling(d)
     unknown = "the models do not know it" if result.record.tenth is None else "every second tenth of it in turn"
-    held = f"held out: {unknown}" if result.split == "heldout" else "fitted"
+    held = KINDS[result.split] + (f": {unknown}" if result.split == "heldout" else "")
     which, _ = typical(d, result)
     return f"Record {result.record.name} ({name_of(result)}; {held}), {which}."

@@ -17,6 +17,7 @@ from twintube.readable import unit_of
 from twintube.report import style
 from twintube.report.diagnosis_loop import answer_loop
 from twintube.report.diagnosis_records import (
+    KINDS,
     Model,
     broken,
     compared,
@@ -83,7 +84,7 @@ def loops(d: Diagnosis) -> Figure:
             ax.set_xlabel("stroke [mm]" if signal is record.stroke else "velocity [m/s]", fontsize=8)
         for ax in row[len(some) :]:
             ax.set_visible(False)
-        held = "held out" if result.split == "heldout" else "fitted"
+        held = KINDS[result.split]
         row[0].set_ylabel("\n".join([*textwrap.wrap(name_of(result), 22), held, "force [N]"]), fontsize=8.5)
     style.legend_above(figure, *axes[:, 0])
     return figure

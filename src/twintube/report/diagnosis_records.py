@@ -14,6 +14,7 @@ from twintube.report import style
 from twintube.report.answer import extends, put_right
 
 SHOWN = 6  # records of which curves are drawn
+KINDS = {"heldout": "held out", "fit": "fitted", "left_out": "left out"}  # RecordResult.split -> in words
 
 
 @dataclass(frozen=True)
