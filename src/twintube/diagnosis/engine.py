@@ -10,12 +10,12 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.diagnosis.answer import answer, predictions, simulated
 from twintube.diagnosis.candidates import LATE, RECALIBRATE, candidates
-from twintube.diagnosis.edges import with_edges, with_motion, with_noise, with_outliers, without_outliers
+from twintube.diagnosis.edges import with_motion, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.faults import STRANGER, Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.history import bare_of_strokes, settled, with_history
-from twintube.diagnosis.jitter import with_jitter
+from twintube.diagnosis.jitter import with_uncertainty
 from twintube.diagnosis.odd import odd_records
 from twintube.diagnosis.options import Fold
 from twintube.diagnosis.prepare import prepare
@@ -58,7 +58,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     smoothed, problem, notes = force_averaging(dataset.records, problem)
     problem = with_motion(with_sampling(settled(problem)))
     recorded = recorded.with_usual(problem.usual)
-    stepped, problem = zero_change(with_jitter(with_edges(with_noise(problem))))
+    stepped, problem = zero_change(with_uncertainty(problem))
     problem, drift = zero_drift(problem)
     known = not bare_of_strokes(problem)
     problem, bare = with_history(problem)
@@ -187,7 +187,7 @@ def known_gain(path: str | Path, causes: Sequence[str]) -> float:
     """Share of the explainable held-out error that goes away with the given causes, whatever a diagnosis would choose."""
     dataset, _ = read(path)
     sampled = with_sampling(settled(Problem(dataset.damper, prepare(dataset))))
-    problem, _ = zero_drift(with_jitter(with_edges(with_noise(sampled))))
+    problem, _ = zero_drift(with_uncertainty(sampled))
     selector = selector_of(problem, split(dataset.title, problem.records)[0])
     option = selector.start
     for name in causes:

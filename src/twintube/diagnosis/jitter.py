@@ -11,12 +11,18 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from twintube.arrays import Array
+from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.fit import Problem
 from twintube.diagnosis.motion import along
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.strokes import quiet
 
 MEDIAN = 0.455  # of the square of a normal error, whose variance is 1
+
+
+def with_uncertainty(problem: Problem) -> Problem:
+    """The problem with all that its forces are open by: noise, the model's own steps, jitter of the samples."""
+    return with_jitter(with_edges(with_noise(problem)))
 
 
 def with_jitter(problem: Problem) -> Problem:

@@ -7,10 +7,9 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from twintube.diagnosis.candidates import faults
-from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.faults import STRANGER, Fault, unit_error
 from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.jitter import with_jitter
+from twintube.diagnosis.jitter import with_uncertainty
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.seen import STROKE_GAIN
 
@@ -86,7 +85,7 @@ def own_unit(part: Problem, names: tuple[str, ...], usual: float = 1.0) -> Fault
     if wrong is None or wrong.records:
         return None
     # Noise and steps were read in the wrong unit.
-    if not right(with_jitter(with_edges(with_noise(put_right))), {}, usual):
+    if not right(with_uncertainty(put_right), {}, usual):
         return None
     of = f"In {', '.join(names)}: {wrong.explanation[0].lower()}{wrong.explanation[1:]}"
     return Fault(wrong.effect, wrong.title, of, wrong.factor, records=names)

@@ -118,7 +118,7 @@ class Rules:
     slow_reach: float = records(0.8, "1", "... over so much of it", JUDGEMENT)
     odd: float = records(4.0, "1", "times the largest misfit of all others, at which a record does not belong", DEVELOPMENT)
     odd_unit: float = records(25.0, "1", "the like where only another unit of these records is looked for", JUDGEMENT)
-    odd_far: float = records(1000.0, "1", "the like where the others are not explained within noise", DEVELOPMENT)
+    odd_far: float = records(200.0, "1", "the like where the others are not explained within noise", DEVELOPMENT)
     odd_apart: float = records(8.0, "1", "the like for errors over peak forces", DEVELOPMENT)
     odd_share: float = records(1 / 3, "1", "of the records that may contradict the others", JUDGEMENT)
     odd_force: float = records(
