@@ -36,7 +36,7 @@ class Parameters(variables.Parameters):
                            role="strength")  # fmt: skip
     leak_power: float = var("seal_leak", "", "1", "oil lost per time goes with the speed to this power", lower=0, upper=2,
                             source="1: constant film", default=1.0, role="law")  # fmt: skip
-    cut_area: float = var("seal_leak", "", "m2", "area of a cut, times its discharge coefficient", lower=0, upper=5e-7,
+    cut_area: float = var("seal_leak", "", "m2", "area of a cut, times its discharge coefficient", lower=0, upper=1e-7,
                           source="orifice; Merritt, Hydraulic Control Systems", default=0.0, role="strength")  # fmt: skip
 
 
