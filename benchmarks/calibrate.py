@@ -14,11 +14,11 @@ from scipy.optimize import minimize
 from scipy.special import logsumexp
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import RECALIBRATE
-from twintube.diagnosis.confidence import WEIGHTS, Evidence, evidence, features, probabilities
-from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.fits.candidates import RECALIBRATE
+from twintube.diagnosis.measurement.faults import PUT_RIGHT
 from twintube.diagnosis.result import Tried
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.verdict.confidence import WEIGHTS, Evidence, evidence, features, probabilities
 from twintube.lab.challenge.score import wanted
 
 PRIOR = 4.0  # standard deviation of a weight: a feature that seldom occurs does not run away

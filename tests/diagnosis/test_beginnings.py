@@ -12,8 +12,8 @@ from tests.diagnosis import small
 from twintube.arrays import Array
 from twintube.data import Record
 from twintube.diagnosis import diagnose
-from twintube.diagnosis.answer import BEGUN
-from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.verdict.answer import BEGUN
 
 APART = (-1.2, 0.7, 2.0, -0.4)  # [K] from one record to another
 FADE = 0.02  # [1/K] of the viscosity

@@ -9,8 +9,8 @@ from scipy.signal import lfilter
 from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.calibration import best_calibration, calibration
-from twintube.diagnosis.candidates import (
+from twintube.diagnosis.fits.calibration import best_calibration, calibration
+from twintube.diagnosis.fits.candidates import (
     Candidate,
     candidates,
     linear,
@@ -18,12 +18,12 @@ from twintube.diagnosis.candidates import (
     period,
     usual_delay,
 )
-from twintube.diagnosis.edges import with_noise
-from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.fits.starts import best_start, lowest
+from twintube.diagnosis.measurement.edges import with_noise
+from twintube.diagnosis.measurement.sampling import with_sampling
+from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.sampling import with_sampling
-from twintube.diagnosis.seen import DELAY
-from twintube.diagnosis.starts import best_start, lowest
 
 KELVIN = {"fade_kelvin", "friction_kelvin", "gas_kelvin"}
 

@@ -8,10 +8,10 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.data import Record
-from twintube.diagnosis.candidates import FAULT_TITLES, Candidate, faults, nuisances, period, usual_delay
-from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.fits.candidates import FAULT_TITLES, Candidate, faults, nuisances, period, usual_delay
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.fits.starts import best_start
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.starts import best_start
 
 SPEEDS = (0.1, 0.3, 1.0)
 

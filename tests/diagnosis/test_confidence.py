@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from benchmarks.calibrate import fitted_weights
-from twintube.diagnosis.candidates import RECALIBRATE
-from twintube.diagnosis.confidence import WEIGHTS, evidence, features, probabilities
-from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.fits.candidates import RECALIBRATE
+from twintube.diagnosis.measurement.faults import PUT_RIGHT
 from twintube.diagnosis.result import Tried
+from twintube.diagnosis.verdict.confidence import WEIGHTS, evidence, features, probabilities
 
 KNOWN = ("valve_wear", "fluid_lag", "force_gain")
 

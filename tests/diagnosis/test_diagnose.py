@@ -17,15 +17,15 @@ from twintube.cli import app
 from twintube.dampers import load
 from twintube.data import Record
 from twintube.diagnosis import Diagnosis, diagnose, engine
-from twintube.diagnosis.candidates import candidates
-from twintube.diagnosis.edges import with_edges, with_noise
 from twintube.diagnosis.engine import contradicted, says_more, split
-from twintube.diagnosis.fit import Free, Problem
-from twintube.diagnosis.prepare import prepare
+from twintube.diagnosis.fits.candidates import candidates
+from twintube.diagnosis.fits.fit import Free, Problem
+from twintube.diagnosis.measurement.edges import with_edges, with_noise
+from twintube.diagnosis.measurement.zeros import zero_drift
+from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.result import Estimate, RecordResult
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.where import maps, structured
-from twintube.diagnosis.zeros import zero_drift
+from twintube.diagnosis.verdict.where import maps, structured
 from twintube.engine.simulate import InputError
 from twintube.lab.blind_trials.trials import Trial, dataset, trial, write
 

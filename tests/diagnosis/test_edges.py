@@ -8,9 +8,9 @@ from scipy.signal import sawtooth
 
 from tests.diagnosis import small
 from twintube.dampers import load
-from twintube.diagnosis.edges import between_readings, with_edges, with_motion, with_noise
-from twintube.diagnosis.faults import scaled
-from twintube.diagnosis.thinning import thin
+from twintube.diagnosis.measurement.edges import between_readings, with_edges, with_motion, with_noise
+from twintube.diagnosis.measurement.faults import scaled
+from twintube.diagnosis.records.thinning import thin
 from twintube.engine.simulate import simulate
 
 LEVEL = 4e-5  # [m] of a coarse stroke channel

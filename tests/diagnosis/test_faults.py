@@ -8,7 +8,7 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.data import DataError, Record
-from twintube.diagnosis.faults import read, unit_error
+from twintube.diagnosis.measurement.faults import read, unit_error
 
 
 @pytest.fixture(scope="module")

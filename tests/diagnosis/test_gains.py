@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from twintube.arrays import Array
-from twintube.diagnosis.gains import bootstrap, errors, floor, gains, removed, whole, worst
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.gains import bootstrap, errors, floor, gains, removed, whole, worst
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.result import RecordResult
 from twintube.diagnosis.rules import RULES
 

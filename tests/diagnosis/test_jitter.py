@@ -7,11 +7,11 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.data import Record
-from twintube.diagnosis.edges import with_edges, with_noise
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.jitter import jitter, jittered, with_jitter
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.measurement.edges import with_edges, with_noise
+from twintube.diagnosis.measurement.jitter import jitter, jittered, with_jitter
+from twintube.diagnosis.measurement.sampling import with_sampling
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.sampling import with_sampling
 
 RATE = 128.0  # [Hz] of the logger
 

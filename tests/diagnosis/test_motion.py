@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from twintube.diagnosis.motion import straight_sided
+from twintube.diagnosis.measurement.motion import straight_sided
 
 SPEED, REACH, RATE = 0.8, 0.04, 128.0  # [m/s], [m], [Hz]
 

@@ -9,10 +9,10 @@ import pytest
 from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.edges import with_edges, with_noise
-from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.odd import odd_records
-from twintube.diagnosis.zeros import zero_drift
+from twintube.diagnosis.measurement.edges import with_edges, with_noise
+from twintube.diagnosis.measurement.faults import Fault
+from twintube.diagnosis.measurement.odd import odd_records
+from twintube.diagnosis.measurement.zeros import zero_drift
 
 ODD = 2  # the number of the record that is changed
 
@@ -81,7 +81,7 @@ def test_a_record_is_odd_by_its_gain_where_most_intervals_have_little_force(
     good: list[Record], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As in a random motion: by its mean error it would belong to the others, and its gain would be named."""
-    monkeypatch.setattr("twintube.diagnosis.odd.differ", lambda *_: False)
+    monkeypatch.setattr("twintube.diagnosis.measurement.odd.differ", lambda *_: False)
     fault, _ = judged(changed(good, lambda r: replace(r, force=1.1 * r.force)))
     assert fault is not None and fault.effect == "odd_record"
 

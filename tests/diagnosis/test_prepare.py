@@ -10,13 +10,13 @@ from tests.diagnosis import small
 from twintube.arrays import Array
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.edges import alone, less_noise, with_edges, with_noise, with_outliers, without_outliers
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.noise import averaging_noise, correlation, neighbour_noise, noise
-from twintube.diagnosis.prepare import kicks, prepared
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.measurement.edges import alone, less_noise, with_edges, with_noise, with_outliers, without_outliers
+from twintube.diagnosis.records.noise import averaging_noise, correlation, neighbour_noise, noise
+from twintube.diagnosis.records.prepare import kicks, prepared
+from twintube.diagnosis.records.record import PreparedRecord
+from twintube.diagnosis.records.thinning import thin
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.thinning import thin
 from twintube.fitting.intervals import impulse
 
 SIGMA = 4.0  # [N]

@@ -11,12 +11,12 @@ from twintube.arrays import Array
 from twintube.core import effects
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.candidates import period, unfiltered, usual_delay
-from twintube.diagnosis.edges import barely_cavitating, with_edges, with_noise
-from twintube.diagnosis.fit import Problem
+from twintube.diagnosis.fits.candidates import period, unfiltered, usual_delay
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.measurement.edges import barely_cavitating, with_edges, with_noise
+from twintube.diagnosis.measurement.sampling import with_sampling
+from twintube.diagnosis.records.seen import SAMPLING
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.sampling import with_sampling
-from twintube.diagnosis.seen import SAMPLING
 
 SPEEDS = (0.3, 0.6, 1.0)
 COARSE = 40  # samples per oscillation

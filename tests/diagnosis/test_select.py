@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from tests.diagnosis import small
-from twintube.diagnosis.candidates import RECALIBRATE, candidates, nuisances
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.options import Fold, Option
+from twintube.diagnosis.fits.candidates import RECALIBRATE, candidates, nuisances
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.fits.options import Fold, Option
+from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import DELAY
-from twintube.diagnosis.select import Selector
+from twintube.diagnosis.selection.select import Selector
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,8 @@ import pytest
 from scipy.signal import lsim
 
 from twintube.data import Record
-from twintube.diagnosis.line import peaks, unrepeated
-from twintube.diagnosis.signature import signatures
+from twintube.diagnosis.measurement.line import peaks, unrepeated
+from twintube.diagnosis.measurement.signature import signatures
 from twintube.lab.blind_trials.trials import dataset, trial
 
 AMPLITUDE = 0.045

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tests.diagnosis import small
-from twintube.diagnosis.faults import Fault, really_turned, scaled
-from twintube.diagnosis.odd import odd_records
+from twintube.diagnosis.measurement.faults import Fault, really_turned, scaled
+from twintube.diagnosis.measurement.odd import odd_records
 
 
 @pytest.fixture(scope="module")

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from twintube.diagnosis.candidates import RECALIBRATE, Candidate
-from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.options import Option, Selection
+from twintube.diagnosis.fits.candidates import RECALIBRATE, Candidate
+from twintube.diagnosis.fits.options import Option, Selection
+from twintube.diagnosis.measurement.faults import Fault
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.verdict import Judgement, judge, sentence
+from twintube.diagnosis.verdict.verdict import Judgement, judge, sentence
 
 COUNT = 1000  # held-out samples
 SCORE = 2000.0  # of the model without a cause, twice the negative log-likelihood

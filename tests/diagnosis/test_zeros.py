@@ -9,10 +9,10 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.dampers import load
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.measurement.zeros import differ, scatter, step, zero_change, zero_drift
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.zeros import differ, scatter, step, zero_change, zero_drift
 
 SPEEDS = (0.131, 0.262, 0.524, 0.786, 1.048)  # [m/s]
 COUNT = 300  # draws of a rate of alarms

@@ -9,7 +9,7 @@ from scipy.ndimage import uniform_filter1d
 from tests.diagnosis.test_signature import AMPLITUDE, bench, changed
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.signature import oscillating
+from twintube.diagnosis.measurement.signature import oscillating
 from twintube.fitting.averaging import averaged, averaged_means, averaging, period, through
 from twintube.identification import Harmonic
 from twintube.identification.sines import identify_sines

@@ -22,9 +22,9 @@ from twintube.core.checks import tube_limit
 from twintube.core.effects import EFFECTS
 from twintube.dampers import Damper, load
 from twintube.data import Record
-from twintube.diagnosis.candidates import candidates
-from twintube.diagnosis.prepare import prepared
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.candidates import candidates
+from twintube.diagnosis.records.prepare import prepared
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.result import (
     VERDICTS,
     Alternative,

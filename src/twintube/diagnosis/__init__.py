@@ -1,10 +1,9 @@
 """Diagnosis: where the simulation differs from measured data, why, and what the extended model gains.
 
-record.py and prepare.py (records), noise.py and edges.py (their errors), faults.py (sign, unit, smoothing), signature.py and
-line.py (causes outside the catalogue), fit.py (least squares), zeros.py (zeros of the load cell), candidates.py (effects and
-faults), select.py, choice.py and judge.py (which of them), verdict.py (the decision and its sentence), gains.py (errors and
-gains), where.py (maps), answer.py, result.py (the answer), engine.py (all of it). rules.py holds every threshold with its
-reason. What identification needs as well is in twintube.fitting.
+In the order of a diagnosis: `records` (what is compared), `measurement` (what belongs to it and not to the damper), `fits`
+(the model and its candidates against the records), `selection` (which of them), `verdict` (what is said). engine.py runs all
+of it, result.py is the answer, rules.py holds every threshold with its reason. What identification needs as well is in
+twintube.fitting.
 """
 
 from twintube.diagnosis.engine import diagnose

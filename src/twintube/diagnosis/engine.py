@@ -8,25 +8,25 @@ from pathlib import Path
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.diagnosis.answer import answer, predictions, simulated
-from twintube.diagnosis.candidates import LATE, RECALIBRATE, candidates
-from twintube.diagnosis.edges import with_motion, with_noise, with_outliers, without_outliers
-from twintube.diagnosis.faults import STRANGER, Fault, force_averaging, read, really_turned, scaled, unit_error
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.gains import bootstrap, gains, whole, worst
-from twintube.diagnosis.history import bare_of_strokes, settled, with_history
-from twintube.diagnosis.jitter import with_uncertainty
-from twintube.diagnosis.odd import odd_records
-from twintube.diagnosis.options import Fold
-from twintube.diagnosis.prepare import prepare
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.candidates import LATE, RECALIBRATE, candidates
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.fits.gains import bootstrap, gains, whole, worst
+from twintube.diagnosis.fits.options import Fold
+from twintube.diagnosis.measurement.edges import with_motion, with_noise, with_outliers, without_outliers
+from twintube.diagnosis.measurement.faults import STRANGER, Fault, force_averaging, read, really_turned, scaled, unit_error
+from twintube.diagnosis.measurement.history import bare_of_strokes, settled, with_history
+from twintube.diagnosis.measurement.jitter import with_uncertainty
+from twintube.diagnosis.measurement.odd import odd_records
+from twintube.diagnosis.measurement.sampling import with_sampling
+from twintube.diagnosis.measurement.saturation import saturated
+from twintube.diagnosis.measurement.signature import signatures
+from twintube.diagnosis.measurement.zeros import zero_change, zero_drift
+from twintube.diagnosis.records.prepare import prepare
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.result import Diagnosis, Gain
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.sampling import with_sampling
-from twintube.diagnosis.saturation import saturated
-from twintube.diagnosis.select import Selector
-from twintube.diagnosis.signature import signatures
-from twintube.diagnosis.zeros import zero_change, zero_drift
+from twintube.diagnosis.selection.select import Selector
+from twintube.diagnosis.verdict.answer import answer, predictions, simulated
 from twintube.engine.simulate import InputError
 from twintube.fitting.splits import distinct
 

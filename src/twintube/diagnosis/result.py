@@ -6,7 +6,7 @@ from typing import Any
 from twintube.arrays import Array
 from twintube.core.effects import EFFECTS
 from twintube.dampers import Damper
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 
 VERDICTS = ("cause", "none", "recalibrate", "ambiguous", "unexplained", "measurement_fault")

@@ -1,10 +1,10 @@
 """The answer in four lines, alike on the page and in the terminal: verdict, how sure it is, a number, the next step."""
 
 from twintube.core.effects import EFFECTS
-from twintube.diagnosis.candidates import RECALIBRATE
-from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.fits.candidates import RECALIBRATE
+from twintube.diagnosis.measurement.faults import PUT_RIGHT
 from twintube.diagnosis.result import Cause, Diagnosis
-from twintube.diagnosis.verdict import lower, share
+from twintube.diagnosis.verdict.verdict import lower, share
 from twintube.readable import amount
 from twintube.report.engineering import title_of
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from twintube.arrays import Array
 from twintube.data.condition import is_intact
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.result import Diagnosis, RecordResult
 from twintube.diagnosis.rules import RULES
 from twintube.report import style

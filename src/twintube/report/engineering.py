@@ -3,9 +3,9 @@
 from dataclasses import fields
 
 from twintube.core.effects import EFFECTS, Parameters
-from twintube.diagnosis.candidates import FAULT_TITLES, RECALIBRATE
-from twintube.diagnosis.seen import CARRIED, FILL
-from twintube.diagnosis.verdict import lower
+from twintube.diagnosis.fits.candidates import FAULT_TITLES, RECALIBRATE
+from twintube.diagnosis.records.seen import CARRIED, FILL
+from twintube.diagnosis.verdict.verdict import lower
 
 
 def is_share(effect: str, parameter: str) -> bool:

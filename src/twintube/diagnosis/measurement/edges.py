@@ -13,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import period
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.history import logs, sudden
-from twintube.diagnosis.motion import along, between_samples, measured_again, straight_sided
-from twintube.diagnosis.noise import SCATTER, colour, noise
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.candidates import period
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.measurement.history import logs, sudden
+from twintube.diagnosis.measurement.motion import along, between_samples, measured_again, straight_sided
+from twintube.diagnosis.records.noise import SCATTER, colour, noise
+from twintube.diagnosis.records.record import PreparedRecord
+from twintube.diagnosis.records.seen import BENDS, DELAY, SAMPLING, STROKE_GAIN
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import BENDS, DELAY, SAMPLING, STROKE_GAIN
 from twintube.fitting.simulation import MARGIN
 
 

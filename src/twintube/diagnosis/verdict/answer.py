@@ -8,17 +8,17 @@ import numpy as np
 from twintube.core import effects
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset
-from twintube.diagnosis.candidates import RECALIBRATE, Candidate
-from twintube.diagnosis.confidence import evidence, probabilities
-from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.fit import Fit, Free, Problem
-from twintube.diagnosis.gains import bootstrap, errors, floor, gains, whole, worst
-from twintube.diagnosis.options import Option, Selection
+from twintube.diagnosis.fits.candidates import RECALIBRATE, Candidate
+from twintube.diagnosis.fits.fit import Fit, Free, Problem
+from twintube.diagnosis.fits.gains import bootstrap, errors, floor, gains, whole, worst
+from twintube.diagnosis.fits.options import Option, Selection
+from twintube.diagnosis.measurement.faults import Fault
 from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, Gain, RecordResult, Signature, Tried
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.select import Selector
-from twintube.diagnosis.verdict import judge, sentence
-from twintube.diagnosis.where import describe, maps, structured
+from twintube.diagnosis.selection.select import Selector
+from twintube.diagnosis.verdict.confidence import evidence, probabilities
+from twintube.diagnosis.verdict.verdict import judge, sentence
+from twintube.diagnosis.verdict.where import describe, maps, structured
 from twintube.fitting.parameters import DEGRADATION
 
 PUT_RIGHT = "faults were put right for everything shown here; their gain is relative to the force"

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from twintube.diagnosis.candidates import nuisances, unfiltered, usual_delay
-from twintube.diagnosis.fit import Free, Problem
+from twintube.diagnosis.fits.candidates import nuisances, unfiltered, usual_delay
+from twintube.diagnosis.fits.fit import Free, Problem
+from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import DELAY
 
 
 def with_sampling(problem: Problem) -> Problem:

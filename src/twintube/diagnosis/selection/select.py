@@ -6,16 +6,16 @@ from dataclasses import replace
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.diagnosis.calibration import best_calibration, calibration
-from twintube.diagnosis.candidates import LATE, MOVING, RECALIBRATE, Candidate, linear, nuisances
-from twintube.diagnosis.choice import Chooser
-from twintube.diagnosis.edges import less_noise
-from twintube.diagnosis.fit import Fit, Free, Problem
-from twintube.diagnosis.options import Fold, Option, Selection, fitted
-from twintube.diagnosis.rivals import general, leading, near
+from twintube.diagnosis.fits.calibration import best_calibration, calibration
+from twintube.diagnosis.fits.candidates import LATE, MOVING, RECALIBRATE, Candidate, linear, nuisances
+from twintube.diagnosis.fits.fit import Fit, Free, Problem
+from twintube.diagnosis.fits.options import Fold, Option, Selection, fitted
+from twintube.diagnosis.fits.starts import best_start, measured, start_cost
+from twintube.diagnosis.measurement.edges import less_noise
+from twintube.diagnosis.records.seen import DELAY, MEASUREMENT
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import DELAY, MEASUREMENT
-from twintube.diagnosis.starts import best_start, measured, start_cost
+from twintube.diagnosis.selection.choice import Chooser
+from twintube.diagnosis.selection.rivals import general, leading, near
 
 
 class Selector(Chooser):

@@ -8,9 +8,9 @@ import numpy as np
 
 from twintube.core import effects
 from twintube.core.hooks import Effect, sources
-from twintube.diagnosis.fit import Free, Problem
+from twintube.diagnosis.fits.fit import Free, Problem
+from twintube.diagnosis.records.seen import BENDS, CARRIED, CLOCK, DELAY, LINEAR, SETTLING, STROKE_GAIN
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import BENDS, CARRIED, CLOCK, DELAY, LINEAR, SETTLING, STROKE_GAIN
 
 FAULT_TITLES = {
     "force_offset": "Zero of the load cell",

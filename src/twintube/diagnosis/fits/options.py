@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import nuisances
-from twintube.diagnosis.fit import Fit, Free, Problem
+from twintube.diagnosis.fits.candidates import nuisances
+from twintube.diagnosis.fits.fit import Fit, Free, Problem
+from twintube.diagnosis.records.seen import LINEAR
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import LINEAR
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.core import effects
 from twintube.dampers import Damper
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.engine import compiled
 from twintube.fitting.averaging import averaged_means

@@ -6,10 +6,10 @@ import numpy as np
 from scipy.optimize import differential_evolution
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import RECALIBRATE, Candidate, linear
-from twintube.diagnosis.fit import Free, Problem
+from twintube.diagnosis.fits.candidates import RECALIBRATE, Candidate, linear
+from twintube.diagnosis.fits.fit import Free, Problem
+from twintube.diagnosis.fits.starts import best_start
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.starts import best_start
 from twintube.fitting.parameters import DEGRADATION, ranges
 
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import RECALIBRATE
-from twintube.diagnosis.faults import PUT_RIGHT
+from twintube.diagnosis.fits.candidates import RECALIBRATE
+from twintube.diagnosis.measurement.faults import PUT_RIGHT
 from twintube.diagnosis.result import Tried
 from twintube.diagnosis.rules import RULES
 

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.diagnosis.candidates import EXACT, FACTORS, LATE, RECALIBRATE, Candidate
-from twintube.diagnosis.faults import STRANGER, Fault
-from twintube.diagnosis.options import Option, Selection
+from twintube.diagnosis.fits.candidates import EXACT, FACTORS, LATE, RECALIBRATE, Candidate
+from twintube.diagnosis.fits.options import Option, Selection
+from twintube.diagnosis.measurement.faults import STRANGER, Fault
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
-from twintube.diagnosis.rivals import rivals
 from twintube.diagnosis.rules import RULES
+from twintube.diagnosis.selection.rivals import rivals
 
 NUMBERS = {2: "Two", 3: "Three"}
 

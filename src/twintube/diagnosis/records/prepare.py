@@ -11,10 +11,10 @@ from twintube.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.data import LoadedDataset, Record
 from twintube.data.defects import resolution
-from twintube.diagnosis.noise import noise
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.records.noise import noise
+from twintube.diagnosis.records.record import PreparedRecord
+from twintube.diagnosis.records.thinning import thin
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.thinning import thin
 from twintube.engine.simulate import checked
 from twintube.fitting.intervals import impulse, means
 from twintube.fitting.strokes import noise as noise_of_stroke

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from twintube.diagnosis.candidates import faults
-from twintube.diagnosis.faults import STRANGER, Fault, unit_error
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.jitter import with_uncertainty
+from twintube.diagnosis.fits.candidates import faults
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.measurement.faults import STRANGER, Fault, unit_error
+from twintube.diagnosis.measurement.jitter import with_uncertainty
+from twintube.diagnosis.records.seen import STROKE_GAIN
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import STROKE_GAIN
 
 
 def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 
 SCATTER = 1.4826  # standard deviation of normal errors over their median absolute value

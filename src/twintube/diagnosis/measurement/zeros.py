@@ -11,11 +11,11 @@ import numpy as np
 from scipy.stats import kruskal
 
 from twintube.arrays import Array
-from twintube.diagnosis.faults import Fault
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.gains import bootstrap
-from twintube.diagnosis.noise import BEND, SCATTER
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.fits.gains import bootstrap
+from twintube.diagnosis.measurement.faults import Fault
+from twintube.diagnosis.records.noise import BEND, SCATTER
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 
 EVENLY, RUNNING = 0, -1  # a zero moves from record to record, or with the time that is recorded

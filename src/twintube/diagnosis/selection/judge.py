@@ -11,11 +11,11 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.arrays import Array
-from twintube.diagnosis.candidates import LATE, RECALIBRATE, SCALING
-from twintube.diagnosis.gains import bootstrap, removed
-from twintube.diagnosis.options import Fold, Option, counts_of, logs
+from twintube.diagnosis.fits.candidates import LATE, RECALIBRATE, SCALING
+from twintube.diagnosis.fits.gains import bootstrap, removed
+from twintube.diagnosis.fits.options import Fold, Option, counts_of, logs
+from twintube.diagnosis.measurement.zeros import differ, step
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.zeros import differ, step
 
 
 class Judge:

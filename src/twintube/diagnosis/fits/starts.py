@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from twintube.diagnosis.candidates import LATENESS, MOVING, RECALIBRATE, Candidate, linear, nuisances
-from twintube.diagnosis.fit import Free, Problem
+from twintube.diagnosis.fits.candidates import LATENESS, MOVING, RECALIBRATE, Candidate, linear, nuisances
+from twintube.diagnosis.fits.fit import Free, Problem
+from twintube.diagnosis.records.seen import CLOCK, DELAY
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import CLOCK, DELAY
 
 
 def grid(candidate: Candidate, f: Free) -> list[float]:

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 
-from twintube.diagnosis.candidates import ALIKE, FACTORS, FADING, LATE, RECALIBRATE, Candidate, nuisances, period
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.judge import Judge
-from twintube.diagnosis.options import Fold, Option
-from twintube.diagnosis.rivals import general
+from twintube.diagnosis.fits.candidates import ALIKE, FACTORS, FADING, LATE, RECALIBRATE, Candidate, nuisances, period
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.fits.options import Fold, Option
+from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import DELAY
+from twintube.diagnosis.selection.judge import Judge
+from twintube.diagnosis.selection.rivals import general
 from twintube.fitting.splits import distinct
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from twintube.arrays import Array
 from twintube.data import Record
 from twintube.data.defects import clipped
-from twintube.diagnosis.line import line
+from twintube.diagnosis.measurement.line import line
 from twintube.diagnosis.result import Signature
 from twintube.diagnosis.rules import RULES
 from twintube.engine.simulate import InputError

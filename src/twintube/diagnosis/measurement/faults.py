@@ -10,11 +10,11 @@ from scipy.interpolate import PPoly
 from twintube.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.data import LoadedDataset, Record, check_dataset, load_dataset
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.prepare import prepare
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.measurement.signature import oscillating
+from twintube.diagnosis.records.prepare import prepare
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.signature import oscillating
 from twintube.fitting.averaging import averaging, through
 
 # Factors by which a channel is wrong if its unit is not the stated one.

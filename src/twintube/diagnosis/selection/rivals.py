@@ -1,9 +1,9 @@
 """What explains the records as well as what was chosen."""
 
-from twintube.diagnosis.candidates import CONTENTS, FACTORS, FRICTION, RECALIBRATE
-from twintube.diagnosis.options import Option, Selection
+from twintube.diagnosis.fits.candidates import CONTENTS, FACTORS, FRICTION, RECALIBRATE
+from twintube.diagnosis.fits.options import Option, Selection
+from twintube.diagnosis.records.seen import MEASUREMENT
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import MEASUREMENT
 
 
 def rivals(selection: Selection, left: bool) -> list[Option]:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.rig.signals import PRECONDITIONING, STARTS, V_PRECONDITIONING, approach, joined, oscillations
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from twintube.arrays import Array
-from twintube.diagnosis.fit import Problem
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.result import Signature
 from twintube.diagnosis.rules import RULES
 

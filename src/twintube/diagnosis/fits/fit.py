@@ -10,9 +10,9 @@ from scipy.optimize import lsq_linear
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
-from twintube.diagnosis.record import PreparedRecord
+from twintube.diagnosis.records.record import PreparedRecord
+from twintube.diagnosis.records.seen import ADDED, DELAY, MEASUREMENT, REMEMBERED, SeenRecords
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.seen import ADDED, DELAY, MEASUREMENT, REMEMBERED, SeenRecords
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
 
 TINY = 1e-300  # so that nothing can be divided by

@@ -1,0 +1,1 @@
+"""Which causes the records ask for, and what explains them as well."""

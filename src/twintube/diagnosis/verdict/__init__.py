@@ -1,0 +1,1 @@
+"""What is said: the verdict, its sentence, probabilities, and where the model is wrong."""
