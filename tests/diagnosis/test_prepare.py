@@ -160,7 +160,7 @@ def test_what_a_fill_leaves_open_at_a_jump_is_no_misfit() -> None:
 def seen(force: Array, held: NDArray[np.int64]) -> tuple[float, float]:
     """Noise of a sample and correlation of neighbours, from all intervals."""
     calm = np.ones(len(force), dtype=bool)
-    alike = correlation(force, held, calm)
+    alike = correlation(force, held, calm, RULES.coloured_alone)
     return neighbour_noise(force, held, calm, alike), alike
 
 
@@ -180,6 +180,19 @@ def test_noise_whose_neighbours_are_alike_is_not_taken_too_small(alike: float) -
     several = [seen(coloured(alike, seed), held) for seed in range(12)]
     # By second differences alone it would be 0.6 at a correlation of 0.5, and 0.33 at 0.8.
     assert 0.75 < float(np.median([size * averaging_noise(held[:1], c)[0] for size, c in several])) < 1.25
+
+
+def test_white_noise_beside_does_not_hide_the_colour() -> None:
+    """A force channel with memory, and the rest of a stroke's noise: neighbours alone ask for too little noise."""
+    held, sizes = np.full(1500, 3), []
+    for seed in range(8):
+        samples = coloured(0.85, seed, 4501)
+        ends = np.arange(0, 4501, 3)
+        sums = np.add.reduceat(samples[:-1], ends[:-1]) - 0.5 * samples[ends[:-1]] + 0.5 * samples[ends[1:]]
+        means = sums / 3.0 + 0.3 * coloured(0.0, 100 + seed)
+        size, c = seen(means, held)
+        sizes.append(size * float(averaging_noise(held[:1], c)[0]) / float(np.std(means)))
+    assert 0.8 < float(np.median(sizes)) < 1.15
 
 
 @pytest.mark.parametrize("alike", [0.0, 0.3, 0.7])

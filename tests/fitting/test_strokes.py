@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy.signal import sawtooth
+from scipy.signal import butter, lfilter, sawtooth
 
 from twintube.arrays import Array
 from twintube.fitting.strokes import noise, quiet, turns
@@ -98,6 +98,35 @@ def test_a_drive_sampled_too_coarsely_is_left_alone() -> None:
     rng = np.random.default_rng(3)
     time, stroke = np.arange(0.0, 20.0, 1e-2), rng.normal(0.0, 5e-3, 2000)
     assert np.array_equal(quiet(time, stroke), stroke)
+
+
+def road(rate: float, servo: float, wheel: float = 0.12) -> Array:
+    """The stroke [m] of a drive of 20 s on a rig of second order up to `servo` [Hz]: body and some `wheel` [1] on a road."""
+    white = np.random.default_rng(0).standard_normal(int(20.0 * rate) + 1000)
+    body, hop = (lfilter(*butter(1, [0.7 * f, 1.4 * f], "bandpass", fs=rate), white) for f in (1.3, 11.0))
+    stroke = lfilter(*butter(2, servo, fs=rate), body / np.std(body) + wheel * hop / np.std(hop))[1000:]
+    return np.asarray(0.02 * stroke / np.abs(stroke).max())
+
+
+@pytest.mark.parametrize("rate", [200.0, 500.0, 1000.0])
+@pytest.mark.parametrize("wheel", [0.02, 0.05, 0.12])
+def test_a_drive_is_no_noise(rate: float, wheel: float) -> None:
+    """Of a random motion differences level off, too, at distances at which it does not know itself any more.
+
+    Behind slow strokes they are small in terms of the range.
+    """
+    drive, slow = road(rate, 30.0, wheel), 0.012 * np.sin(2 * np.pi * np.arange(0.0, 10.0, 1.0 / rate) / 5.0)
+    for stroke in (drive, np.concatenate([slow, 0.25 * (drive - drive[0])])):
+        assert np.array_equal(quiet(np.arange(len(stroke)) / rate, stroke), stroke)
+
+
+@pytest.mark.parametrize(("servo", "size"), [(20.0, 1e-6), (30.0, 3e-6), (30.0, 1e-5)])
+def test_noise_of_a_drive_is_seen_though_the_motion_follows_close(servo: float, size: float) -> None:
+    stroke = road(1000.0, servo)
+    white = np.random.default_rng(5).normal(0.0, size, len(stroke))
+    assert noise(stroke + white) == (pytest.approx(size, rel=0.1), 1)
+    left = quiet(np.arange(len(stroke)) / 1000.0, stroke + white) - stroke
+    assert np.std(np.diff(left)) < 0.7 * np.std(np.diff(white))
 
 
 def test_few_samples_are_left_alone() -> None:

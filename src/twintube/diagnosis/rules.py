@@ -65,11 +65,13 @@ class Rules:
     jitter_least: int = records(30, "", "intervals that must show it", JUDGEMENT)
     most_jitter: float = records(0.01, "1", "of a sample period: what asks for more is no jitter", DEVELOPMENT)
     coloured_least: int = records(200, "", "intervals from which the colour of noise is seen", JUDGEMENT)
+    coloured_repeated: tuple[int, int] = records(
+        (2, 3), "", "intervals apart, that show with neighbours what colour it is, and that check it", DEVELOPMENT
+    )
+    coloured_alone: tuple[int, int] = records((4, 12), "", "the like where no oscillation repeats", DEVELOPMENT)
     few_samples: int = records(8, "", "samples of an interval, up to which its ends that are shared count", NUMERICS)
     most_alike: float = records(0.9, "1", "correlation of samples an interval apart that noise has at most", JUDGEMENT)
-    smooth: float = records(
-        1.15, "1", "times what noise gains from neighbours to those at three times the distance: an error", JUDGEMENT
-    )
+    smooth: float = records(1.15, "1", "times what noise gains from neighbours to intervals far apart: an error", JUDGEMENT)
     alike_turns: float = records(
         1.1, "1", "oscillations whose durations and ranges are within this factor share noise", JUDGEMENT
     )

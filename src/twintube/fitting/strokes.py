@@ -24,6 +24,9 @@ from twintube.data.defects import resolution
 ORDER = 6  # of the differences that show noise: those of a sine with 50 samples per oscillation are below 1e-7 of it
 LAGS = (1, 2, 4, 8, 16)  # samples between the values of a difference: filtered noise shows at some distance only
 LEVEL_OFF = 1.6  # growth from lag to lag below which a difference is noise: motion grows by 2^6, white noise not at all
+OVERTAKEN = 4.0  # the like from neighbours to the next, where growth from there on is ...
+FASTER = 1.5  # ... so many times that: of motion alone it is the less the further apart, white noise hides motion near by
+SMOOTHEST = 10.0  # times the difference of neighbours, to which that of noise grows: what grows more is a smooth motion
 LEAST = 1e-7  # [m], or [s] of the times: noise below which nothing counts it
 MOST = 0.01  # of the range: more is motion that is sampled too coarsely
 SCATTER = 1.4826  # standard deviation of normal errors over their median absolute value
@@ -54,7 +57,10 @@ def noise(stroke: Array) -> tuple[float, int]:
             break
         sizes.append(SCATTER * float(np.median(np.abs(differences))) / math.sqrt(math.comb(2 * ORDER, ORDER)))
     for lag, (near, far) in zip(LAGS, itertools.pairwise(sizes), strict=False):
-        if far <= LEVEL_OFF * near:
+        if near > SMOOTHEST * sizes[0]:
+            break
+        hidden = lag == LAGS[0] and far <= OVERTAKEN * near and FASTER * far * far < near * max(sizes[2:3], default=0.0)
+        if hidden or far <= LEVEL_OFF * near:
             return (near, lag) if LEAST <= near <= MOST * float(np.ptp(stroke)) else (0.0, 1)
     return 0.0, 1
 

@@ -85,29 +85,58 @@ def bent(force: Array, held: NDArray[np.int64], calm: NDArray[np.bool_], apart: 
     return float(np.median(bends[all_of_three(calm, apart)]))
 
 
-def correlation(force: Array, held: NDArray[np.int64], calm: NDArray[np.bool_]) -> float:
+def correlation(force: Array, held: NDArray[np.int64], calm: NDArray[np.bool_], apart: tuple[int, int]) -> float:
     """Correlation of neighbouring samples of noise, seen in mean forces (n,) [N]; 0 where it is none.
 
-    Second differences of neighbours and of every second interval ask for the same noise with it, those of every third say
-    whether it is noise: a model's error is smooth, and gains more.
+    Second differences of neighbours and of intervals a number `apart` ask for the same noise with it, those further apart
+    say whether it is noise: a model's error is smooth, and gains more.
     """
     if len(force) < RULES.coloured_least:
         return 0.0
+    near, far = apart
     several = np.linspace(0.0, RULES.most_alike, 50) ** (1.0 / float(np.median(held)))
-    gains = [bent(force, held, calm, 2, c) / max(bent(force, held, calm, 1, c), TINY) for c in several.tolist()]
+    gains = [bent(force, held, calm, near, c) / max(bent(force, held, calm, 1, c), TINY) for c in several.tolist()]
     alike = float(several[int(np.argmin(np.abs(np.log(np.maximum(gains, TINY)))))])
-    smooth = bent(force, held, calm, 3, alike) > RULES.smooth * bent(force, held, calm, 1, alike)
+    smooth = bent(force, held, calm, far, alike) > RULES.smooth * bent(force, held, calm, 1, alike)
     return 0.0 if smooth else alike
 
 
 def colour(records: Sequence[PreparedRecord], forces: Sequence[Array]) -> float:
-    """Correlation of neighbouring samples of noise, in forces (n,) [N] of each record: the channel has the same in all."""
+    """Correlation of neighbouring samples of noise, in forces (n,) [N] of each record: the channel has the same in all.
+
+    Where oscillations repeat it only says what noise other intervals have. Where none does all noise is read with it, and
+    next to what is left of the stroke's noise, which is white, it shows in intervals further apart.
+    """
     several = [
-        correlation(force[whole], record.samples[whole], calm(record)[whole])
+        correlation(
+            force[whole],
+            record.samples[whole],
+            calm(record)[whole],
+            RULES.coloured_repeated if repeating(record) else RULES.coloured_alone,
+        )
         for record, force, whole in ((r, f, r.samples > 0) for r, f in zip(records, forces, strict=True))
         if whole.sum() >= RULES.coloured_least
     ]
     return float(np.median(several)) if several else 0.0
+
+
+def repeating(record: PreparedRecord) -> bool:
+    """Whether a record has oscillations enough that are alike."""
+    return any(len(alike) >= RULES.repeats for alike in likes(record))
+
+
+def likes(record: PreparedRecord) -> list[NDArray[np.int64]]:
+    """Numbers of oscillations that are alike in their samples and ranges, and so share noise."""
+    held = np.maximum(record.samples, 1)
+    left = np.unique(record.cycle[record.cycle >= 0])
+    shape = {i: np.array([held[record.cycle == i].sum(), np.ptp(record.stroke[record.cycle == i])]) for i in left}
+    groups = []
+    while len(left):
+        alike = np.array([bool(np.all(np.abs(np.log(shape[i] / shape[left[0]])) < np.log(RULES.alike_turns))) for i in left])
+        groups.append(left[alike])
+        alike[0] = True
+        left = left[~alike]
+    return groups
 
 
 def calm(record: PreparedRecord) -> NDArray[np.bool_]:
@@ -122,14 +151,10 @@ def noise(record: PreparedRecord, force: Array) -> Array:
     like duration and range share it; what belongs to none has that of the most common, by its number of samples.
     """
     cycle, held, quiet = record.cycle, np.maximum(record.samples, 1), calm(record)
-    numbers = np.unique(cycle[cycle >= 0])
-    shape = np.array([(held[cycle == i].sum(), np.ptp(record.stroke[cycle == i])) for i in numbers])
     each = np.full(len(force), np.nan)
-    left, most, common = list(range(len(numbers))), 0, 0.0
-    while left:
-        alike = [i for i in left if np.all(np.abs(np.log(shape[i] / shape[left[0]])) < np.log(RULES.alike_turns))]
-        left = [i for i in left if i not in alike and i != left[0]]
-        inside = np.isin(cycle, numbers[alike])
+    most, common = 0, 0.0
+    for alike in likes(record):
+        inside = np.isin(cycle, alike)
         size = repeat_noise(force[inside], cycle[inside], quiet[inside])
         if size > 0.0:
             usual = round(float(np.median(held[inside])))
