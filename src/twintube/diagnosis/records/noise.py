@@ -107,17 +107,14 @@ def colour(records: Sequence[PreparedRecord], forces: Sequence[Array]) -> float:
     Where oscillations repeat it only says what noise other intervals have. Where none does all noise is read with it, and
     next to what is left of the stroke's noise, which is white, it shows in intervals further apart.
     """
-    several = [
-        correlation(
-            force[whole],
-            record.samples[whole],
-            calm(record)[whole],
-            RULES.coloured_repeated if repeating(record) else RULES.coloured_alone,
-        )
-        for record, force, whole in ((r, f, r.samples > 0) for r, f in zip(records, forces, strict=True))
-        if whole.sum() >= RULES.coloured_least
-    ]
-    return float(np.median(several)) if several else 0.0
+    own, counts = [], []
+    for record, force in zip(records, forces, strict=True):
+        whole = record.samples > 0
+        if whole.sum() >= RULES.coloured_least:
+            apart = RULES.coloured_repeated if repeating(record) else RULES.coloured_alone
+            own.append(correlation(force[whole], record.samples[whole], calm(record)[whole], apart))
+            counts.append(int(whole.sum()))
+    return float(np.median(np.repeat(own, counts))) if own else 0.0  # the longer a record, the better it tells
 
 
 def repeating(record: PreparedRecord) -> bool:
