@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from twintube.diagnosis.fits.candidates import RECALIBRATE, Candidate
+from twintube.diagnosis.fits.candidates import LOSING, RECALIBRATE, Candidate
 from twintube.diagnosis.fits.options import Option, Selection
 from twintube.diagnosis.measurement.faults import Fault
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
@@ -34,6 +34,7 @@ KNOWN = {
         candidate("side_load_friction", "Friction"),
         candidate("position_friction", "Friction at a place"),
         candidate("force_gain", "Calibration of the force channel", fault=True),
+        candidate("oil_level_error", "Fill"),
     )
 }
 
@@ -198,6 +199,17 @@ def test_a_friction_that_follows_a_good_part_of_another_is_no_rival(other: str, 
     chosen = selection(option("side_load_friction", score=score), *others)
     assert judged(chosen, forces=(100.0, 20.0, 10.0)).verdict == verdict
     assert judged(selection(option("side_load_friction", score=score), option(other, score=score))).verdict == "ambiguous"
+
+
+@pytest.mark.parametrize(("left", "verdict"), [(0.0, "cause"), (1.0, "ambiguous")])
+def test_a_fill_that_leaves_far_more_than_noise_may_be_a_leak(left: float, verdict: str) -> None:
+    """A fill that is wrong all along has no other formulation; a leak, which has, loses most of it before."""
+    final = option("oil_level_error", score=left * COUNT)
+    gained = SCORE - left * COUNT
+    leak = option(*LOSING, score=final.score + 0.9 * RULES.contents_apart * gained)
+    other = option("fluid_lag", score=final.score + 0.9 * RULES.contents_apart * gained)
+    for rival, said in ((leak, verdict), (other, "cause")):
+        assert judged(selection(final, rival), forces=(100.0, 10.5, 10.0)).verdict == said
 
 
 def test_a_signature_decides_where_it_is_a_good_part_of_the_error() -> None:

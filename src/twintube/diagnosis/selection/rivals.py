@@ -1,6 +1,6 @@
 """What explains the records as well as what was chosen."""
 
-from twintube.diagnosis.fits.candidates import CONTENTS, FACTORS, FRICTION, RECALIBRATE
+from twintube.diagnosis.fits.candidates import CONTENTS, FACTORS, FILLED, FRICTION, LOSING, RECALIBRATE
 from twintube.diagnosis.fits.options import Option, Selection
 from twintube.diagnosis.records.seen import MEASUREMENT
 from twintube.diagnosis.rules import RULES
@@ -47,6 +47,8 @@ def near(selection: Selection, left: bool) -> list[Option]:
         if pair <= {*FRICTION}:  # one friction follows a good part of any other
             return close
         # What becomes of freed gas shows in few strokes, where a law of one follows another's.
+        if pair & {*FILLED} and pair & {*LOSING} and best.total > RULES.odd_right * selection.count:
+            return max(wide, RULES.contents_apart * gained)  # a fill that is wrong all along would leave noise alone
         return max(wide, RULES.contents_apart * gained) if pair <= {*CONTENTS} else wide
 
     return [o for o in others if o.score - best.score <= most(o) and not richer(o, best)][: RULES.alternatives]
