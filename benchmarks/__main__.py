@@ -11,7 +11,7 @@ import typer
 
 from benchmarks.calibrate import bench_calibrate
 from benchmarks.car import bench_car
-from benchmarks.challenge import bench_challenge
+from benchmarks.challenge import WORKSHOP, bench_challenge
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.identify import bench_identify
@@ -31,7 +31,7 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,
     "detection": bench_detection,
 }
-NAMES = ", ".join((*BENCHMARKS, *SEEDED, "challenge", "calibrate"))
+NAMES = ", ".join((*BENCHMARKS, *SEEDED, "challenge", "workshop", "calibrate"))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
@@ -44,7 +44,7 @@ def main(
         Path | None,
         typer.Option(help="File that outcomes of diagnosis or detection are added to; those in it are not run again."),
     ] = None,
-    first_seed: Annotated[int, typer.Option(min=0, help="First seed of the challenge.")] = 0,
+    first_seed: Annotated[int, typer.Option(min=0, help="First seed of challenge or workshop.")] = 0,
     causes: Annotated[str, typer.Option(help="Causes of the challenge, joined by commas; by default the seed draws.")] = "",
     plot: Annotated[Path | None, typer.Option(help="Picture of the challenge's reliability.")] = None,
     tables: Annotated[Path | None, typer.Option(help="Tables of the challenge in Markdown.")] = None,
@@ -53,7 +53,7 @@ def main(
 
     diagnosis and detection measure hit rates on hidden causes and take hours with 10 seeds.
     """
-    if name not in (*BENCHMARKS, *SEEDED, "challenge", "calibrate"):
+    if name not in (*BENCHMARKS, *SEEDED, "challenge", "workshop", "calibrate"):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
     if name == "calibrate" and (keep is None or not keep.exists()):
@@ -61,8 +61,9 @@ def main(
         raise typer.Exit(2)
     compiled.module()
     figures: dict[str, Any]
-    if name == "challenge":
-        figures = bench_challenge(seeds, keep, first_seed, causes, plot, tables)
+    if name in ("challenge", WORKSHOP):
+        hidden = WORKSHOP if name == WORKSHOP else causes
+        figures = bench_challenge(seeds, keep, max(first_seed, int(name == WORKSHOP)), hidden, plot, tables)
     elif name == "calibrate" and keep is not None:
         figures = dict(bench_calibrate(keep))
     else:

@@ -1,4 +1,7 @@
-"""The diagnosis on datasets of the challenge: each is generated, diagnosed and marked; a run that was broken off goes on."""
+"""The diagnosis on datasets of the challenge or the workshop: each is generated, diagnosed and marked.
+
+A run that was broken off goes on.
+"""
 
 import json
 import math
@@ -12,19 +15,19 @@ from twintube.diagnosis import diagnose
 from twintube.diagnosis.result import as_json
 from twintube.errors import UserError
 from twintube.files import write_text
-from twintube.lab.challenge import cause_of, write
+from twintube.lab import challenge, workshop
 from twintube.lab.challenge.score import score
 from twintube.processes import pool
 from twintube.provenance import fingerprint
 
-SOURCES = ("twintube.lab.challenge", "twintube.diagnosis")
+WORKSHOP = "workshop"  # in place of a cause: the generator that knows its seeds' causes alone
 
 
 def outcome_of(seed: int, cause: str) -> dict[str, Any]:
     """Truth and answer of a seed; an error of the diagnosis is an answer, too."""
     with tempfile.TemporaryDirectory() as folder:
         data = Path(folder) / f"campaign_{seed}"
-        truth = write(seed, data, cause)
+        truth = workshop.write(seed, data) if cause == WORKSHOP else challenge.write(seed, data, cause)
         try:
             answer = as_json(diagnose(data))
         except UserError as error:
@@ -68,11 +71,13 @@ def bench_challenge(
 ) -> dict[str, Any]:
     """Figures of `score` over `seeds` seeds from `first_seed` on.
 
-    `causes`, names joined by commas, hides each of them under every seed; by default the seed says what is hidden.
+    `causes`, names joined by commas, hides each of them under every seed; by default the seed says what is hidden. With
+    `workshop` in their place the datasets are those of that generator.
     """
-    version = "+".join(fingerprint(module) for module in SOURCES)
+    generator = "twintube.lab.workshop" if causes == WORKSHOP else "twintube.lab.challenge"
+    version = "+".join(fingerprint(module) for module in (generator, "twintube.diagnosis"))
     numbers = range(first_seed, first_seed + seeds)
-    jobs = [(seed, cause) for seed in numbers for cause in (causes.split(",") if causes else [cause_of(seed)])]
+    jobs = [(seed, cause) for seed in numbers for cause in (causes.split(",") if causes else [challenge.cause_of(seed)])]
     done = {(entry["seed"], entry["wanted"]): entry for entry in kept_outcomes(keep, version)}
     missing = [job for job in jobs if job not in done]
     if missing:
