@@ -220,6 +220,13 @@ def test_an_error_of_the_model_is_not_taken_for_coloured_noise(period: int) -> N
     assert seen(error, held)[1] == 0.0
 
 
+def test_a_hum_is_not_taken_for_coloured_noise() -> None:
+    """It comes again: what gains from interval to interval is small again some way apart."""
+    hum = 5.0 * np.sin(2 * np.pi * 50.0 * np.arange(1500) / 400.0)
+    alike = seen(hum + coloured(0.0, 4), np.ones(1500, dtype=np.int64))[1]
+    assert alike == 0.0
+
+
 def test_noise_is_no_larger_than_the_errors_it_is_seen_in() -> None:
     """Steps of a few intervals make neighbours differ, and look coloured; most errors are small."""
     error = 0.3 * coloured(0.0, 3)

@@ -96,9 +96,10 @@ def correlation(force: Array, held: NDArray[np.int64], calm: NDArray[np.bool_], 
     near, far = apart
     several = np.linspace(0.0, RULES.most_alike, 50) ** (1.0 / float(np.median(held)))
     gains = [bent(force, held, calm, near, c) / max(bent(force, held, calm, 1, c), TINY) for c in several.tolist()]
-    alike = float(several[int(np.argmin(np.abs(np.log(np.maximum(gains, TINY)))))])
-    smooth = bent(force, held, calm, far, alike) > RULES.smooth * bent(force, held, calm, 1, alike)
-    return 0.0 if smooth else alike
+    best = int(np.argmin(np.abs(np.log(np.maximum(gains, TINY)))))
+    alike = float(several[best])
+    further = bent(force, held, calm, far, alike) / max(bent(force, held, calm, 1, alike), TINY)
+    return 0.0 if max(gains[best], further) > RULES.smooth else alike
 
 
 def colour(records: Sequence[PreparedRecord], forces: Sequence[Array]) -> float:
