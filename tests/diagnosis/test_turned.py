@@ -52,3 +52,13 @@ def test_a_turned_stroke_is_told_from_a_turned_force(runs: list[small.Run]) -> N
     for turned, record in zip(right.records, problem.records, strict=True):
         assert np.array_equal(turned.stroke, record.stroke) and np.array_equal(turned.force, record.force)
         assert turned.top_speed == record.top_speed
+
+
+def test_a_record_whose_work_does_not_tell_its_sign_is_turned_with_the_others(runs: list[small.Run]) -> None:
+    problem = small.problem([small.record(r, seed=i) for i, r in enumerate(runs)])
+    silent, *others = problem.records
+    door = problem.with_records([scaled(silent, -1.0, 1.0), *others])
+    fault, right = really_turned(Fault("sign_flip", "", "", -1.0, records=tuple(r.name for r in others)), door)
+    assert fault is not None and set(fault.records) == {r.name for r in problem.records}
+    assert fault.explanation == "The force channel has the other sign."
+    assert np.array_equal(right.records[0].force, silent.force)

@@ -106,7 +106,21 @@ def really_turned(turned: Fault | None, problem: Problem) -> tuple[Fault | None,
         better = (None, as_recorded)
     fault, best = better
     changed = {record.name: record for record in best.records}
-    return fault, problem.with_records([changed.get(record.name, record) for record in problem.records])
+    whole = problem.with_records([changed.get(record.name, record) for record in problem.records])
+    return (fault, whole) if fault is None or fault.channel != "force" else all_turned(fault, whole)
+
+
+def all_turned(fault: Fault, problem: Problem) -> tuple[Fault, Problem]:
+    """With the records, too, whose work does not tell the sign, as of a slow stroke, where the model tells it clearly."""
+    others = [scaled(record, -1.0, 1.0) for record in problem.records]
+    better = relative(problem) - relative(problem.with_records(others)) >= RULES.unit_clear
+    if not better.any():
+        return fault, problem
+    pairs = list(zip(problem.records, others, better, strict=True))
+    names = tuple(r.name for r, _, wrong in pairs if wrong or r.name in fault.records)
+    of = f" of {', '.join(names)}" if len(names) < len(pairs) else ""
+    named = replace(fault, explanation=f"The force channel{of} has the other sign.", records=names)
+    return named, problem.with_records([other if wrong else record for record, other, wrong in pairs])
 
 
 def stroke_turned(turned: Fault) -> Fault:
