@@ -31,7 +31,7 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,
     "detection": bench_detection,
 }
-NAMES = ", ".join((*BENCHMARKS, *SEEDED, "challenge", "workshop", "calibrate"))
+NAMES = ", ".join((*BENCHMARKS, *SEEDED, "challenge", WORKSHOP, "calibrate"))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
@@ -53,7 +53,7 @@ def main(
 
     diagnosis and detection measure hit rates on hidden causes and take hours with 10 seeds.
     """
-    if name not in (*BENCHMARKS, *SEEDED, "challenge", "workshop", "calibrate"):
+    if name not in (*BENCHMARKS, *SEEDED, "challenge", WORKSHOP, "calibrate"):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
     if name == "calibrate" and (keep is None or not keep.exists()):
@@ -63,7 +63,8 @@ def main(
     figures: dict[str, Any]
     if name in ("challenge", WORKSHOP):
         hidden = WORKSHOP if name == WORKSHOP else causes
-        figures = bench_challenge(seeds, keep, max(first_seed, int(name == WORKSHOP)), hidden, plot, tables)
+        first = max(first_seed, 1) if name == WORKSHOP else first_seed  # its seeds begin at 1
+        figures = bench_challenge(seeds, keep, first, hidden, plot, tables)
     elif name == "calibrate" and keep is not None:
         figures = dict(bench_calibrate(keep))
     else:
