@@ -199,9 +199,11 @@ def test_oil_that_leaked_in_a_record_is_missing_in_those_after_it(power: float) 
     runs = [small.run(speed, fill) for fill, speed in ((small.INTACT, 0.3), (small.DEGRADED, 0.1), (small.DEGRADED, 0.6))]
     problem = small.problem([small.record(r) for r in runs])
     lost = [film * 0.1 ** (1.0 - power) * float(np.trapezoid(np.abs(r.velocity) ** power, r.time)) for r in runs]
-    drained = problem.drained({"leak_film": film, "leak_power": power}, 0.5)
-    missing = (problem.states[:, 0] - drained[:, 0]) * damper.parameters.V_oil
-    assert missing == pytest.approx([0.0, 0.5 * lost[0], 0.5 * (lost[0] + lost[1])], rel=0.03)
+    for carried, same, before in ((0.5, 0.5, 0.0), (1.0, 1.0, 0.0), (1.5, 1.0, 0.5), (2.0, 1.0, 1.0)):
+        drained = problem.drained({"leak_film": film, "leak_power": power}, carried)
+        missing = (problem.states[:, 0] - drained[:, 0]) * damper.parameters.V_oil
+        # The first record has another fill than the two after it.
+        assert missing == pytest.approx([0.0, before * lost[0], before * lost[0] + same * lost[1]], rel=0.03)
     leak = named(problem, "seal_leak")
     assert "loss_carried" in leak.laws and "loss_carried" not in leak.strength
     alone = small.problem([small.record(r) for r in runs[:1]])
@@ -214,6 +216,6 @@ def test_oil_that_a_cut_lost_in_a_record_is_missing_in_those_after_it_at_a_usual
     problem = small.problem([small.record(r) for r in runs])
     ring = 0.25 * np.pi * (damper.parameters.D_li**2 - damper.parameters.D_PR**2)
     flow = 1e-9 * (2.0 * 1000.0 / (870.0 * ring)) ** 0.5
-    missing = (problem.states[:, 0] - problem.drained({"cut_area": 1e-9}, 1.0)[:, 0]) * damper.parameters.V_oil
+    missing = (problem.states[:, 0] - problem.drained({"cut_area": 1e-9}, 2.0)[:, 0]) * damper.parameters.V_oil
     lost = [0.5 * flow * float(np.ptp(r.time)) for r in runs]
     assert missing == pytest.approx([0.0, lost[0], lost[0] + lost[1]], rel=0.03)

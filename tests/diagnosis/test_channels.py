@@ -26,11 +26,18 @@ def stretched(r: small.Run) -> Record:
     return replace(record, stroke=1.03 * record.stroke, velocity=1.03 * record.velocity)
 
 
+def slow(r: small.Run) -> Record:
+    record = small.record(r)
+    return replace(record, time=1.03 * record.time, velocity=record.velocity / 1.03)
+
+
 SHARP = {"bend_about": 0.0}  # no filter
 FAULTS: dict[str, tuple[float, Callable[[small.Run], Record]]] = {
     "force_offset": (40.0, lambda r: small.record(r, r.force + 40.0)),
     "force_gain": (0.95, lambda r: small.record(r, 0.95 * r.force)),
     "stroke_gain": (1.03, stretched),
+    "time_base": (1.03, slow),
+    "clamp_inertia": (4.0, lambda r: small.record(r, r.force + 4.0 * np.gradient(r.velocity, r.time))),
     "zero_drift": (1.5, lambda r: small.record(r, r.force + 1.5 * r.time)),
     "clock_error": (0.002, lambda r: small.record(r, r.at(r.force, r.time * (1 - 0.002)))),
     "channel_delay": (0.004, lambda r: small.record(r, r.at(r.force, r.time - 0.004))),

@@ -344,6 +344,12 @@ def test_an_answer_within_records_must_name_more_or_leave_far_less(
     assert says_more(answer_of(before, ripple), answer_of(after, left * ripple)) == more
 
 
+def test_what_makes_the_force_late_is_seen_within_several_records_that_are_far_off() -> None:
+    far = np.resize([5.0, -5.0], 10)
+    for records, left, more in ((2, 0.1, True), (2, 0.6, False), (1, 0.1, False)):
+        assert says_more(answer_of((), far, records), answer_of(("fluid_lag",), left * far, records)) == more
+
+
 def test_other_degradation_parameters_are_not_known_from_a_single_record() -> None:
     ripple = np.resize([1.0, -1.0], 10)
     for records, more in ((1, False), (2, True)):

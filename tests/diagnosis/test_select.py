@@ -131,11 +131,12 @@ def test_a_second_factor_of_the_force_leaves_noise_alone(selector: Selector) -> 
 
 
 def test_a_cause_and_its_start_are_those_of_the_truth(selector: Selector) -> None:
-    cost, point = selector.beginning(selector.start, "valve_wear")
+    cost, points = selector.beginning(selector.start, "valve_wear")
     assert cost < (1 - RULES.promise) * selector.sketched(selector.start)
     strengths = selector.known("valve_wear").strength
-    assert {name: np.sign(x) for name, x in point.items() if name in strengths} == {"wear_re": -1.0, "wear_co": -1.0}
-    worn = selector.extended(selector.start, "valve_wear", point)
+    assert {name: np.sign(x) for name, x in points[0].items() if name in strengths} == {"wear_re": -1.0, "wear_co": -1.0}
+    worn = selector.extended(selector.start, "valve_wear")
+    assert {name for name in worn.fits[0].values if name in strengths} == {"wear_re", "wear_co"}
     assert selector.acts(worn) and selector.worth(selector.start, worn)
     values = selector.refitted(worn, thorough=True).values
     assert (values["wear_re"], values["wear_co"]) == (pytest.approx(-0.1, abs=0.01), pytest.approx(-0.05, abs=0.01))

@@ -297,6 +297,18 @@ def test_a_rival_of_one_of_two_causes_is_judged_beside_the_other() -> None:
     assert judged(apart).verdict == "cause"
 
 
+def test_a_rival_of_the_second_of_two_causes_is_judged_beside_the_first() -> None:
+    """As of a compliance of the oil in place of a mount, beside friction: the friction is sure."""
+    pair = selection(option("side_load_friction", "valve_wear", score=1.0), option("fluid_lag", score=9.0))
+    first = [option("side_load_friction", score=30.0), option("valve_wear", score=35.0)]
+    for score, verdict in ((2.0, "ambiguous"), (0.1 * SCORE, "cause")):
+        second = [option("side_load_friction", "valve_wear", score=1.0),
+                  option("side_load_friction", "fluid_lag", score=score)]  # fmt: skip
+        judgement = judged(replace(pair, rounds=[first, second], beside=[]))
+        assert judgement.verdict == verdict
+        assert [o.names[-1] for o in judgement.rivals] == (["fluid_lag"] if verdict == "ambiguous" else [])
+
+
 def test_a_cause_is_not_named_where_other_parameters_explain_far_more() -> None:
     chosen = selection(option("fluid_lag", score=10.0))
     better = replace(option(RECALIBRATE, score=5.0), squares=0.5 * chosen.final.squares)

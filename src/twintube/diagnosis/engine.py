@@ -140,15 +140,16 @@ def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
 def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
     """Whether another answer names all causes of an answer and further ones, or others that leave far less of the error.
 
-    Other degradation parameters are an answer like a cause; a cause that leaves as little is simpler. Nothing that makes the
-    force late is taken from it: between two samples a step of the force is late by chance, and nothing of a record is left
-    out there. Nor is what the zero of a single record would explain as well.
+    Other degradation parameters are an answer like a cause; a cause that leaves as little is simpler. What makes the force
+    late must leave far less of several records, where more than noise was left: between two samples a step of the force is
+    late by chance, and nothing of a record is left out there. Nothing is taken that the zero of a single record would
+    explain as well.
     """
     before, after = (
         {cause.effect for cause in some.causes} | ({RECALIBRATE} if some.verdict == RECALIBRATE else set())
         for some in (answered, closer)
     )
-    if not after - before or (after - before) & set(LATE):
+    if not after - before:
         return False
     first = {r.record.name: r for r in answered.records}
     left, beside_zeros, asked = np.zeros(2), np.zeros(2), 0
@@ -159,6 +160,11 @@ def says_more(answered: Diagnosis, closer: Diagnosis) -> bool:
             error = (some.extended - r.measured) * r.weight
             left[i] += error @ error
             beside_zeros[i] += error @ error - (error @ r.weight) ** 2 / power
+    if (after - before) & set(LATE):
+        samples = sum(int(np.sum(r.weight > 0.0)) for r in closer.records)
+        wrong = asked >= RULES.late_records and left[0] > RULES.odd_right * samples
+        if not wrong or left[1] >= RULES.explains_more * left[0]:
+            return False
     if RECALIBRATE in after and asked < RULES.calibrated_records:
         return False  # so many parameters are not known from a single record
     if RECALIBRATE in before:

@@ -271,6 +271,8 @@ class Rules:
     delay_range: float = starts(0.06, "s", "range of a delay that is a fault, to both sides", JUDGEMENT)
     delay_samples: float = starts(3.0, "1", "samples that this range holds at least", JUDGEMENT)
     stroke_range: tuple[float, float] = starts((0.8, 1.25), "1", "range of a gain of the stroke that is a fault", JUDGEMENT)
+    clamp_mass: float = starts(20.0, "kg", "most mass between load cell and damper", JUDGEMENT)
+    time_range: tuple[float, float] = starts((0.9, 1.1), "1", "range of a time base that is a fault", JUDGEMENT)
     fills_tried: tuple[float, float, float] = starts(
         (0.004, 0.02, 0.16),
         "1",
@@ -337,6 +339,7 @@ class Rules:
     unknown_history: float = selection(
         0.05, "1", "of the error that other degradation parameters leave at most, or noise, where it is unknown", DEVELOPMENT
     )
+    late_records: int = selection(2, "", "wrong records in which what makes the force late is seen at least", JUDGEMENT)
     calibrated_records: int = selection(2, "", "records that must ask for other degradation parameters", JUDGEMENT)
     acts: float = selection(1e-3, "1", "of its range: a strength below it is neutral", JUDGEMENT)
 

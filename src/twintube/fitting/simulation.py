@@ -94,19 +94,19 @@ class SimulatedRecords:
         self,
         rows: list[Any],
         changes: Iterable[tuple[str, float]],
-        motion: tuple[Array, Array] | None = None,
+        motion: tuple[Array, Array, Array] | None = None,
         states: Array | None = None,
     ) -> tuple[Array, Array, Array]:
         """As `run`, with the means of the forces at the measured samples alone [N] between force and work.
 
-        `motion` are strokes [m] and velocities [m/s] (n,) and `states` (r, 4) in place of those of the records.
+        `motion` are times [s], strokes [m] and velocities [m/s] (n,) and `states` (r, 4) in place of those of the records.
         """
         for name, value in changes:
             rows[0][name] = value
         force, point, work = np.empty(len(self.z)), np.empty(len(self.z)), np.empty(len(self.z))
-        z, v = motion or (self.z, self.v)
+        t, z, v = motion or (self.t, self.z, self.v)
         done = compiled.module().run_means(
-            *rows, self.states if states is None else states, self.t, z, v, self.warm, self.starts, self.parts, self.samples,
+            *rows, self.states if states is None else states, t, z, v, self.warm, self.starts, self.parts, self.samples,
             force, point, work,
         )  # fmt: skip
         for some in (force, point):

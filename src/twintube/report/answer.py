@@ -22,7 +22,9 @@ REPAIRS = {
     "force_gain": "check the load cell with a known weight, and correct its scale",
     "channel_delay": "record force and stroke at the same time, with equal filters",
     "stroke_gain": "check the stroke channel with a gauge block, and correct its scale",
+    "time_base": "time an oscillation of the rig, and correct the sampling rate or the times in the files",
     "zero_drift": "read the load cell before and after each record; let it warm up",
+    "clamp_inertia": "repeat the motion without the damper, and take the force it reads off the records",
     "clock_error": "record both channels with a single clock",
 }
 PLACES = ("largest at", "nowhere")  # beginnings of a description of where the residual is large (diagnosis/where.py)

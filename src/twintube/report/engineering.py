@@ -4,13 +4,13 @@ from dataclasses import fields
 
 from twintube.core.effects import EFFECTS, Parameters
 from twintube.diagnosis.fits.candidates import FAULT_TITLES, RECALIBRATE
-from twintube.diagnosis.records.seen import CARRIED, FILL
+from twintube.diagnosis.records.seen import CARRIED, FILL, INERTIA
 from twintube.diagnosis.verdict.verdict import lower
 
 
 def is_share(effect: str, parameter: str) -> bool:
-    """Whether a dimensionless parameter is shown in percent: yes for effects, except exponents; no for faults (factors)."""
-    return effect in EFFECTS and "power" not in parameter
+    """Whether a dimensionless parameter is shown in percent: yes for effects' shares; no for faults (factors)."""
+    return effect in EFFECTS and "power" not in parameter and parameter != CARRIED
 
 
 def title_of(effect: str) -> str:
@@ -23,11 +23,13 @@ MEASURED = {
     "force_offset": "measured less true force",
     "force_gain": "measured over true force",
     "stroke_gain": "measured over true stroke",
+    "time_base": "recorded over true time",
     "channel_delay": "by which the force is later than the stroke",
     "zero_drift": "rise of the zero with time, at first",
     "zero_settling": "rate at which this rise settles; 0: it goes on",
-    CARRIED: "of the oil lost in the records before that was not refilled",
+    CARRIED: "oil lost in records before that is missing; 0: none, 1: of the same fill, 2: of all",
     "clock_error": "by which the clock of the force is fast",
+    INERTIA: "moved between load cell and damper",
 }
 
 

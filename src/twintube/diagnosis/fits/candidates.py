@@ -9,7 +9,7 @@ import numpy as np
 from twintube.core import effects
 from twintube.core.hooks import Effect, sources
 from twintube.diagnosis.fits.fit import Free, Problem
-from twintube.diagnosis.records.seen import BENDS, CARRIED, CLOCK, DELAY, LINEAR, SETTLING, STROKE_GAIN
+from twintube.diagnosis.records.seen import BENDS, CARRIED, CLOCK, DELAY, INERTIA, LINEAR, SETTLING, STROKE_GAIN, TIME_BASE
 from twintube.diagnosis.rules import RULES
 
 FAULT_TITLES = {
@@ -17,8 +17,10 @@ FAULT_TITLES = {
     "force_gain": "Calibration of the force channel",
     "channel_delay": "Delay between the channels",
     "stroke_gain": "Calibration of the stroke channel",
+    "time_base": "Time base of the recorder",
     "zero_drift": "Drifting zero of the load cell",
     "clock_error": "Clock of the force channel",
+    INERTIA: "Inertia of the clamp",
 }
 
 
@@ -29,6 +31,7 @@ def hooked(hooks: str) -> tuple[str, ...]:
 
 LATENESS = hooked("force|transition")  # effects that make the force late
 LATE = (*LATENESS, DELAY, CLOCK)  # and faults that do
+DELAYED = (*LATENESS, INERTIA)  # for which a delay stands in
 TURNING = hooked("force")  # what begins at a reversal
 FILLED = hooked("level")  # another fill than the recorded one, in all states alike or in one
 # What changes volumes alone moves steps of the force, or brings them about.
@@ -41,7 +44,7 @@ ALIKE = (LATE, FRICTION, CONTENTS)  # of each a second only mends the formulatio
 FADING = tuple(name for name in hooked("scale_fluid") if name in hooked("phases"))  # the force falls with what happened
 # At a single velocity, beside what fades, another temperature at the start.
 EXACT = ("force_gain",)  # a law without another formulation
-FACTORS = (*EXACT, STROKE_GAIN, *(name for name in hooked("scale_fluid") if name not in FADING))
+FACTORS = (*EXACT, STROKE_GAIN, TIME_BASE, *(name for name in hooked("scale_fluid") if name not in FADING))
 SCALING = (*FACTORS, *FADING)  # of which a second may only mend the formulation of the first
 
 
@@ -130,7 +133,8 @@ def candidates(problem: Problem) -> list[Candidate]:
                 least[item.name] = usual.get(meta["unit"], RULES.acts * (high - low))
         units = {item.name: item.metadata["unit"] for item in effect.parameters}
         carried = effect.name in LOSING and any(record.before[0] > 0.0 for record in problem.records)
-        free += [Free(CARRIED, 0.0, 0.0, 1.0)] if carried else []
+        refilled = any(record.before_fill[0] > 0.0 for record in problem.records)
+        free += [Free(CARRIED, 0.0, 0.0, 2.0 if refilled else 1.0)] if carried else []
         units |= {CARRIED: "1"} if carried else {}
         fills = problem.fills() if effect.name in FILLED else {}
         for name in fills if len(fills) > 1 else ():
@@ -186,6 +190,7 @@ def faults(problem: Problem) -> list[Candidate]:
     usual = {free.name: free.high for free in nuisances(problem)}
     zero, late = RULES.zero_range * peak, max(RULES.delay_range, RULES.delay_samples * period(problem))
     drift = zero / duration
+    sway = max(float(np.quantile(np.abs(problem.accelerations(problem.v)[0]), RULES.speed_quantile)), 1e-9)  # [m/s2]
     several = [
         ("force_offset", "N", (0.0, -zero, zero), usual["force_offset"],
          "The force channel reads a constant in addition to the force.", "the load cell read with the damper taken out"),
@@ -196,10 +201,16 @@ def faults(problem: Problem) -> list[Candidate]:
          "a record of the friction alone at high frequency: only a delay shifts it"),
         (STROKE_GAIN, "1", (1.0, *RULES.stroke_range), RULES.small_gain,
          "The stroke channel reads all strokes too large or too small.", "the stroke checked with a gauge block"),
+        (TIME_BASE, "1", (1.0, *RULES.time_range), RULES.small_gain,
+         "The times in the files run too fast or too slow, as with another sampling rate than the stated one.",
+         "an oscillation of the rig timed with a stopwatch"),
         ("zero_drift", "N/s", (0.0, -drift, drift), RULES.small_force * peak / longest,
          "The zero of the load cell moves during each record.", "the load cell read before and after a record"),
         ("clock_error", "1", (0.0, -RULES.clock_range, RULES.clock_range), usual["channel_delay"] / duration,
          "The clock of the force channel runs faster or slower than that of the stroke.", "both channels on a single clock"),
+        (INERTIA, "kg", (0.0, -RULES.clamp_mass, RULES.clamp_mass), RULES.small_force * peak / sway,
+         "Between load cell and damper a mass is moved, whose inertia the cell reads with the force of the damper.",
+         "the motion of a record repeated without the damper"),
     ]  # fmt: skip
     laws = dict.fromkeys(FAULT_TITLES, ()) | {"zero_drift": (Free(SETTLING, *RULES.settling),)}
     return [

@@ -1,14 +1,14 @@
 """Where the fit of a candidate begins: the best of many starts, seen in some of the records."""
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from twintube.diagnosis.fits.candidates import LATENESS, MOVING, RECALIBRATE, Candidate, linear, nuisances
+from twintube.diagnosis.fits.candidates import DELAYED, MOVING, RECALIBRATE, Candidate, linear, nuisances
 from twintube.diagnosis.fits.fit import Free, Problem
-from twintube.diagnosis.records.seen import CLOCK, DELAY
+from twintube.diagnosis.records.seen import CARRIED, CLOCK, DELAY
 from twintube.diagnosis.rules import RULES
 
 
@@ -21,7 +21,7 @@ def grid(candidate: Candidate, f: Free) -> list[float]:
         if f.low < 0.0 < f.high:  # a place on either side
             return [float(x) for x in np.linspace(f.low, f.high, RULES.places + 2)[1:-1]]
         near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
-        near += ([f.low, f.high] if f.high == 1.0 else [f.low]) if f.name in candidate.laws else []
+        near += ([f.low, f.high] if f.high == 1.0 or f.name == CARRIED else [f.low]) if f.name in candidate.laws else []
         return sorted({min(max(x, f.low), f.high) for x in near})
     sides = [(sign, side) for sign, side in ((1.0, f.high - f.start), (-1.0, f.start - f.low)) if side > 0]
     shares = np.geomspace(*RULES.shares_moving).tolist() if candidate.name in MOVING else RULES.shares
@@ -58,7 +58,7 @@ def clock_starts(problems: Sequence[Problem], fixed: Sequence[Mapping[str, float
 
 def measured(name: str, whole: Problem) -> tuple[Free, ...]:
     """What of the measurement is free where a candidate begins."""
-    return (nuisances if name in LATENESS else linear)(whole)
+    return (nuisances if name in DELAYED else linear)(whole)
 
 
 def start_cost(
@@ -75,9 +75,21 @@ def best_start(
     fixed: Sequence[Mapping[str, float]],
     whole: Problem | None = None,
 ) -> tuple[float, dict[str, float]]:
-    """The point that explains the records best, and their sum of squares there; strength after strength joins if it helps.
+    """The point that explains the records best, and their sum of squares there; arguments as of `starts`."""
+    low, points = starts(problems, candidate, fixed, whole)
+    return low, points[-1]
 
-    A strength that does not help is not in the point: it stays neutral, as free it would follow the noise.
+
+def starts(
+    problems: Sequence[Problem],
+    candidate: Candidate,
+    fixed: Sequence[Mapping[str, float]],
+    whole: Problem | None = None,
+) -> tuple[float, list[dict[str, float]]]:
+    """A simple point and the one that explains the records best, with the sum of squares there.
+
+    In the latter strength after strength joins if it helps. One that does not is not in it: it stays neutral, as free it
+    would follow the noise. The simple point has the first alone, or those of rebound and compression alike.
 
     `fixed` holds the other values in each of the problems. The measurement is free: at the zero of the model without the
     cause a residual spring would start as a loss, and behind the delay that stands in for a late effect it would not show.
@@ -85,7 +97,7 @@ def best_start(
     problems may have a part only.
     """
     free = measured(candidate.name, whole or problems[0])
-    stands_in = candidate.name in LATENESS and any(abs(problem.usual.get(DELAY, 0.0)) > 0.0 for problem in problems)
+    stands_in = candidate.name in DELAYED and any(abs(problem.usual.get(DELAY, 0.0)) > 0.0 for problem in problems)
     grids = {f.name: grid(candidate, f) for f in candidate.free}
     if candidate.single:  # a step of the force comes or goes with some thousandths of the oil
         grids |= {f.name: [x for size in fills(f.high) for x in (size, -size)] for f in candidate.free}
@@ -93,6 +105,7 @@ def best_start(
         grids[CLOCK] = clock_starts(problems, fixed)
     shapes = [f.name for f in candidate.free if f.name not in candidate.strength][: RULES.shapes]
     best, low = {f.name: f.start for f in candidate.free}, np.inf
+    points: list[dict[str, float]] = []
 
     def costs(points: Sequence[Mapping[str, float]]) -> list[float]:
         some = [
@@ -116,20 +129,22 @@ def best_start(
         seen = {(name, score): shape for (name, _, shape), score in zip(reversed(rows), reversed(scores), strict=True)}
         fewer = {name: [shape for key, shape in seen.items() if key[0] == name] for name in left}
         rows = [(name, x, shape) for name in left for x in grids[name] for shape in fewer[name]]
-        points = [best | {name: x} | shape for name, x, shape in rows]
-        scores = costs(points)
+        tried = [best | {name: x} | shape for name, x, shape in rows]
+        scores = costs(tried)
         # Else a strength between two values of its grid, or beyond, loses against a value of another's.
         for name in left:
             own = [i for i, row in enumerate(rows) if row[0] == name]
             for shape in fewer[name]:
                 line = {best[name]: neutral} | {rows[i][1]: scores[i] for i in own if rows[i][2] == shape}
-                points += [best | shape | {name: x}] if (x := lowest(line)) not in line else []
-            top = points[min(own, key=lambda i: scores[i])]
-            points += [top | {name: moved(by_name[name], top[name], by)} for by in RULES.factors_tried]
-        scores += costs(points[len(rows) :])
+                tried += [best | shape | {name: x}] if (x := lowest(line)) not in line else []
+            top = tried[min(own, key=lambda i: scores[i])]
+            tried += [top | {name: moved(by_name[name], top[name], by)} for by in RULES.factors_tried]
+        scores += costs(tried[len(rows) :])
         if min(scores) >= (1.0 - RULES.joins) * low:
             break
-        point, low = points[int(np.argmin(scores))], min(scores)
+        if not points:
+            points += alike(candidate, best, some, grids, costs, min(scores))
+        point, low = tried[int(np.argmin(scores))], min(scores)
         left = [name for name in left if point[name] == best[name]]
         # At a wrong size of the first strength another than the true one joins it.
         for _ in range(RULES.moves):
@@ -140,9 +155,38 @@ def best_start(
                 break
             point, low = nearer[int(np.argmin(scores))], min(scores)
         best, neutral = point, low
+        points.append({name: x for name, x in best.items() if name not in left})
         if candidate.single:
             break
-    return float(low), {name: x for name, x in best.items() if name not in left}
+    last: dict[str, float] = {name: x for name, x in best.items() if name not in left}
+    return float(low), [points[0], points[-1]] if len(points) > 1 else [last]
+
+
+def alike(
+    candidate: Candidate,
+    best: Mapping[str, float],
+    shapes: Sequence[Mapping[str, float]],
+    grids: Mapping[str, Sequence[float]],
+    costs: Callable[[Sequence[Mapping[str, float]]], list[float]],
+    singly: float,
+) -> list[dict[str, float]]:
+    """The best point in which strengths of rebound and compression are alike; none where one `singly` costs less."""
+    sides: dict[str, list[Free]] = {}
+    for f in candidate.free:
+        if f.name in candidate.strength:
+            sides.setdefault(f.name.removesuffix("_co").removesuffix("_re"), []).append(f)
+    tried = [
+        {f.name: min(max(x, f.low), f.high) for f in both} | dict(shape)
+        for both in sides.values()
+        if len(both) > 1
+        for x in grids[both[0].name]
+        for shape in shapes
+    ]
+    scores = costs([{**best, **point} for point in tried]) if tried else []
+    if not tried or min(scores) >= singly:
+        return []
+    least = tried[int(np.argmin(scores))]
+    return [{name: x for name, x in {**best, **least}.items() if name in least or name not in candidate.strength}]
 
 
 def moved(f: Free, x: float, by: float) -> float:

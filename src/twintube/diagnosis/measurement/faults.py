@@ -135,6 +135,7 @@ def unit_error(problem: Problem) -> tuple[Fault | None, Problem]:
     units = sorted(rescaled(problem), key=lambda unit: float(unit.misfit.mean()))
     for unit in units:
         better, worse = now - unit.misfit >= RULES.unit_clear, unit.misfit - now >= RULES.unit_clear
+        better &= unit.misfit <= -RULES.unit_gain  # what the model does not follow in either unit is no other unit
         # These records are explained as well as the others then, which the unit would spoil.
         if better.any() and worse.any() and unit.misfit[better].max() <= now[~better].max() + RULES.unit_gain:
             pairs = zip(problem.records, unit.problem.records, better, strict=True)

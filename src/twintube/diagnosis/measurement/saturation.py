@@ -4,6 +4,7 @@ A limit without noise is seen in the samples (data/defects.py) before any model 
 """
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -35,7 +36,7 @@ def saturated(problem: Problem) -> tuple[Signature | None, Problem]:
             found = limit(record, sign * forces[a:b], sign * record.force)
             if found is not None:
                 limits.append(replace(found, force=sign * found.force))
-    limits += [] if limits else cut(problem, forces)
+    limits = [*limits, *alike(problem, forces, limits)] if limits else cut(problem, forces)
     sides = [[item for item in limits if item.force * sign > 0.0] for sign in (1.0, -1.0)]
     if not limits or any(
         np.ptp([item.force for item in side]) > RULES.limit_alike * abs(side[0].force) for side in sides if side
@@ -52,6 +53,24 @@ def saturated(problem: Problem) -> tuple[Signature | None, Problem]:
         beyond = [item.beyond for item in limits if item.record == record.name]
         records.append(replace(record, judged=record.judged & ~np.logical_or.reduce(beyond)) if beyond else record)
     return Signature("saturation", text, np.inf), problem.with_records(records)
+
+
+def alike(problem: Problem, forces: Array, limits: Sequence[Limit]) -> list[Limit]:
+    """The same limits in the other records, where no force passes them: it is a channel's, whatever shows it.
+
+    Of a motion with constant velocity the model does not rise on beyond the limit.
+    """
+    others = []
+    for sign in (1.0, -1.0):
+        known = {item.record: sign * item.force for item in limits if sign * item.force > 0.0}
+        level = float(np.mean(list(known.values()))) if known else np.inf
+        for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
+            beyond = sign * forces[a:b] > level
+            scatter = RULES.limit_flat * record.noise + record.edges
+            passed = record.judged & (sign * record.force - scatter > (1.0 + RULES.limit_alike) * level)
+            if record.name not in known and (record.judged & beyond).any() and not passed.any():
+                others.append(Limit(record.name, sign * level, beyond | np.roll(beyond, 1) | np.roll(beyond, -1)))
+    return others
 
 
 def cut(problem: Problem, forces: Array) -> list[Limit]:

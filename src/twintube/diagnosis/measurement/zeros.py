@@ -72,6 +72,10 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     several = {key: without(problem, fits[key], key == RUNNING) for key in keys_alike}
     cut = min(several, key=lambda key: float(apart_from_means(several[key][0]).sum()))
     still, rate = several[cut]
+    if cut > 0 and keys[cut] != keys[cut - 1]:  # with another filling a cause begins, too, which leaves more than noise
+        left_apart = apart_from_means(still)[cut:] / np.maximum(still.counts[cut:], 1)
+        if np.median(left_apart) > RULES.odd_right:
+            return None, problem
     before, after = (np.add.reduceat(some.residual({}) ** 2, some.starts[:-1]) for some in (problem, still))
     if bootstrap(np.column_stack([before - after, before]))[0] <= 0.0:
         return None, problem  # the means of a damper that is weaker, or of records that hardly count

@@ -26,10 +26,12 @@ def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
     begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
     usual = float(np.median(begins)) if begins else 0.0
     ready = [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
-    past = np.zeros(3)
+    past, filled = np.zeros(3), np.zeros(3)
     for i, record in enumerate(ready):
-        duration, way, square = past.tolist()
-        ready[i] = replace(record, before=(duration, way, square))
+        if i > 0 and (record.oil_level, record.gas_preload) != (ready[i - 1].oil_level, ready[i - 1].gas_preload):
+            filled = past.copy()
+        (duration, way, square), (since, gone, power) = past.tolist(), filled.tolist()
+        ready[i] = replace(record, before=(duration, way, square), before_fill=(since, gone, power))
         past += travelled(record)
     return ready
 

@@ -43,6 +43,7 @@ class PreparedRecord:
     warmth_known: bool = False  # whether its temperature at the beginning is
     tenth: NDArray[np.int64] | None = None  # (n,) of its intervals, where every second tenth is compared
     before: tuple[float, float, float] = (0.0, 0.0, 0.0)  # `travelled` in the records before it in the dataset
+    before_fill: tuple[float, float, float] = (0.0, 0.0, 0.0)  # the like in those before the damper got its present fill
 
     @property
     def intact(self) -> bool:

@@ -24,10 +24,13 @@ LINEAR = ("force_offset", *SAMPLING)  # the force is linear in them, and every m
 SETTLING = "zero_settling"
 ADDED = ("force_offset", "force_gain", "zero_drift", SETTLING, *SAMPLING)
 # What it changes of the motion under which the force is seen; a simulation of its own for each value.
-STROKE_GAIN, DELAY, CLOCK = "stroke_gain", "channel_delay", "clock_error"
-MOTION = (STROKE_GAIN, DELAY, CLOCK)
+STROKE_GAIN, TIME_BASE, DELAY, CLOCK = "stroke_gain", "time_base", "channel_delay", "clock_error"
+INERTIA = "clamp_inertia"  # mass [kg] that moves with the stroke between the load cell and the damper
+AS_RECORDED = {STROKE_GAIN: 1.0, TIME_BASE: 1.0, DELAY: 0.0, CLOCK: 0.0, INERTIA: 0.0}  # where they change nothing
+MOTION = tuple(AS_RECORDED)
 FILL = "fill_of_state_"  # with the per cent of a state: its true oil level beyond the recorded one
-CARRIED = "loss_carried"  # share of the oil lost in the records before, in the order of the dataset, that is not refilled
+# How far oil that was lost before is missing, in the order of the dataset: 0 not at all, 1 that of the same fill, 2 all.
+CARRIED = "loss_carried"
 MEASUREMENT = (*ADDED, *MOTION)
 # What records begin with, and the strengths without which it does nothing.
 BEGUN = {
@@ -65,11 +68,7 @@ class SeenRecords(SimulatedRecords):
         """The values that need a simulation: those of the damper's parameters and of the motion that it sees."""
         values = {**self.usual, **values}
         named = {n: x for n, x in values.items() if n in self.known}
-        named |= {
-            n: values[n]
-            for n, neutral in ((STROKE_GAIN, 1.0), (DELAY, 0.0), (CLOCK, 0.0))
-            if values.get(n, neutral) != neutral
-        }
+        named |= {n: values[n] for n, neutral in AS_RECORDED.items() if values.get(n, neutral) != neutral}
         named |= {n: x for n, x in values.items() if n.startswith(FILL) and x != 0.0}
         named |= {CARRIED: values[CARRIED]} if values.get(CARRIED, 0.0) > 0.0 else {}
         return tuple(sorted(named.items()))
@@ -87,27 +86,34 @@ class SeenRecords(SimulatedRecords):
         return states
 
     def drained(self, changes: Mapping[str, float], carried: float) -> Array:
-        """Degraded states (r, 4) without the share `carried` of the oil that was lost in the records before."""
+        """Degraded states (r, 4) without the oil that was lost in the records before; `carried` as CARRIED."""
         row = self.rows()[0]
         for name, value in changes.items():
             row[name] = value
-        lost = np.array([compiled.module().effects_lost(row, *record.before) for record in self.records])
+        lost_by = compiled.module().effects_lost
+        earlier = np.array([lost_by(row, *record.before_fill) for record in self.records])
+        same = np.array([lost_by(row, *record.before) for record in self.records]) - earlier
+        lost = min(carried, 1.0) * same + max(carried - 1.0, 0.0) * earlier
         states = self.states.copy()
         degraded = states[:, 1] == 0
-        states[degraded, 0] = np.clip(states[degraded, 0] - carried * lost[degraded] / row["V_oil"], 0.0, 1.0)
+        states[degraded, 0] = np.clip(states[degraded, 0] - lost[degraded] / row["V_oil"], 0.0, 1.0)
         return states
 
     def simulate(self, changes: Sequence[tuple[str, float]]) -> tuple[Array, Array]:
         """Mean forces over the intervals and those of the samples alone, both (n,) [N], with values changed."""
         values = dict(changes)
-        gain, delay, clock = (values.pop(name, x) for name, x in ((STROKE_GAIN, 1.0), (DELAY, 0.0), (CLOCK, 0.0)))
+        gain, base, delay, clock, mass = (values.pop(name, x) for name, x in AS_RECORDED.items())
         z, v = self.moved(delay, clock) if delay or clock else (self.z, self.v)
         fills = {name: values.pop(name) for name in list(values) if name.startswith(FILL)}
         states = self.refilled(fills) if fills else self.states
         if CARRIED in values:
             carried = values.pop(CARRIED)
             states = self.drained(values, carried)
-        force, point, _ = self.sampled(self.rows(), values.items(), (z / gain, v / gain), states)
+        motion = (self.t / base, z / gain, v * (base / gain))
+        force, point, _ = self.sampled(self.rows(), values.items(), motion, states)
+        if mass:
+            accelerations = self.accelerations(motion[2])
+            force, point = force + mass * accelerations[0], point + mass * accelerations[1]
         force = self.averaged_samples(force)
         for record, a, b in zip(self.records, self.starts[:-1], self.starts[1:], strict=True):
             for some in (force, point) if record.averaged else ():
@@ -135,6 +141,16 @@ class SeenRecords(SimulatedRecords):
         moved = -np.expm1(-settling * self.elapsed) / settling if settling > 0.0 else self.elapsed
         zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * moved
         return np.asarray(values.get("force_gain", 1.0) * seen + zero)
+
+    def accelerations(self, speed: Array) -> tuple[Array, Array]:
+        """Mean accelerations [m/s2] over the intervals and at their samples alone, both (n,), from speeds [m/s] (n,)."""
+        change, span = (np.diff(x, prepend=x[0]) for x in (speed, self.t))
+        inside = np.ones(len(speed), dtype=bool)
+        inside[self.starts[:-1]] = False
+        mean = np.where(inside, change / np.where(inside, span, 1.0), 0.0)
+        # The samples lie half of their period behind the middle of the interval.
+        ahead = (mean[self.shifted[1]] - mean) / (2.0 * np.maximum(self.samples, 1))
+        return mean, mean + np.where(inside, ahead, 0.0)
 
     def begun(self, values: Mapping[str, float]) -> dict[str, float] | None:
         """The values with another beginning of the records, a part of its usual scatter away; None where none is open."""

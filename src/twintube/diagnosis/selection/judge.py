@@ -114,7 +114,7 @@ class Judge:
         less = before.squares - after.squares
         if len(less) <= RULES.few_records:
             return bool(less.sum() > 0.0)
-        return bootstrap(np.column_stack([less, before.squares]), level=RULES.sure)[0] > 0.0
+        return bootstrap(np.column_stack([less, before.squares]), level=RULES.sure, size=np.abs(less))[0] > 0.0
 
     def uneven(self, option: Option) -> bool:
         """Whether the zeros of the records differ between the states of filling."""

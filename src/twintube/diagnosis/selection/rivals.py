@@ -9,15 +9,29 @@ from twintube.diagnosis.rules import RULES
 def rivals(selection: Selection, left: bool) -> list[Option]:
     """Options that are as good as the chosen causes; `left` says that more than noise is left.
 
-    Of several causes the first is compared where the others are known: alone a rival explains some of theirs, too.
+    Of several causes each is compared where the others are known: alone a rival explains some of theirs, too.
     """
     final = selection.final
     if len(selection.chosen) < 2:
         others = near(selection, left)
     else:
         close = max(selection.limit, RULES.close * max(selection.start.score - final.score, 0.0))
-        others = [o for o in selection.beside if o.score - final.score <= close and not richer(o, final)]
+        close = max(close, RULES.law_apart * final.score) if left else close
+        others = [o for o in (*selection.beside, *instead(selection)) if o.score - final.score <= close]
+        others = sorted((o for o in others if not richer(o, final)), key=lambda o: o.score)
+        # All are rivals of the same cause: the other is sure.
+        others = [o for o in others if {*final.names} & {*o.names} == {*final.names} & {*others[0].names}][
+            : RULES.alternatives
+        ]
     return [o for o in others if o.total < selection.start.total]  # a rival takes squared error away, too
+
+
+def instead(selection: Selection) -> list[Option]:
+    """The final model with another cause in place of the last, from the round in which that was added."""
+    last = selection.rounds[min(len(selection.final.names), len(selection.rounds)) - 1]
+    final = {*selection.final.names}
+    others = [o for o in last if len(o.names) == len(final) and {*o.names[:-1]} < final]
+    return [o for o in others if o.names[-1] not in (RECALIBRATE, *final, *selection.neutral)]
 
 
 def leading(selection: Selection) -> Option | None:

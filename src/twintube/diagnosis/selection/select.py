@@ -7,10 +7,10 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.diagnosis.fits.calibration import best_calibration, calibration
-from twintube.diagnosis.fits.candidates import LATE, MOVING, RECALIBRATE, Candidate, linear, nuisances
+from twintube.diagnosis.fits.candidates import DELAYED, LATE, MOVING, RECALIBRATE, Candidate, linear, nuisances
 from twintube.diagnosis.fits.fit import Fit, Free, Problem
 from twintube.diagnosis.fits.options import Fold, Option, Selection, fitted
-from twintube.diagnosis.fits.starts import best_start, measured, start_cost
+from twintube.diagnosis.fits.starts import measured, start_cost, starts
 from twintube.diagnosis.measurement.edges import less_noise
 from twintube.diagnosis.records.seen import DELAY, MEASUREMENT
 from twintube.diagnosis.rules import RULES
@@ -33,7 +33,7 @@ class Selector(Chooser):
         self.history = history
         self.calibration = calibration(whole)
         self.point: dict[str, float] | None = None
-        self.begun: dict[tuple[tuple[str, ...], str, tuple[str, ...]], dict[str, float]] = {}  # where candidates begin
+        self.begun: dict[tuple[tuple[str, ...], str, tuple[str, ...]], list[dict[str, float]]] = {}  # where candidates begin
         self.begin(whole, folds)
 
     def begin(self, whole: Problem, folds: Sequence[Fold]) -> None:
@@ -67,10 +67,10 @@ class Selector(Chooser):
     @staticmethod
     def of_measurement(problem: Problem, names: Sequence[str]) -> list[Free]:
         """What of the measurement is free in a model: the delay, known from all records, beside what is late itself."""
-        return [f for f in nuisances(problem) if f.name != DELAY or any(name in LATE for name in names)]
+        return [f for f in nuisances(problem) if f.name != DELAY or any(name in (*LATE, *DELAYED) for name in names)]
 
-    def beginning(self, current: Option, name: str) -> tuple[float, dict[str, float]]:
-        """Where a further cause begins in all folds, and the sum of squares there.
+    def beginning(self, current: Option, name: str) -> tuple[float, list[dict[str, float]]]:
+        """Where a further cause begins in all folds, a simple point and the best, and the sum of squares at the latter.
 
         From starts of their own the folds may end in different laws, of which a single law holds for the others' records.
         A search is not repeated where only the noise of the same records is known better. What moves steps of the force is
@@ -80,15 +80,27 @@ class Selector(Chooser):
         key = (current.names, name, tuple(record.name for sketch in self.sketches for record in sketch.records))
         if key not in self.begun:
             looked_at = self.wider if name in MOVING else self.sketches
-            self.begun[key] = best_start(looked_at, self.known(name), fixed, self.whole)[1]
-        return start_cost(self.sketches, self.begun[key], fixed, measured(name, self.whole)), self.begun[key]
+            self.begun[key] = starts(looked_at, self.known(name), fixed, self.whole)[1]
+        points = self.begun[key]
+        return start_cost(self.sketches, points[-1], fixed, measured(name, self.whole)), points
 
     def extended(self, current: Option, name: str, begin: Mapping[str, float] | None = None) -> Option:
-        """The current model with a further cause, from its best start where no other is given."""
-        point = begin if begin is not None else self.beginning(current, name)[1]
+        """The current model with a further cause, from its best start where no other is given.
+
+        With many strengths a fit may end beside that of the simple point, so that this is fitted, too, and preferred.
+        """
+        points = [begin] if begin is not None else self.beginning(current, name)[1]
         names = [*current.names, name]
-        frees = [self.free(names, {**fit.values, **point}) for fit in current.fits]
-        return self.option(names, frees)
+        several = [
+            self.option(names, [self.free(names, {**fit.values, **point}) for fit in current.fits]) for point in points
+        ]
+        costs = [self.fitted_cost(option) for option in several]
+        return several[-1] if costs[-1] < costs[0] - self.limit else several[0]  # noise asks for further strengths, too
+
+    def fitted_cost(self, option: Option) -> float:
+        """Sum of squares in the records that a model was fitted to."""
+        pairs = zip(self.folds, option.fits, strict=True)
+        return sum(float(np.sum(fold.fitted.shared(fit.values) ** 2)) for fold, fit in pairs)
 
     def refitted(self, option: Option, *, thorough: bool) -> Fit:
         """The model of an option fitted to the whole, from the better of the folds' optima."""
@@ -241,7 +253,7 @@ class Selector(Chooser):
         options = []
         for name in (*(name for name in slow[:most] if begins[name][0] < enough), *quick):
             progress(f"{label}: {name}")
-            options.append(self.extended(current, name, begins[name][1]))
+            options.append(self.extended(current, name))
         return sorted(options, key=lambda o: (not self.acts(o), o.score))
 
     def sketched(self, current: Option) -> float:

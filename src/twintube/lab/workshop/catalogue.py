@@ -56,7 +56,7 @@ def single(name: str, make: Maker, wish: Wish | None = None, kind: str = "effect
 
 
 def all_cases() -> list[Case]:
-    """Fourteen times nothing, 34 single causes, five pairs, seven outside."""
+    """Fourteen times nothing, 35 single causes, five pairs, six outside."""
     s, m = strengths, fault_strengths
     cases = [Case("none", ("none",), nothing, Wish(styles=(style,)), "none") for style in (*STYLES, *QUIET)]
     cases += [
@@ -92,7 +92,7 @@ def all_cases() -> list[Case]:
         single("unit_error", m.unit, kind="fault"),
         single("stroke_gain", m.stroke, kind="fault"),
         single("zero_drift", m.drift, kind="fault"),
-        single("clock_error", m.clock, kind="fault"),
+        single("time_base", m.clock, kind="fault"),
         single("odd_record", m.odd, kind="fault"),
     ]
     pairs: list[tuple[str, Maker, str, Maker, Wish]] = [
@@ -112,7 +112,8 @@ def all_cases() -> list[Case]:
         ("clamp_inertia", m.inertia, "mass of clamp between load cell and damper"),
         ("backlash", m.play, "play in a joint"),
     ):
-        cases.append(Case("outside", (name,), make, Wish(rates=(500.0, 1000.0, 2000.0)), words))
+        kind = "fault" if name == "clamp_inertia" else "outside"
+        cases.append(Case(kind, (name,), make, Wish(rates=(500.0, 1000.0, 2000.0)), words))
     return cases
 
 

@@ -52,7 +52,7 @@ def drift(draw: Draw, day: Day) -> list[Cause]:
 def clock(draw: Draw, day: Day) -> list[Cause]:
     """2 to 8 %: another rate than the one in the header."""
     factor = 1.0 + sign(draw) * between(draw, 0.02, 0.08)
-    return [Scaled("clock_error", "times scaled", {"factor": factor}, clock=factor)]
+    return [Scaled("time_base", "times scaled", {"factor": factor}, clock=factor)]
 
 
 def odd(draw: Draw, day: Day) -> list[Cause]:
