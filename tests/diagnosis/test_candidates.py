@@ -19,7 +19,7 @@ from twintube.diagnosis.fits.candidates import (
     usual_delay,
 )
 from twintube.diagnosis.fits.fit import Problem
-from twintube.diagnosis.fits.starts import best_start, lowest
+from twintube.diagnosis.fits.starts import best_start, lowest, starts
 from twintube.diagnosis.measurement.edges import with_noise
 from twintube.diagnosis.measurement.sampling import with_sampling
 from twintube.diagnosis.records.seen import DELAY
@@ -120,6 +120,27 @@ def test_a_strength_between_two_values_of_its_grid_is_not_lost() -> None:
     _, point = best_start([problem], wear, [{}])
     assert set(point) & set(wear.strength) == {"wear_re", "wear_co"}
     assert [point[name] for name in ("wear_re", "wear_co")] == pytest.approx([-0.015, -0.015], rel=0.25)
+
+
+def test_oil_that_gives_in_both_directions_alike_is_a_start_of_its_own() -> None:
+    """Of one direction alone late valves come nearer, beside which its compliance is not found again."""
+    stiffness = 4e5  # [N/m] of an element in series with the valves: dF/dt = K (v - u(F))
+
+    def in_series(r: small.Run) -> np.ndarray:
+        order = np.argsort(r.velocity)
+        force, out, dt = float(r.fluid[0]), np.empty(len(r.fluid)), np.diff(r.time, prepend=r.time[0])
+        speeds, curve = r.velocity[order], np.maximum.accumulate(r.fluid[order] + 1e-6 * np.arange(len(order)))
+        for i, (v, h) in enumerate(zip(r.velocity, dt, strict=True)):
+            goal, gain = force + stiffness * h * v, stiffness * h
+            force = float(np.interp(goal, curve + gain * speeds, curve))
+            out[i] = force
+        return r.force - r.fluid + out
+
+    records = [small.record(r, in_series(r), seed=i) for i, r in enumerate(small.run(v) for v in (0.3, 0.6, 1.0))]
+    problem = with_noise(small.problem(records))
+    point = starts([problem], named(problem, "fluid_lag"), [{}])[1][0]
+    assert point["C_fluid"] == pytest.approx(point["C_fluid_co"]) and point["C_fluid"] == pytest.approx(2.5e-6, rel=0.7)
+    assert "tau_fluid" not in point
 
 
 def test_a_lag_is_seen_where_a_delay_as_long_stands_in_for_it() -> None:

@@ -97,3 +97,10 @@ def test_inches_of_some_files_are_known_though_the_others_would_leave_the_tube(g
 def test_a_damper_that_lost_most_of_its_force_holds_no_other_unit(good: list[Record]) -> None:
     weak = [replace(r, force=0.4 * r.force) for r in good[:2]]
     assert unit_error(small.problem([*weak, *good[2:]]))[0] is None
+
+
+def test_a_record_that_no_unit_explains_holds_no_other_unit(good: list[Record]) -> None:
+    """Of a damper that ran dry in one record a tenth of the force is nearer to what is left, and explains nothing."""
+    dry = np.random.default_rng(2).normal(0.0, 0.01 * np.abs(good[1].force).max(), len(good[1].force))
+    problem = small.problem([good[0], replace(good[1], force=dry), *good[2:]])
+    assert unit_error(problem) == (None, problem)

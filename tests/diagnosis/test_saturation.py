@@ -66,6 +66,18 @@ def test_a_limit_is_told_from_another_setting_at_constant_velocity(largest: floa
     assert saturated(with_edges(with_noise(small.problem([*slower, triangle(np.inf, factor=0.8)]))))[0] is None
 
 
+def test_a_limit_that_some_records_show_holds_for_those_whose_strokes_are_beyond_it_all_along(largest: float) -> None:
+    """At constant velocity the model does not rise on beyond the limit, so that this record alone would not show it."""
+    level = LIMIT * largest
+    sines = small.records(lambda r: np.clip(r.force, -level, level), speeds=(0.3, 0.6, 1.0))
+    seen, rest = saturated(with_edges(with_noise(small.problem([*sines, triangle(level)]))))
+    assert seen is not None and "triangle" in seen.text
+    assert float(rest.misfits(rest.residual({}))[-1]) < 2.0
+    # Where a force passes the limit of others, it is not that of the channel.
+    whole = saturated(with_edges(with_noise(small.problem([*sines, triangle(np.inf)]))))[0]
+    assert whole is None or "triangle" not in whole.text
+
+
 def test_a_filter_that_overshoots_where_the_model_is_uncertain_does_not_hide_a_limit(largest: float) -> None:
     cut = with_edges(with_noise(small.problem([*small.records(speeds=(0.1, 0.3, 0.6)), triangle(0.8 * largest)])))
     *others, last = cut.records

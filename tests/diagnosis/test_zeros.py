@@ -127,6 +127,21 @@ def test_a_constant_that_pulls_the_rod_in_is_no_gas_that_is_left(records: list[P
     assert zero_change(zeroed(records, -20.0 * ~degraded + rng.standard_normal(len(records))))[0] is None
 
 
+def test_a_constant_that_comes_with_another_filling_and_more_than_it_is_no_zero(records: list[PreparedRecord]) -> None:
+    """As where foam decays in the emptier state: a mean, and an error that is larger than noise."""
+    right = zeroed(records, np.zeros(len(records)))
+    last = np.array([record.oil_level == records[-1].oil_level for record in records])
+    assert 0 < last.sum() < len(last) and not records[int(np.argmax(last)) - 1].intact
+    rng = np.random.default_rng(8)
+    zeros = right.spread(np.where(last, 20.0, rng.standard_normal(len(records))))
+    ripple = right.spread(np.where(last, 1.0, 0.0)) * np.resize([1.0, -1.0], len(zeros))
+    for size, moved in ((0.0, True), (60.0, False)):
+        pairs = zip(right.records, itertools.pairwise(right.starts), strict=True)
+        change = zeros + size * ripple
+        problem = right.with_records([replace(r, force=r.force + change[a:b]) for r, (a, b) in pairs])
+        assert (zero_change(problem)[0] is not None) == moved
+
+
 def test_a_force_that_falls_in_one_direction_alone_is_no_zero(records: list[PreparedRecord]) -> None:
     right = zeroed(records, np.zeros(len(records)))
     later = right.spread(np.where(np.arange(len(records)) >= len(records) // 2, 20.0, 0.0))
