@@ -31,12 +31,13 @@ def saturated(problem: Problem) -> tuple[Signature | None, Problem]:
     """The limit that the forces of some records do not pass, and the problem without the intervals beyond it."""
     forces = problem.forces({})
     limits: list[Limit] = []
-    for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
-        for sign in (1.0, -1.0):
-            found = limit(record, sign * forces[a:b], sign * record.force)
-            if found is not None:
-                limits.append(replace(found, force=sign * found.force))
-    limits = [*limits, *alike(problem, forces, limits)] if limits else cut(problem, forces)
+    # Beside what is beyond the limit of one side, that of the other explains hardly any of the error.
+    for _ in range(2):
+        records = without(problem.records, limits)
+        known = {item.force > 0.0 for item in limits}
+        more = [item for item in shown(records, problem, forces) if (item.force > 0.0) not in known]
+        limits += [*more, *alike(records, problem, forces, more)]
+    limits = limits or cut(problem, forces)
     sides = [[item for item in limits if item.force * sign > 0.0] for sign in (1.0, -1.0)]
     if not limits or any(
         np.ptp([item.force for item in side]) > RULES.limit_alike * abs(side[0].force) for side in sides if side
@@ -48,14 +49,30 @@ def saturated(problem: Problem) -> tuple[Signature | None, Problem]:
         f"the force stays at about {values} in {', '.join(names)} while the model's rises on (left out here): the load "
         "cell or its amplifier is at its limit"
     )
-    records = []
-    for record in problem.records:
+    return Signature("saturation", text, np.inf), problem.with_records(without(problem.records, limits))
+
+
+def without(records: Sequence[PreparedRecord], limits: Sequence[Limit]) -> list[PreparedRecord]:
+    """The records without the intervals beyond the limits."""
+    left = []
+    for record in records:
         beyond = [item.beyond for item in limits if item.record == record.name]
-        records.append(replace(record, judged=record.judged & ~np.logical_or.reduce(beyond)) if beyond else record)
-    return Signature("saturation", text, np.inf), problem.with_records(records)
+        left.append(replace(record, judged=record.judged & ~np.logical_or.reduce(beyond)) if beyond else record)
+    return left
 
 
-def alike(problem: Problem, forces: Array, limits: Sequence[Limit]) -> list[Limit]:
+def shown(records: Sequence[PreparedRecord], problem: Problem, forces: Array) -> list[Limit]:
+    """The limits that the records show by themselves; `forces` (n,) [N] are the model's."""
+    limits = []
+    for record, (a, b) in zip(records, itertools.pairwise(problem.starts), strict=True):
+        for sign in (1.0, -1.0):
+            found = limit(record, sign * forces[a:b], sign * record.force)
+            if found is not None:
+                limits.append(replace(found, force=sign * found.force))
+    return limits
+
+
+def alike(records: Sequence[PreparedRecord], problem: Problem, forces: Array, limits: Sequence[Limit]) -> list[Limit]:
     """The same limits in the other records, where no force passes them: it is a channel's, whatever shows it.
 
     Of a motion with constant velocity the model does not rise on beyond the limit.
@@ -64,7 +81,7 @@ def alike(problem: Problem, forces: Array, limits: Sequence[Limit]) -> list[Limi
     for sign in (1.0, -1.0):
         known = {item.record: sign * item.force for item in limits if sign * item.force > 0.0}
         level = float(np.mean(list(known.values()))) if known else np.inf
-        for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
+        for record, (a, b) in zip(records, itertools.pairwise(problem.starts), strict=True):
             beyond = sign * forces[a:b] > level
             scatter = RULES.limit_flat * record.noise + record.edges
             passed = record.judged & (sign * record.force - scatter > (1.0 + RULES.limit_alike) * level)
