@@ -143,6 +143,8 @@ class Selector(Chooser):
         current, rounds = self.start, []
         while True:
             taken = self.taken(current, options)
+            if taken is not None and self.preferred(current, self.shortest(current, options)) and taken.names[-1] in LATE:
+                taken = None
             rounds.append(list(options) if taken is None else [taken, *(o for o in options if o is not taken)])
             if taken is None:
                 break
@@ -230,14 +232,23 @@ class Selector(Chooser):
 
     def seen_through_sampling(self, current: Option, options: Sequence[Option]) -> bool:
         """Whether something too short for the sampling explains most of what a model leaves; it joins every model then."""
-        short = [o for o in options if o.names[-1] != RECALIBRATE and self.short(o) and self.worth(current, o)]
-        taken = self.taken(current, options)
-        best = min(short, key=lambda o: o.score, default=None)
-        if best is None or (taken is not None and taken.score <= best.score):
+        taken, best = self.taken(current, options), self.shortest(current, options)
+        if best is None:
+            return False
+        if taken is not None and taken.score <= best.score and not self.preferred(current, best):
             return False
         self.sampling = best.names[-1:]
         self.start = self.option(self.sampling, [self.free(self.sampling, fit.values) for fit in best.fits])
         return True
+
+    def shortest(self, current: Option, options: Sequence[Option]) -> Option | None:
+        """The best of what is too short for the sampling and explains more than noise; None where nothing does."""
+        short = [o for o in options if o.names[-1] != RECALIBRATE and self.short(o) and self.worth(current, o)]
+        return min(short, key=lambda o: o.score, default=None)
+
+    def preferred(self, current: Option, short: Option | None) -> bool:
+        """Whether beside a cause what every measurement has leaves noise alone: nothing else is asked for then."""
+        return short is not None and bool(current.names) and self.enough(short)
 
     def tried(self, current: Option, label: str, most: int, progress: Callable[[str], None]) -> list[Option]:
         """The current model with a further cause, best first, of those with the best starts the `most`."""
