@@ -144,6 +144,20 @@ def test_a_cause_and_its_start_are_those_of_the_truth(selector: Selector) -> Non
     assert not (selector.acts(late) and selector.worth(selector.start, late))
 
 
+def test_beside_a_cause_what_sampling_leaves_open_goes_first_where_it_leaves_noise_alone(selector: Selector) -> None:
+    mean = float(selector.start.misfit.mean())
+    gain, short, far = (
+        changed(selector, names, [left / mean] * 4)
+        for names, left in (
+            (("stroke_gain",), 4.0),
+            (("stroke_gain", "channel_delay"), 1.0),
+            (("stroke_gain", "channel_delay"), 3.0),
+        )
+    )
+    assert selector.preferred(gain, short)
+    assert not any(selector.preferred(*pair) for pair in ((gain, far), (gain, None), (selector.start, short)))
+
+
 def test_what_makes_the_force_late_twice_is_not_sought(selector: Selector) -> None:
     assert selector.alike("channel_delay", ("fluid_lag",))
     assert not selector.alike("channel_delay", ("valve_wear",))

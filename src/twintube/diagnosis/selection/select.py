@@ -248,7 +248,7 @@ class Selector(Chooser):
 
     def preferred(self, current: Option, short: Option | None) -> bool:
         """Whether beside a cause what every measurement has leaves noise alone: nothing else is asked for then."""
-        return short is not None and bool(current.names) and self.enough(short)
+        return short is not None and bool(current.names) and short.score <= RULES.right * self.count
 
     def tried(self, current: Option, label: str, most: int, progress: Callable[[str], None]) -> list[Option]:
         """The current model with a further cause, best first, of those with the best starts the `most`."""
