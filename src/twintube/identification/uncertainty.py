@@ -26,6 +26,7 @@ INSIDE = 1e-6  # share of the allowed range by which a least squares begins insi
 WEAK = 12.0  # one over the variance of a parameter that is evenly spread over its range: what no residual tells
 POLISHING = 40  # most evaluations of the last least squares
 SHARP = 0.1  # share of the allowed range: an interval narrower than that needs no profile
+BEYOND = (1.0, 0.75, 0.5, 0.25)  # of the way from an interval's end to the bound, at which it is profiled
 PROFILING = 6  # most evaluations of a least squares along a profile
 LEAST = 0.01  # half an interval's least width as a share of the allowed range: to which the optimum can be located
 PHASES = 32  # phases of an oscillation at which its residuals are compared
@@ -149,14 +150,21 @@ def estimates(
     for i, name in enumerate(objective.names):
         a = max(low[i], min(x[i] - reach[i], q50[i] - z * (q50[i] - q16[i])) - moved[i])
         b = min(high[i], max(x[i] + reach[i], q50[i] + z * (q84[i] - q50[i])) + moved[i])
-        # The walkers may not have come so far: whether a bound itself explains the records as well.
+        # The walkers may not have come so far: how far beyond the interval the records are explained as well.
         if b - a > SHARP * (high[i] - low[i]):
-            a = low[i] if profiled(objective, x, i, low[i], rows) <= z * z else a
-            b = high[i] if profiled(objective, x, i, high[i], rows) <= z * z else b
+            a, b = (
+                next((y for y in beyond(end, bound) if profiled(objective, x, i, y, rows) <= z * z), end)
+                for end, bound in ((a, low[i]), (b, high[i]))
+            )
         results.append(Estimate(name, float(x[i]), float(a), float(b), (float(low[i]), float(high[i]))))
     with np.errstate(invalid="ignore"):
         related: Array = np.nan_to_num(np.corrcoef(chain.T))
     return results, related
+
+
+def beyond(end: float, bound: float) -> list[float]:
+    """Values from a bound back towards an interval's end; none where the interval has come to the bound."""
+    return [end + share * (bound - end) for share in BEYOND] if end != bound else []
 
 
 def profiled(objective: Objective, x: Array, i: int, value: float, rows: Array) -> float:
