@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 8c0e49347cabadb5, body 184ab5115ac86837; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 6ee40ddcdf51ab12, body 7aef8a5cd18ed7e8; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -63,10 +63,12 @@ struct kernel_Parameters {
     double air_at_rest;
     double column_share;
     double foam_decay_rate;
+    double foam_order;
     double dry_share;
     double exhaustion;
     double redissolution_rate;
     double reserve_share;
+    double pressed_share;
     double F_surplus;
     double c_residual;
     double F_residual;
@@ -91,6 +93,7 @@ struct kernel_Parameters {
     double spot_width;
     double leak_film;
     double leak_power;
+    double leak_beyond;
     double cut_area;
     double side_load;
     double v_side;
@@ -196,11 +199,18 @@ struct kernel_State {
     double heat;
     double V_lost;
     double k_side;
-    double k_mixed;
-    double k_full_re;
-    double k_full_co;
-    double y_free;
+    double gas_ahead;
+    double foam_ahead;
+    double vent_ahead;
+    double rise_gas_re;
+    double rise_gas_co;
+    double rise_foam_re;
+    double rise_foam_co;
+    double rise_vent;
+    double since_turn;
     double k_last;
+    double k_end_re;
+    double k_end_co;
     double k_target;
     double k_carried;
 };
@@ -473,11 +483,18 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->heat = 0.0;
     s->V_lost = 0.0;
     s->k_side = 0.0;
-    s->k_mixed = 1.0;
-    s->k_full_re = 1.0;
-    s->k_full_co = 1.0;
-    s->y_free = 0.0;
+    s->gas_ahead = 0.0;
+    s->foam_ahead = 0.0;
+    s->vent_ahead = 0.0;
+    s->rise_gas_re = 1.0;
+    s->rise_gas_co = 1.0;
+    s->rise_foam_re = 0.0;
+    s->rise_foam_co = 0.0;
+    s->rise_vent = 0.0;
+    s->since_turn = 0.0;
     s->k_last = 1.0;
+    s->k_end_re = -1.0;
+    s->k_end_co = -1.0;
     s->k_target = 1.0;
     s->k_carried = 0.0;
 }
@@ -1101,12 +1118,20 @@ static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Der
 /* Give the oil and the gas of the decayed foam back; the volumes of the chambers stay. */
 static void kernel_foam_decay_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
 {
+    double rate;
+    double foam;
     double drained;
     double burst;
     double oil;
     double gas;
-    drained = 1.0 - exp((-p->foam_decay_rate) * dt);
-    burst = 1.0 - exp((-p->dry_share) * p->foam_decay_rate * dt);
+    rate = p->foam_decay_rate;
+    foam = s->V1_foam + s->V2_foam + s->V3_foam;
+    if ((p->foam_order < 1.0) && (foam > 0.0))
+    {
+        rate *= pow(1e-05 / foam, 1.0 - p->foam_order);
+    }
+    drained = 1.0 - exp((-rate) * dt);
+    burst = 1.0 - exp((-p->dry_share) * rate * dt);
     /* A trace of 1e-9 mL would still count as foam. */
     oil = (s->V1_foam < 1e-15 ? s->V1_foam_oil : drained * s->V1_foam_oil);
     gas = double_max(2, 0.0, s->V1_foam - s->V1_foam_oil);
@@ -1134,10 +1159,12 @@ static void kernel_foam_decay_phases(struct kernel_Parameters* p, struct kernel_
 /* Turn gas back into oil. */
 static void kernel_gas_redissolution_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
 {
+    double rate;
     double back;
     double gas;
     double part;
-    back = s->V_cav * (1.0 - exp((-p->redissolution_rate) * dt));
+    rate = p->redissolution_rate * (1.0 - p->pressed_share + p->pressed_share * fabs(s->F_fluid) / 1000.0);
+    back = s->V_cav * (1.0 - exp((-rate) * dt));
     s->V_cav -= back;
     s->V3_oil += p->reserve_share * back;
     back -= p->reserve_share * back;
@@ -1185,7 +1212,7 @@ static void kernel_seal_leak_phases(struct kernel_Parameters* p, struct kernel_S
     oil = double_min(2, left, s->V3_oil);
     s->V3_oil -= oil;
     s->V_lost += oil;
-    left -= oil;
+    left = (left - oil) * p->leak_beyond;
     if (left > 0.0)
     {
         oil = double_min(2, left, s->V2_oil);
@@ -1731,24 +1758,112 @@ static void kernel_fluid_lag_transition(struct kernel_Parameters* p, struct kern
     s->k_degr *= 1.0 - left * left;
 }
 
-/* Depth [m] of the gas in the driving chamber. */
-static double kernel_smooth_transition_depth(struct kernel_Parameters* p, struct kernel_State* s, double side)
+/* Stroke [m] in which a `volume` [m3] leaves with a `flow` [m2]. */
+static double kernel_smooth_transition_stroke(double volume, double flow)
 {
-    double rod;
-    double tube;
-    rod = p->D_PR * p->D_PR;
-    tube = p->D_li * p->D_li;
-    return (side > 0.0 ? s->V1_gas / (0.25 * M_PI * (tube - rod)) : s->V2_gas / (0.25 * M_PI * tube));
+    return (volume <= 0.0 ? 0.0 : ((flow > 0.0 ? double_min(2, 1000.0, volume / flow) : 1000.0)));
 }
 
-/* Begin a direction at its own value `k`; where its chamber has no gas there is no step ahead. */
-static void kernel_smooth_transition_turn(struct kernel_Parameters* p, struct kernel_State* s, double side, double k)
+/* The strokes until gas and foam run out. */
+static void kernel_smooth_transition_look(struct kernel_State* s, struct kernel_Flow* f, double side)
 {
-    s->k_carried = (s->k_side != 0.0 ? p->carry_turn * (s->k_last - k) : 0.0);
+    s->foam_ahead = 0.0;
+    s->vent_ahead = 0.0;
+    if (side > 0.0)
+    {
+        s->gas_ahead = kernel_smooth_transition_stroke(s->V1_gas, -f->V1_gas);
+        if (s->V1_foam > 0.0)
+        {
+            s->foam_ahead = kernel_smooth_transition_stroke(s->V1_gas + s->V1_foam, -(f->V1_gas + f->V1_foam + f->V1_oil));
+        }
+    }
+    else
+    {
+        s->gas_ahead = kernel_smooth_transition_stroke(s->V2_gas, -f->V2_gas);
+        if (s->V2_foam > 0.0)
+        {
+            s->foam_ahead = kernel_smooth_transition_stroke(s->V2_gas + s->V2_foam, -(f->V2_gas + f->V2_foam + f->V2_oil));
+        }
+        if (s->V2_gas <= 0.0)
+        {
+            s->vent_ahead = kernel_smooth_transition_stroke(s->V1_gas, -f->V1_gas);
+        }
+    }
+}
+
+/* Share [1] of a step that has come at a stroke `ahead` [m] of it. */
+static double kernel_smooth_transition_early(struct kernel_Parameters* p, double ahead, double length)
+{
+    double near;
+    near = double_max(2, 0.0, 1.0 - 0.5 * ahead / length);
+    return (ahead > 0.0 ? p->early_share * near * near : 0.0);
+}
+
+/* What has already come [1] of the steps ahead of `k`. */
+static double kernel_smooth_transition_coming(struct kernel_Parameters* p, struct kernel_State* s, double side, double k, double length)
+{
+    double gas;
+    double foam;
+    double coming;
+    gas = (side > 0.0 ? s->rise_gas_re : s->rise_gas_co);
+    foam = (side > 0.0 ? s->rise_foam_re : s->rise_foam_co);
+    coming = gas * kernel_smooth_transition_early(p, s->gas_ahead, length) + foam * kernel_smooth_transition_early(p, s->foam_ahead, length);
+    coming += s->rise_vent * kernel_smooth_transition_early(p, s->vent_ahead, length);
+    return double_max(2, 0.0, double_min(2, 1.0 - k, coming));
+}
+
+/* Begin a direction at its own value `k`. */
+static void kernel_smooth_transition_turn(struct kernel_Parameters* p, struct kernel_State* s, struct kernel_Flow* f, double side, double k)
+{
+    double ended;
+    if (s->k_side > 0.0)
+    {
+        s->k_end_re = s->k_last;
+    }
+    else if (s->k_side < 0.0)
+    {
+        s->k_end_co = s->k_last;
+    }
+    ended = (side > 0.0 ? s->k_end_re : s->k_end_co);
+    s->k_carried = (ended >= 0.0 ? p->carry_turn * (ended - k) : 0.0);
     s->k_side = side;
     s->k_target = k;
-    s->k_mixed = k;
-    s->y_free = (kernel_smooth_transition_depth(p, s, side) > 0.0 ? 0.0 : 1000.0);
+    s->since_turn = 0.0;
+    kernel_smooth_transition_look(s, f, side);
+}
+
+/* The `rise` [1] of k_degr in a step in which `gas` or `foam` or the gas of V1 has run out. */
+static void kernel_smooth_transition_remember(struct kernel_State* s, double side, bool gas, bool foam, bool vent, double rise)
+{
+    double alone;
+    if (gas)
+    {
+        if (side > 0.0)
+        {
+            s->rise_gas_re = rise;
+        }
+        else
+        {
+            s->rise_gas_co = rise;
+        }
+    }
+    if (foam)
+    {
+        /* What runs out in one step is one step of the force. */
+        alone = (gas ? 0.0 : rise);
+        if (side > 0.0)
+        {
+            s->rise_foam_re = alone;
+        }
+        else
+        {
+            s->rise_foam_co = alone;
+        }
+    }
+    if (vent)
+    {
+        s->rise_vent = (foam ? 0.0 : rise);
+    }
 }
 
 /* Mean of exp(-y) [1] over 0 <= y <= `way`. */
@@ -1763,83 +1878,73 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
     double settled;
     double side;
     double length;
-    double depth;
-    double target;
+    bool gas;
+    bool foam;
+    bool vent;
     double known;
-    double full;
-    double near;
-    double share;
-    double k;
-    double ended;
-    double jump;
-    double free;
-    double missing;
+    double mean;
+    double end;
+    double rise;
+    double gained;
+    double carried;
+    double target;
     double way;
-    double early;
+    double layer;
+    double late;
+    double coming;
     double turned;
     settled = s->k_degr;
     side = (dz > 0.0 ? 1.0 : ((dz < 0.0 ? -1.0 : s->k_side)));
     if (side != s->k_side)
     {
-        kernel_smooth_transition_turn(p, s, side, f->k_mean);
+        kernel_smooth_transition_turn(p, s, f, side, f->k_mean);
     }
     length = double_max(2, 1e-09, p->build_up + 0.5 * p->tau_build * (fabs(s->goal_v0) + fabs(s->goal_v1)));
-    depth = kernel_smooth_transition_depth(p, s, side);
-    target = f->k_mean;
+    gas = s->gas_ahead > 0.0;
+    foam = s->foam_ahead > 0.0;
+    vent = s->vent_ahead > 0.0;
+    kernel_smooth_transition_look(s, f, side);
     known = s->k_target;
-    if (depth > 0.0)
+    mean = ((dz != 0.0) || (side == 0.0) ? f->k_mean : known);
+    end = ((dz != 0.0) || (side == 0.0) ? f->k_degr : known);
+    rise = 0.0;
+    gained = 0.0;
+    if (dz != 0.0)
     {
-        full = (side > 0.0 ? s->k_full_re : s->k_full_co);
-        near = double_max(2, 0.0, 1.0 - depth / length);
-        share = p->early_share * near * near;
-        s->k_mixed = f->k_mean;
-        s->y_free = 0.0;
-        f->k_mean += double_max(2, 0.0, full - f->k_mean) * share;
-        f->k_degr += double_max(2, 0.0, full - f->k_degr) * share;
+        gas = gas && (s->gas_ahead == 0.0);
+        foam = foam && (s->foam_ahead == 0.0);
+        vent = vent && (s->vent_ahead == 0.0);
+        if (gas || foam || vent)
+        {
+            rise = double_max(2, 0.0, end - known);
+            kernel_smooth_transition_remember(s, side, gas, foam, vent, rise);
+        }
     }
-    else if (side != 0.0)
+    carried = s->k_carried;
+    target = mean;
+    if (rise > 0.0)
     {
-        k = (side > 0.0 ? s->k_full_re : s->k_full_co);
-        ended = k;
-        if (dz != 0.0)
-        {
-            ended = f->k_degr;
-            k = (s->y_free > 0.0 ? f->k_mean : f->k_degr);
-        }
-        target = k;
-        jump = double_max(2, 0.0, k - s->k_mixed);
-        free = fabs(dz);
-        if ((s->y_free == 0.0) && (jump > 0.0))
-        {
-            known = k;
-            /* In the step in which the gas runs out the kernel's mean tells where. */
-            free *= double_max(2, 0.0, double_min(2, 1.0, (f->k_mean - s->k_mixed) / jump));
-        }
-        missing = jump * (1.0 - p->early_share) * exp(-s->y_free);
-        way = free / length;
-        if (fabs(dz) > 0.0)
-        {
-            early = (1.0 - free / fabs(dz)) * jump * p->early_share;
-            f->k_mean = double_max(2, 0.0, f->k_mean + early - missing * kernel_smooth_transition_fade(way) * free / fabs(dz));
-        }
-        s->y_free += way;
-        f->k_degr = ended - missing * exp(-way);
-        if (side > 0.0)
-        {
-            s->k_full_re = k;
-        }
-        else
-        {
-            s->k_full_co = k;
-        }
+        gained = double_max(2, 0.0, double_min(2, 1.0, (mean - known) / rise));
+        mean += p->early_share * rise * (1.0 - gained);
+        target = end;
+    }
+    else
+    {
+        /* In the step in which something runs out the kernel's mean tells where. */
+        carried += p->carry_over * (known - target);
     }
     way = fabs(dz) / length;
+    layer = s->since_turn + (1.0 - gained) * fabs(dz);
+    late = (1.0 - p->early_share) * rise * (1.0 - (1.0 - p->carry_turn) * exp((-layer) / (0.1 * length)));
+    s->since_turn += fabs(dz);
     /* What is left of the past is at most the intact damper's: else every return of the gas would add another step to it. */
-    s->k_carried = double_min(2, s->k_carried + p->carry_over * (known - target), 1.0 - target);
+    carried = double_min(2, carried, 1.0 - target + late);
+    coming = kernel_smooth_transition_coming(p, s, side, end, length);
+    mean += coming + carried * kernel_smooth_transition_fade(way) - late * gained * kernel_smooth_transition_fade(gained * way);
+    f->k_mean = double_max(2, 0.0, double_min(2, 1.0, mean));
+    s->k_carried = carried * exp(-way) - late * exp((-gained) * way);
     s->k_target = target;
-    f->k_mean = double_max(2, 0.0, double_min(2, 1.0, f->k_mean + s->k_carried * kernel_smooth_transition_fade(way)));
-    s->k_carried *= exp(-way);
-    f->k_degr = double_max(2, 0.0, double_min(2, 1.0, f->k_degr + s->k_carried));
+    f->k_degr = double_max(2, 0.0, double_min(2, 1.0, end + coming + s->k_carried));
     s->k_last = f->k_degr;
     s->k_degr = (dz != 0.0 ? f->k_mean : f->k_degr);
     turned = (v > 0.0 ? 1.0 : ((v < 0.0 ? -1.0 : s->k_side)));
@@ -1847,7 +1952,7 @@ static void kernel_smooth_transition_transition(struct kernel_Parameters* p, str
     {
         /* The kernel has settled k_degr for the new direction, the mean over the step belongs to the one before. */
         s->k_last = (dz != 0.0 ? f->k_mean : s->k_last);
-        kernel_smooth_transition_turn(p, s, turned, settled);
+        kernel_smooth_transition_turn(p, s, f, turned, settled);
         s->k_degr = settled + s->k_carried;
         f->k_degr = s->k_degr;
     }

@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     oil_temperature_finish: Callable[[oil_temperature.Parameters, oil_temperature.State, float], None] = oil_temperature.oil_temperature_finish
     position_friction_scale_friction: Callable[[position_friction.Parameters, Frame, float, float], float] = position_friction.position_friction_scale_friction
     seal_leak_phases: Callable[[seal_leak.Parameters, seal_leak.State, float, float], None] = seal_leak.seal_leak_phases
-    seal_leak_lost: Callable[[seal_leak.Parameters, float, float, float], float] = seal_leak.seal_leak_lost
+    seal_leak_lost: Callable[[seal_leak.Parameters, float, float, float, float, float], float] = seal_leak.seal_leak_lost
     side_load_friction_scale_friction: Callable[[side_load_friction.Parameters, Frame, float, float], float] = side_load_friction.side_load_friction_scale_friction
     smooth_transition_transition: Callable[[smooth_transition.Parameters, smooth_transition.State, Flow, float, float], None] = smooth_transition.smooth_transition_transition
     valve_wear_scale_fluid: Callable[[valve_wear.Parameters, Frame, float], float] = valve_wear.valve_wear_scale_fluid

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from twintube.core import model
-from twintube.core.effects import State
+from twintube.core.effects import State, seal_leak
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper, load
 from twintube.engine.simulate import simulate
@@ -29,6 +29,27 @@ def test_the_film_leaves_from_the_reserve_first() -> None:
             model.advance(p, d, s, f, z, 0.1, 0.1, 0.0)
     assert s.V1_gas > 0.0
     assert s.V_lost <= p.V_oil * (1 + 1e-12)
+
+
+def test_a_film_may_end_with_the_reserve() -> None:
+    """The reserve is lost whole, of the rest the share. Oil that the chambers give it again for gas is lost, too."""
+    lost = []
+    for share in (0.0, 0.5, 1.0):
+        p = load("SA8").with_(leak_film=1e-5, leak_beyond=share, oil_level=0.6, gas_preload=0).parameters
+        d, s, f = blank(Derived), blank(State), blank(Flow)
+        model.set_up(p, d)
+        model.start(p, d, s, 0.0)
+        reserve, way = s.V3_oil, 0.0
+        while 1e-5 * way < 2.0 * reserve:
+            for z in (0.001, 0.0):
+                model.advance(p, d, s, f, z, 0.1, 0.1, 0.01)
+                way += 0.001
+        lost.append(s.V_lost)
+        estimate = seal_leak.seal_leak_lost(p, 0.6, 0.0, way / 0.1, way, 0.1 * way)
+        assert estimate == pytest.approx(reserve + share * (1e-5 * way - reserve), rel=1e-9)
+        assert estimate == pytest.approx(s.V_lost, rel=0.3)
+    assert reserve < lost[0] < lost[1] < lost[2]
+    assert lost[2] == pytest.approx(1e-5 * way, rel=1e-9)
 
 
 def test_force_falls_over_the_measurement(sa8: Damper) -> None:

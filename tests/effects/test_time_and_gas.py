@@ -41,6 +41,19 @@ def test_foam_decays_at_rest_by_its_rate(sa8: Damper) -> None:
     assert oil_of(s) == pytest.approx(oil, rel=1e-12)
 
 
+def test_a_front_goes_through_the_foam_at_a_speed_of_its_own(sa8: Damper) -> None:
+    """With order 0 the volume falls evenly, by the rate times 10 mL per second, whatever is left."""
+    p, d, s, f = foamed(sa8.with_(foam_decay_rate=0.02, foam_order=0.0, oil_level=0.4))
+    foam, oil = s.V1_foam + s.V2_foam + s.V3_foam, oil_of(s)
+    seconds = 0.5 * foam / 0.02e-5
+    for i in range(1, 1001):
+        model.advance(p, d, s, f, s.z, 0.0, 0.0, seconds / 1000)
+        if i % 250 == 0:
+            left = s.V1_foam + s.V2_foam + s.V3_foam
+            assert left == pytest.approx(foam - 0.02e-5 * seconds * i / 1000, rel=1e-3)
+    assert oil_of(s) == pytest.approx(oil, rel=1e-12)
+
+
 def test_dry_foam_lasts_longer_than_its_oil_drains(sa8: Damper) -> None:
     p, d, s, f = foamed(sa8.with_(foam_decay_rate=0.1, dry_share=0.2, oil_level=0.4))
     wet, foam = s.V1_foam_oil + s.V2_foam_oil + s.V3_foam_oil, s.V1_foam + s.V2_foam + s.V3_foam
@@ -62,6 +75,19 @@ def test_freed_gas_dissolves_at_rest_by_its_rate(sa8: Damper) -> None:
     assert oil_of(s) + s.V_cav == pytest.approx(oil + freed, rel=1e-12)
     model.advance(p, d, s, f, s.z, 0.0, 0.0, 1e4)
     assert oil_of(s) == pytest.approx(0.6 * p.V_oil, rel=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_gas_dissolves_by_the_pressure_where_henrys_law_holds(sa8: Damper, share: float) -> None:
+    """The rate at 1000 N goes with the fluid force of the last step; at rest the share of it ends."""
+    p, d, s, f = foamed(sa8.with_(redissolution_rate=0.1, pressed_share=share))
+    freed = s.V_cav
+    s.F_fluid = -500.0
+    model.advance(p, d, s, f, s.z, 0.0, 0.0, 1.0)
+    assert s.V_cav == pytest.approx(freed * math.exp(-0.1 * (1.0 - 0.5 * share)), rel=1e-9)
+    freed = s.V_cav
+    model.advance(p, d, s, f, s.z, 0.0, 0.0, 1.0)
+    assert s.V_cav == pytest.approx(freed * math.exp(-0.1 * (1.0 - share)), rel=1e-9)
 
 
 def test_gas_that_dissolves_in_the_reserve_leaves_that_of_the_chambers(sa8: Damper) -> None:

@@ -56,7 +56,7 @@ HOOKS = {
     "felt": ("p: Parameters, s: State, value: float, dt: float", "float", "chain"),
     "force": ("p: Parameters, s: State, v: float, dz: float, dt: float", "None", "call"),
     "finish": ("p: Parameters, s: State, dt: float", "None", "call"),
-    "lost": ("p: Parameters, duration: float, way: float, square: float", "float", "sum"),
+    "lost": ("p: Parameters, level: float, z: float, duration: float, way: float, square: float", "float", "sum"),
 }
 FIRST = {"call": "", "chain": "", "sum": "    value = 0.0\n", "product": "    value = 1.0\n", "most": "    value = 1\n"}
 LINE = {

@@ -12,7 +12,7 @@ from twintube.diagnosis.fits.candidates import LATE, RECALIBRATE, candidates
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.fits.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.fits.options import Fold
-from twintube.diagnosis.measurement.edges import with_motion, with_noise, with_outliers, without_outliers
+from twintube.diagnosis.measurement.edges import with_memory, with_motion, with_noise, with_outliers, without_outliers
 from twintube.diagnosis.measurement.faults import STRANGER, Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.measurement.history import bare_of_strokes, settled, with_history
 from twintube.diagnosis.measurement.jitter import with_uncertainty
@@ -88,6 +88,12 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
 
         folds, split_remarks = split(dataset.title, judged.records)
         answered = by(judged, folds, "")
+        left = {r.record.name: r.extended - r.measured for r in answered.records}
+        remembering = with_memory(judged, left) if answered.verdict == "unexplained" else None
+        if remembering is not None:
+            judged = remembering
+            folds, split_remarks = split(dataset.title, judged.records)
+            answered = by(judged, folds, "with the memory of noise: ")
         few = split_remarks == [BY_VELOCITY] and len(answered.causes) < RULES.rounds
         wrong = contradicted(with_outliers(judged, outliers), answered) if few else None
         inside = within(wrong.records) if wrong is not None else []
@@ -276,10 +282,12 @@ def split(title: str, records: Sequence[PreparedRecord]) -> tuple[list[Halves], 
 
 
 def within(records: Sequence[PreparedRecord]) -> list[Halves]:
-    """Every second tenth of each record to fit and to judge on, then exchanged; none where a record is too short."""
-    slow = [record for record in records if record.measurement == "quasi-static"]
-    moving = [record for record in records if record.measurement != "quasi-static"]
-    halves = [[record.alternate(half) for record in moving] for half in (0, 1)]
-    if any(record.judged.sum() < RULES.parts * RULES.part_least for record in moving):
-        return []
-    return [([*slow, *halves[0]], halves[1]), ([*slow, *halves[1]], halves[0])]
+    """Every second tenth of each record to fit and to judge on, then exchanged; none where all are too short.
+
+    Records that are too short, and quasi-static ones, are always fitted.
+    """
+    long = RULES.parts * RULES.part_least
+    judged = [r for r in records if r.measurement != "quasi-static" and r.judged.sum() >= long]
+    fitted = [r for r in records if all(r is not other for other in judged)]
+    halves = [[record.alternate(half) for record in judged] for half in (0, 1)]
+    return [([*fitted, *halves[0]], halves[1]), ([*fitted, *halves[1]], halves[0])] if judged else []

@@ -1,5 +1,7 @@
-"""Foam separates with time, at rest too: first-order decay of every chamber's foam into its oil and its gas.
+"""Foam separates with time, at rest too: decay of every chamber's foam into its oil and its gas.
 
+All bubbles may do so alike, a decay of first order, or those at a surface, a front that goes through the foam at its own
+speed: order 0. `foam_decay_rate` is that of 10 mL of foam, a usual volume.
 The oil drains out first; dry bubbles may burst slower, at `dry_share` of the rate.
 """
 
@@ -15,6 +17,7 @@ CAUSE = "Drainage and bursting bubbles separate foam into oil and gas at a rate 
 ABSENCE = "After a rest or in slow motion the measured force is higher than the model's, whose foam stays."
 DECIDES = "rests of 5, 20 and 60 s between blocks below the cavitation threshold"
 NEEDS_TIME = True
+V_USUAL = 1e-5  # [m3] foam
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +26,8 @@ class Parameters(variables.Parameters):
 
     foam_decay_rate: float = var("foam_decay", "", "1/s", "share of the foam that separates per second", lower=0, upper=10,
                                  source="first-order foam decay; Bikerman, Foams", default=0.0, role="strength")  # fmt: skip
+    foam_order: float = var("foam_decay", "", "1", "foam separates with its volume to this power", lower=0, upper=1,
+                            source="1: all bubbles; 0: a front; Bikerman, Foams", default=1.0, role="law")  # fmt: skip
     dry_share: float = var("foam_decay", "", "1", "rate at which the gas leaves, of that of the oil", lower=0.1, upper=1,
                            source="1: both alike; drainage before collapse: Bikerman, Foams", default=1.0,
                            role="law")  # fmt: skip
@@ -30,8 +35,12 @@ class Parameters(variables.Parameters):
 
 def foam_decay_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:
     """Give the oil and the gas of the decayed foam back; the volumes of the chambers stay."""
-    drained = 1.0 - math.exp(-p.foam_decay_rate * dt)
-    burst = 1.0 - math.exp(-p.dry_share * p.foam_decay_rate * dt)
+    rate = p.foam_decay_rate
+    foam = s.V1_foam + s.V2_foam + s.V3_foam
+    if p.foam_order < 1.0 and foam > 0.0:
+        rate *= math.pow(V_USUAL / foam, 1.0 - p.foam_order)
+    drained = 1.0 - math.exp(-rate * dt)
+    burst = 1.0 - math.exp(-p.dry_share * rate * dt)
     # A trace of 1e-9 mL would still count as foam.
     oil = s.V1_foam_oil if s.V1_foam < 1e-15 else drained * s.V1_foam_oil
     gas = max(0.0, s.V1_foam - s.V1_foam_oil)

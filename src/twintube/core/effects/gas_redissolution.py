@@ -1,7 +1,8 @@
 """Gas freed by cavitation goes back into the oil: first-order decay of V_cav, the oil lost to gas.
 
 A share of what comes back is in the reserve already; the rest takes the place of gas in V1 and V2, in proportion to the gas
-they hold, and beyond that joins the reserve, too. Oil and V_cav together stay the same.
+they hold, and beyond that joins the reserve, too. Oil and V_cav together stay the same. A share of the rate may go with the
+pressure, and so with the fluid force; it is stated at 1000 N.
 """
 
 import math
@@ -16,6 +17,7 @@ CAUSE = "Bubbles freed by cavitation collapse and dissolve again under pressure,
 ABSENCE = "The model loses force from oscillation to oscillation where the measured damper recovers, at rest above all."
 DECIDES = "rests of 5, 20 and 60 s between blocks above the cavitation threshold"
 NEEDS_TIME = True
+F_USUAL = 1000.0  # [N] fluid force
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,11 +29,15 @@ class Parameters(variables.Parameters):
                                     default=0.0, role="strength")  # fmt: skip
     reserve_share: float = var("gas_redissolution", "", "1", "share of it that dissolves in the reserve", lower=0, upper=1,
                                source="where the bubbles are is not known", default=0.0, role="law")  # fmt: skip
+    pressed_share: float = var("gas_redissolution", "", "1", "share of the rate that goes with the fluid force", lower=0,
+                               upper=1, source="solubility goes with pressure (Henry's law)", default=0.0,
+                               role="law")  # fmt: skip
 
 
 def gas_redissolution_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:
     """Turn gas back into oil."""
-    back = s.V_cav * (1.0 - math.exp(-p.redissolution_rate * dt))
+    rate = p.redissolution_rate * (1.0 - p.pressed_share + p.pressed_share * abs(s.F_fluid) / F_USUAL)
+    back = s.V_cav * (1.0 - math.exp(-rate * dt))
     s.V_cav -= back
     s.V3_oil += p.reserve_share * back
     back -= p.reserve_share * back

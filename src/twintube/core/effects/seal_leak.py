@@ -3,8 +3,9 @@
 The film grows with the speed to the power leak_power - 1: a film of constant thickness has 1, a leak under constant pressure
 0, the film that viscosity draws out lies between. Records of a rig fix the loss at 0.1 m/s, whatever the power.
 
-It comes from the reserve, where the seal is. Without oil there, the rod guide passes on what V1 presses through it and what
-then misses in V2, whose oil gives way to gas; V1 itself draws no gas while it is under pressure.
+It comes from the reserve, where the seal is. Without oil there, the share `leak_beyond` of it goes on: the rod guide passes
+on what V1 presses through it and what then misses in V2, whose oil gives way to gas; V1 itself draws no gas while it is
+under pressure.
 
 Past a cut through seal and guide the pressure of V1 drives oil out as through an orifice. Gas takes its place at once: the
 force falls by the share of the oil that no longer passes the valves.
@@ -36,6 +37,9 @@ class Parameters(variables.Parameters):
                            role="strength")  # fmt: skip
     leak_power: float = var("seal_leak", "", "1", "oil lost per time goes with the speed to this power", lower=0, upper=2,
                             source="1: constant film", default=1.0, role="law")  # fmt: skip
+    leak_beyond: float = var("seal_leak", "", "1", "share of the film's loss that goes on without oil in the reserve",
+                             lower=0, upper=1, source="1: the rod guide passes on what V1 presses through it",
+                             default=1.0, role="law")  # fmt: skip
     cut_area: float = var("seal_leak", "", "m2", "area of a cut, times its discharge coefficient", lower=0, upper=1e-7,
                           source="orifice; Merritt, Hydraulic Control Systems", default=0.0, role="strength")  # fmt: skip
 
@@ -61,7 +65,7 @@ def seal_leak_phases(p: Parameters, s: State, way: float, dt: float) -> None:
     oil = min(left, s.V3_oil)
     s.V3_oil -= oil
     s.V_lost += oil
-    left -= oil
+    left = (left - oil) * p.leak_beyond
     if left > 0.0:
         oil = min(left, s.V2_oil)
         s.V2_oil -= oil
@@ -86,11 +90,11 @@ def seal_leak_phases(p: Parameters, s: State, way: float, dt: float) -> None:
         s.V_lost += oil
 
 
-def seal_leak_lost(p: Parameters, duration: float, way: float, square: float) -> float:
+def seal_leak_lost(p: Parameters, level: float, z: float, duration: float, way: float, square: float) -> float:
     """Oil [m3] lost in a `duration` [s] of a `way` [m], where the squared speed has the integral `square` [m2/s].
 
     That of the speed to a power between those of the three is taken by the parabola of their logarithms, a cut's at a usual
-    force.
+    force. The film takes the reserve of a fill `level` [1] at the innermost stroke `z` [m] first.
     """
     if duration <= 0.0 or way <= 0.0 or square <= 0.0:
         return 0.0
@@ -98,4 +102,9 @@ def seal_leak_lost(p: Parameters, duration: float, way: float, square: float) ->
     n = p.leak_power
     low = 0.5 * (n - 1.0) * (n - 2.0) * math.log(duration)
     high = 0.5 * n * (n - 1.0) * math.log(square)
-    return cut + p.leak_film * 0.1 * math.exp(low + n * (2.0 - n) * math.log(way) + high - n * math.log(0.1))
+    film = p.leak_film * 0.1 * math.exp(low + n * (2.0 - n) * math.log(way) + high - n * math.log(0.1))
+    tube = 0.25 * math.pi * p.D_li * p.D_li
+    ring = tube - 0.25 * math.pi * p.D_PR * p.D_PR
+    half = 0.5 * (p.h_l - p.dead_length)
+    reserve = max(0.0, level * p.V_oil - tube * (half + z) - ring * (half - z))
+    return cut + min(film, reserve) + p.leak_beyond * max(0.0, film - reserve)

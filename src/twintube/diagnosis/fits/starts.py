@@ -15,11 +15,14 @@ from twintube.diagnosis.rules import RULES
 def grid(candidate: Candidate, f: Free) -> list[float]:
     """Values from which to begin: a strength over its range with both signs, a length or time near its usual value.
 
-    A power or a share begins at its low end too, which is a law of its own; a share at the other end as well.
+    A power or a share begins at its low end too, which is a law of its own; a share at the other end as well. Half a share
+    is tried of the first law only.
     """
     if f.name not in candidate.strength:
         if f.low < 0.0 < f.high:  # a place on either side
             return [float(x) for x in np.linspace(f.low, f.high, RULES.places + 2)[1:-1]]
+        if f.name in candidate.laws[1:] and f.high == 1.0:
+            return [f.low, f.high]
         near = [f.start, (f.low + f.start) / 2, (f.high * f.start) ** 0.5 if f.start > 0 else f.high / 2]
         near += ([f.low, f.high] if f.high == 1.0 or f.name == CARRIED else [f.low]) if f.name in candidate.laws else []
         return sorted({min(max(x, f.low), f.high) for x in near})
@@ -128,6 +131,7 @@ def starts(
         scores = costs([best | {name: x} | shape for name, x, shape in rows])
         seen = {(name, score): shape for (name, _, shape), score in zip(reversed(rows), reversed(scores), strict=True)}
         fewer = {name: [shape for key, shape in seen.items() if key[0] == name] for name in left}
+        fewer = {name: best_shapes(best, name, grids[name], several, costs) for name, several in fewer.items()}
         rows = [(name, x, shape) for name in left for x in grids[name] for shape in fewer[name]]
         tried = [best | {name: x} | shape for name, x, shape in rows]
         scores = costs(tried)
@@ -160,6 +164,22 @@ def starts(
             break
     last: dict[str, float] = {name: x for name, x in best.items() if name not in left}
     return float(low), [points[0], points[-1]] if len(points) > 1 else [last]
+
+
+def best_shapes(
+    best: Mapping[str, float],
+    name: str,
+    grid: Sequence[float],
+    shapes: list[dict[str, float]],
+    costs: Callable[[Sequence[Mapping[str, float]]], list[float]],
+) -> list[dict[str, float]]:
+    """Those of many `shapes` that explain most at a few values of a strength's `grid`, in their order."""
+    if len(shapes) <= RULES.shapes_kept:
+        return shapes
+    few = grid[len(grid) % RULES.shapes_coarse :: RULES.shapes_coarse] or grid
+    scores = np.reshape(costs([{**best, name: x, **shape} for shape in shapes for x in few]), (len(shapes), len(few)))
+    kept = np.argsort(scores.min(axis=1), kind="stable")[: RULES.shapes_kept]
+    return [shapes[i] for i in sorted(kept.tolist())]
 
 
 def alike(

@@ -99,6 +99,20 @@ def with_noise(problem: Problem) -> Problem:
     return problem.with_records([replace(r, noise=noise(r, error)) for r, error in zip(records, errors, strict=True)])
 
 
+def with_memory(problem: Problem, errors: Mapping[str, Array]) -> Problem | None:
+    """The problem with the memory of noise in other errors (n,) [N] of each record, by its name; None where there is none.
+
+    What is wrong in the model as given is smooth from sample to sample and hides it.
+    """
+    if problem.records[0].colour > 0.0 or any(len(errors[r.name]) != len(r.time) for r in problem.records):
+        return None
+    alike = colour(problem.records, [errors[record.name] for record in problem.records])
+    if alike == 0.0:
+        return None
+    records = [replace(record, colour=alike) for record in problem.records]
+    return problem.with_records([replace(r, noise=noise(r, errors[r.name])) for r in records])
+
+
 def less_noise(problem: Problem, models: Sequence[Mapping[str, float]], known: Mapping[str, Array]) -> dict[str, Array]:
     """The least noise (n,) [N] of each record, by its name, in the errors of some models; `known` are bounds of others.
 

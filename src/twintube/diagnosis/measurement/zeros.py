@@ -72,7 +72,8 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     several = {key: without(problem, fits[key], key == RUNNING) for key in keys_alike}
     cut = min(several, key=lambda key: float(apart_from_means(several[key][0]).sum()))
     still, rate = several[cut]
-    if cut > 0 and keys[cut] != keys[cut - 1]:  # with another filling a cause begins, too, which leaves more than noise
+    near = range(max(1, cut - 1), min(count, cut + 2)) if cut > 0 else range(0)
+    if any(keys[i] != keys[i - 1] for i in near):  # with another filling a cause begins, too, which leaves more than noise
         left_apart = apart_from_means(still)[cut:] / np.maximum(still.counts[cut:], 1)
         if np.median(left_apart) > RULES.odd_right:
             return None, problem

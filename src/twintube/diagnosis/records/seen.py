@@ -91,8 +91,9 @@ class SeenRecords(SimulatedRecords):
         for name, value in changes.items():
             row[name] = value
         lost_by = compiled.module().effects_lost
-        earlier = np.array([lost_by(row, *record.before_fill) for record in self.records])
-        same = np.array([lost_by(row, *record.before) for record in self.records]) - earlier
+        filled = [(float(level), float(r.stroke.min()), r) for level, r in zip(self.states[:, 0], self.records, strict=True)]
+        earlier = np.array([lost_by(row, level, z, *record.before_fill) for level, z, record in filled])
+        same = np.array([lost_by(row, level, z, *record.before) for level, z, record in filled]) - earlier
         lost = min(carried, 1.0) * same + max(carried - 1.0, 0.0) * earlier
         states = self.states.copy()
         degraded = states[:, 1] == 0

@@ -54,7 +54,7 @@ def near(selection: Selection, left: bool) -> list[Option]:
     close = selection.limit if exact else max(selection.limit, RULES.close * gained)
     wide = max(close, RULES.law_apart * best.score) if left else close
     others = [o for o in selection.rounds[0] if o.names[-1] not in (RECALIBRATE, *selection.neutral, *selection.chosen)]
-    others = [o for o in others if o.score >= best.score or o is selection.rounds[0][0]]
+    others = [o for o in others if left or o.score >= best.score or o is selection.rounds[0][0]]
 
     def most(other: Option) -> float:
         pair = {best.names[-1], other.names[-1]}
