@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 6ee40ddcdf51ab12, body 7aef8a5cd18ed7e8; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations ab011aa51dcafb1c, body 3cf42dfc1064b8da; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -85,6 +85,7 @@ struct kernel_Parameters {
     double friction_kelvin;
     double gas_kelvin;
     double turbulence;
+    double thin_density;
     double gas_heat;
     double friction_slope;
     double friction_bow;
@@ -1978,7 +1979,7 @@ static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, st
     double laminar;
     thin = exp((-p->fade_heat) * (p->H_start + s->heat) - p->fade_kelvin * s->warm);
     laminar = 1.0 / (1.0 + p->turbulence * fabs(v));
-    return thin + (1.0 - laminar) * (1.0 - thin);
+    return laminar * thin + (1.0 - laminar) * pow(thin, p->thin_density);
 }
 
 /* Factor [1] of the force `F` [N] at the speed `u` >= 0 [m/s] where the open blow-off has `lost` force [N]. */

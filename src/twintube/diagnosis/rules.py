@@ -248,7 +248,7 @@ class Rules:
     joins: float = starts(0.02, "1", "of the squared error that a further strength of a cause must take away", DEVELOPMENT)
     shapes: int = starts(3, "", "lengths, powers and shares that are sought, the first in the effect's file", JUDGEMENT)
     shapes_kept: int = starts(4, "", "combinations of these that are tried at all strengths", JUDGEMENT)
-    shapes_coarse: int = starts(3, "", "of so many strengths one says which", JUDGEMENT)
+    shapes_coarse: int = starts(6, "", "of so many strengths one says which", JUDGEMENT)
     shares: tuple[float, ...] = starts(
         (0.0007, 0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a strength's range, at which a search begins", DEVELOPMENT
     )

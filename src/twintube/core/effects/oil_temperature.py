@@ -4,7 +4,8 @@ The damper is one heat store with one way out (lumped capacity, Newton cooling);
 start: dH/dt = P - H / cooling_time. Viscosity falls exponentially with temperature (Reynolds), and so does the laminar
 part of the force, by exp(-fade_heat (H + H_start)), H_start being the heat at the start beyond that at the temperature of
 the F-v curve. Heat capacity and viscosity index act only through their ratio `fade_heat`. The pressure drop a mu v + b v^2
-of a passage is laminar by 1 / (1 + turbulence |v|), turbulence being b / (a mu); the rest does not know the viscosity.
+of a passage is laminar by 1 / (1 + turbulence |v|), turbulence being b / (a mu); the rest goes with the density, of which
+`thin_density` is what viscosity loses, in logarithms.
 
 Where the temperature is measured, it is `s.warm` [K] beyond that of the parameter set, set from outside; it acts by
 fade_kelvin and friction_kelvin in the same exponential way. The gas is enclosed: force and stiffness of the preload rise by
@@ -36,7 +37,7 @@ class Parameters(variables.Parameters):
     cooling_time: float = var("oil_temperature", "", "s", "time constant of the cooling", lower=5, upper=2000,
                               source="Newton's law of cooling, lumped", default=300.0, role="scale")  # fmt: skip
     H_start: float = var("oil_temperature", "", "J", "heat at the start beyond that of the F-v curve's temperature",
-                         lower=-2000, upper=2000, source="some kelvins of a rig's room", default=0.0,
+                         lower=-2e4, upper=6e4, source="a hot or cold damper, 700 J/K", default=0.0,
                          role="start")  # fmt: skip
     fade_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of fluid force per kelvin measured", lower=0,
                              upper=0.08, source="Reynolds 1886 (viscosity)", default=0.0, role="strength")  # fmt: skip
@@ -48,6 +49,9 @@ class Parameters(variables.Parameters):
     turbulence: float = var("oil_temperature", "", "s/m", "turbulent over laminar pressure drop per velocity; 0: all is "
                             "laminar", lower=0, upper=20, source="Hagen-Poiseuille and Bernoulli: a mu v + b v^2",
                             default=0.0, role="law")  # fmt: skip
+    thin_density: float = var("oil_temperature", "", "1", "relative loss of density over that of viscosity", lower=0,
+                              upper=0.05, source="7e-4/K of mineral oil; Dixon, The Shock Absorber Handbook",
+                              default=0.02, role="law")  # fmt: skip
     gas_heat: float = var("oil_temperature", "", "1/J", "relative rise of the preload per retained heat", lower=0,
                           upper=1e-3, source="ideal gas, lumped heat capacity", default=0.0, role="law")  # fmt: skip
 
@@ -68,7 +72,7 @@ def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
     """Share of the fluid force that is left [1]."""
     thin = math.exp(-p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * s.warm)
     laminar = 1.0 / (1.0 + p.turbulence * abs(v))
-    return thin + (1.0 - laminar) * (1.0 - thin)
+    return laminar * thin + (1.0 - laminar) * math.pow(thin, p.thin_density)
 
 
 def oil_temperature_scale_friction(p: Parameters, s: State, z: float, v: float) -> float:

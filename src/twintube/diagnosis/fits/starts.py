@@ -176,7 +176,7 @@ def best_shapes(
     """Those of many `shapes` that explain most at a few values of a strength's `grid`, in their order."""
     if len(shapes) <= RULES.shapes_kept:
         return shapes
-    few = grid[len(grid) % RULES.shapes_coarse :: RULES.shapes_coarse] or grid
+    few = grid[RULES.shapes_coarse // 2 :: RULES.shapes_coarse] or grid
     scores = np.reshape(costs([{**best, name: x, **shape} for shape in shapes for x in few]), (len(shapes), len(few)))
     kept = np.argsort(scores.min(axis=1), kind="stable")[: RULES.shapes_kept]
     return [shapes[i] for i in sorted(kept.tolist())]
@@ -203,6 +203,12 @@ def alike(
         for shape in shapes
     ]
     scores = costs([{**best, **point} for point in tried]) if tried else []
+    if tried:  # a single strength is no better for being between the values of its grid
+        top = tried[int(np.argmin(scores))]
+        by_name = {f.name: f for f in candidate.free if f.name in candidate.strength}
+        nearer = [{n: moved(by_name[n], x, by) if n in by_name else x for n, x in top.items()} for by in RULES.factors_tried]
+        tried += nearer
+        scores += costs([{**best, **point} for point in nearer])
     if not tried or min(scores) >= singly:
         return []
     least = tried[int(np.argmin(scores))]

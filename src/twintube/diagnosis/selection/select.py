@@ -277,7 +277,7 @@ class Selector(Chooser):
         Where noise alone is left no other can be.
         """
         causes = [name for name in current.names if name not in self.sampling]
-        for name in causes if len(causes) > 1 and not self.enough(current) else ():
+        for name in causes if len(causes) > 1 and current.score > RULES.right * self.count else ():
             others = [other for other in current.names if other != name]
             rest = self.option(others, [self.free(others, fit.values) for fit in current.fits])
             best = self.tried(rest, f"instead of {name}", RULES.further_fits, progress)[0]
