@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations ab011aa51dcafb1c, body 3cf42dfc1064b8da; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 5ce582270c29e4d8, body 56f13700e1639963; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -1977,7 +1977,7 @@ static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, st
 {
     double thin;
     double laminar;
-    thin = exp((-p->fade_heat) * (p->H_start + s->heat) - p->fade_kelvin * s->warm);
+    thin = exp(double_min(2, 2.0, (-p->fade_heat) * (p->H_start + s->heat) - p->fade_kelvin * s->warm));
     laminar = 1.0 / (1.0 + p->turbulence * fabs(v));
     return laminar * thin + (1.0 - laminar) * pow(thin, p->thin_density);
 }

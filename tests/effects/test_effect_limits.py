@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from twintube.core import model
-from twintube.core.effects import EFFECTS, State
+from twintube.core.effects import EFFECTS, State, oil_temperature
 from twintube.core.outputs import total_force
 from twintube.core.variables import Derived, Flow, Outputs, blank
 from twintube.dampers import Damper
@@ -40,7 +40,7 @@ def test_the_bound_of_k_degr_is_that_of_its_factors() -> None:
     """The phases give at most the intact damper's force, which a stiffer valve and cold oil raise."""
     ranges = {item.name: item.metadata for effect in EFFECTS.values() for item in effect.parameters}
     stiff = 1.0 + max(ranges["wear_re"]["upper"], ranges["wear_co"]["upper"])
-    cold = math.exp(-ranges["fade_heat"]["upper"] * ranges["H_start"]["lower"])
+    cold = math.exp(oil_temperature.THICKEST)
     assert 0.95 * BOUND < stiff * cold < BOUND
 
 
@@ -57,7 +57,7 @@ def test_a_gradual_build_up_never_exceeds_the_intact_damper(sa8: Damper, seed: i
 
 
 def test_the_largest_k_degr_is_reached(sa8: Damper) -> None:
-    damper = sa8.with_(wear_re=1.0, fade_heat=1e-3, H_start=-2000.0)
+    damper = sa8.with_(wear_re=1.0, fade_heat=1e-3, H_start=-2e4)
     p, d, s, f = started(damper)
     model.advance(p, d, s, f, 1e-6, 0.1, 0.1, 1e-5)
     assert s.k_degr == pytest.approx(2.0 * math.exp(2.0), rel=1e-3)

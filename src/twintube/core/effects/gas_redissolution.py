@@ -17,7 +17,7 @@ CAUSE = "Bubbles freed by cavitation collapse and dissolve again under pressure,
 ABSENCE = "The model loses force from oscillation to oscillation where the measured damper recovers, at rest above all."
 DECIDES = "rests of 5, 20 and 60 s between blocks above the cavitation threshold"
 NEEDS_TIME = True
-F_USUAL = 1000.0  # [N] fluid force
+F_PRESSED = 1000.0  # [N] fluid force
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Parameters(variables.Parameters):
 
 def gas_redissolution_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:
     """Turn gas back into oil."""
-    rate = p.redissolution_rate * (1.0 - p.pressed_share + p.pressed_share * abs(s.F_fluid) / F_USUAL)
+    rate = p.redissolution_rate * (1.0 - p.pressed_share + p.pressed_share * abs(s.F_fluid) / F_PRESSED)
     back = s.V_cav * (1.0 - math.exp(-rate * dt))
     s.V_cav -= back
     s.V3_oil += p.reserve_share * back

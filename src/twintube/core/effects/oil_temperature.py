@@ -25,6 +25,7 @@ CAUSE = "Heat, of the dissipated work or from outside, thins the oil, eases the 
 ABSENCE = "The measured fluid force falls below the model's while the damper gets warm, and comes back after a rest."
 DECIDES = "the tube's temperature, or a rest of ten minutes within a record: heat goes, lost oil does not come back"
 NEEDS_TIME = True
+THICKEST = 2.0  # logarithm of the force of cold oil over that of the F-v curve, at most
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +71,7 @@ def oil_temperature_phases(p: Parameters, s: State, way: float, dt: float) -> No
 
 def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
     """Share of the fluid force that is left [1]."""
-    thin = math.exp(-p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * s.warm)
+    thin = math.exp(min(THICKEST, -p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * s.warm))
     laminar = 1.0 / (1.0 + p.turbulence * abs(v))
     return laminar * thin + (1.0 - laminar) * math.pow(thin, p.thin_density)
 
