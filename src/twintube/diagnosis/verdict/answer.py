@@ -13,6 +13,7 @@ from twintube.diagnosis.fits.fit import Fit, Free, Problem
 from twintube.diagnosis.fits.gains import bootstrap, errors, floor, gains, whole, worst
 from twintube.diagnosis.fits.options import Option, Selection
 from twintube.diagnosis.measurement.faults import Fault
+from twintube.diagnosis.measurement.repeats import only_noise
 from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, Gain, RecordResult, Signature, Tried
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.selection.select import Selector
@@ -55,7 +56,7 @@ def answer(
     causes = [name for name in selection.chosen if name != RECALIBRATE]
     estimates = {name: estimated(selector.whole, known[name], extended, halves) for name in causes}
     attempts = tried(selector, selection)
-    judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults), attempts)
+    judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults), attempts, only_noise(problem))
     residuals = maps(records)
     named = [*judgement.causes, *(fault.effect for fault in faults)]
     probable = evidence(judgement.verdict, named, [o.names[-1] for o in judgement.rivals], attempts)

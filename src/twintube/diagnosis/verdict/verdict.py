@@ -28,6 +28,7 @@ class Judgement:
     rivals: list[Option]  # what explains the records as well as the named cause
     outside: list[Signature]  # causes outside the catalogue that decide
     explained: float  # share of the explainable squared error that goes away, on held-out records
+    loud: bool = False  # nothing is missing, though the error is above the noise floor: it does not repeat
 
 
 def judge(
@@ -39,12 +40,13 @@ def judge(
     gain: Gain,
     faults: Sequence[Fault],
     attempts: Sequence[Tried],
+    only_noise: bool = False,
 ) -> Judgement:
     """The verdict from the selected causes, the signatures in the records and the faults that were put right.
 
     `estimates` are the values of the chosen causes, `errors` those of the models on held-out records, `gain` that of the
-    model with all chosen causes, `attempts` the candidates as the page shows them. A cause is named only where none of these
-    figures speaks against it.
+    model with all chosen causes, `attempts` the candidates as the page shows them, `only_noise` says that the errors of the
+    model as given do not repeat. A cause is named only where none of these figures speaks against it.
     """
     base, extended, floor = (errors[name].force_rmse_N for name in ("base", "extended", "noise_floor"))
     right = selection.final.score <= RULES.right * selection.count
@@ -81,7 +83,7 @@ def judge(
     if outside and not (solved and extended <= RULES.quiet * floor):
         remaining = "unexplained"
     elif not solved:
-        remaining = "none" if quiet else "unexplained"
+        remaining = "none" if quiet or only_noise else "unexplained"
     elif not causes:
         # So many parameters take something away of any error.
         remaining = "none" if quiet else "recalibrate"
@@ -102,6 +104,7 @@ def judge(
         rivals=close if remaining == "ambiguous" else [],
         outside=outside if remaining == "unexplained" else [],
         explained=gain.heldout,
+        loud=remaining == "none" and not quiet,
     )
 
 
@@ -156,6 +159,10 @@ def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]
     match judgement.remaining:
         case "none":
             margin = 100 * (RULES.quiet - 1)
+            if judgement.loud:
+                return (
+                    "Nothing is missing: what the error has above the noise floor does not repeat in further oscillations."
+                )
             return f"Nothing is missing: the error on held-out records is less than {margin:.0f} % above the noise floor."
         case "recalibrate":
             return "No effect is missing: other values of the degradation parameters explain the records."
