@@ -17,8 +17,8 @@ def only_noise(problem: Problem) -> bool:
 
     These must be half of all.
     """
-    errors, misfit = problem.residual({}), problem.misfits(problem.residual({}))
-    if float(misfit @ problem.counts) > RULES.odd_right * problem.counts.sum():
+    errors = problem.residual({})
+    if float(errors @ errors) > RULES.odd_right * problem.counts.sum():
         return False
     pairs = zip(problem.records, np.split(errors, problem.starts[1:-1]), strict=True)
     shares = np.array([repeating(record, error) for record, error in pairs])
