@@ -164,6 +164,17 @@ def test_measurements_are_told_by_their_motion(tmp_path: Path) -> None:
         assert sniff(path).measurement == name
 
 
+@pytest.mark.parametrize("order", [("velocity", "force"), ("force", "velocity")])
+def test_without_a_header_the_velocity_is_the_derivative_of_the_stroke(order: tuple[str, str], tmp_path: Path) -> None:
+    seconds = np.arange(0.0, 4.0, 0.002)
+    velocity = 314.0 * np.cos(2 * np.pi * seconds)  # the force lags, and has friction
+    channels = {"velocity": velocity, "force": 3.0 * np.roll(velocity, 25) + 200.0 * np.sign(velocity)}
+    path = tmp_path / "a.txt"
+    path.write_text(table("", (seconds, 50.0 * np.sin(2 * np.pi * seconds), *(channels[name] for name in order))))
+    units = {"velocity": "velocity [mm/s]", "force": "force [N]"}
+    assert sniff(path).reading["columns"] == ["time [s]", "stroke [mm]", *(units[name] for name in order)]
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -8,18 +8,13 @@ import csv
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-
-from twintube.arrays import Array
 from twintube.data.column_names import assigned
 from twintube.data.formats import TEXT
-from twintube.data.stamps import is_stamp, seconds
-from twintube.data.table import UNITS, in_si
+from twintube.data.sniff_values import NUMBER, Sniffed, judge, velocity_apart
 from twintube.data.units import name_and_unit
 from twintube.engine.simulate import InputError
 
@@ -29,22 +24,6 @@ MOST_ROWS = 100_000
 LONGEST = 20_000  # characters of a row
 DELIMITERS = (";", "\t", ",", "|", "whitespace")  # in this order where two serve alike
 EVEN = 0.8  # of the rows must have the usual number of cells
-SLOW = 5e-3  # [m/s] up to which a record is quasi-static; the paper's ramps have 1 mm/s
-ALIKE = 0.15  # spread of the turning points of a harmonic record over their mean
-NUMBER = {
-    ".": re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?$"),
-    ",": re.compile(r"[+-]?((\d+|[1-9]\d{0,2}(\.\d{3})+)(,\d*)?|,\d+)([eE][+-]?\d+)?$"),  # 2.189 is a thousand
-}
-
-
-@dataclass
-class Sniffed:
-    """What dataset.toml should say about a text file."""
-
-    reading: dict[str, Any]  # keys of dataset.toml: columns, delimiter, decimal, encoding, skip_rows
-    measurement: str = ""  # quasi-static, harmonic, stochastic or not known
-    facts: list[str] = field(default_factory=list)  # what was seen
-    doubts: list[str] = field(default_factory=list)  # what was guessed, or is missing
 
 
 @dataclass(frozen=True)
@@ -82,6 +61,8 @@ def sniff(path: Path) -> Sniffed:
         result.doubts.append(f"encoding: the file is not UTF-8, {encoding} is assumed")
     columns = named(best, result)
     body = [row for row in cut(lines[best.first : best.first + MOST_ROWS], best.delimiter, best.decimal) if row]
+    if "velocity" in columns and BY_ORDER in result.doubts:
+        columns = velocity_apart(columns, body, best.decimal)
     judge(columns, body, best.decimal, result)
     return result
 
@@ -156,7 +137,7 @@ def named(best: Shape, result: Sniffed) -> dict[str, tuple[int, str]]:
     above = [i for i in range(best.first) if best.rows[i]]
     headers, at, units = header_rows(best, above, width)
     if headers is None:
-        result.doubts.append("columns: the file has no header; the quantities and units are a guess by their order")
+        result.doubts.append(BY_ORDER)
         order = [*EXPECTED, *[""] * width][:width]
         result.reading |= {"columns": order} | ({"skip_rows": best.first} if best.first else {})
         return {name_and_unit(text)[0]: (i, name_and_unit(text)[1]) for i, text in enumerate(order) if text}
@@ -178,6 +159,7 @@ def named(best: Shape, result: Sniffed) -> dict[str, tuple[int, str]]:
     return columns
 
 
+BY_ORDER = "columns: the file has no header; the quantities and units are a guess by their order"
 EXPECTED = ("time [s]", "stroke [mm]", "force [N]", "velocity [mm/s]", "temperature [degC]")
 
 
@@ -196,114 +178,3 @@ def header_rows(best: Shape, above: list[int], width: int) -> tuple[list[str] | 
     if len(rows) > 1 and all(not cell or name_and_unit(f"x [{cell.strip('[]()')}]")[1] for cell in units):
         return rows[1][1], rows[1][0], units
     return rows[0][1], rows[0][0], None
-
-
-def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: str, result: Sniffed) -> None:
-    """Complete the units from the sizes of the values, and say sampling and kind of the measurement."""
-    values = {name: column(body, i, decimal) for name, (i, _) in columns.items()}
-    stamped = "time" in columns and np.isfinite(stamps := times(body, columns["time"][0])).any()
-    known: dict[str, Array] = {}
-    headers: dict[str, str] = {}
-    for name, (_, stated) in columns.items():
-        if name == "time" and stamped:
-            known[name], headers[name] = stamps, "time"
-            continue
-        unit = stated or guessed(name, values[name])
-        if not stated:
-            result.doubts.append(f"{name}: the file gives no unit, {unit} is guessed from the size of the values")
-        try:
-            known[name] = in_si(values[name], name, unit)
-        except ValueError:
-            unit, wrong = guessed(name, values[name]), unit
-            result.doubts.append(
-                f"{name}: the unit {wrong!r} is not known here, {unit} is guessed from the size of the values"
-            )
-            known[name] = in_si(values[name], name, unit)
-        headers[name] = f"{name} [{unit}]"
-    for name, or_else in (("time", "set `sample_rate_Hz`"), ("stroke", "`channels`"), ("force", "`channels`")):
-        if name not in known:
-            result.doubts.append(f"{name}: no column looks like it; complete `columns`, or {or_else}")
-    write_columns(columns, headers, result)
-    if "time" in known:
-        steps = np.diff(known["time"])
-        steps = steps[np.isfinite(steps) & (steps > 0)]
-        if len(steps):
-            step = float(np.median(steps))
-            result.facts.append(f"{len(body)} rows looked at, {1 / step:.4g} Hz, {len(body) * step:.4g} s")
-    if "time" in known and "stroke" in known:
-        result.measurement = kind_of(known["time"], known["stroke"])
-
-
-def write_columns(columns: dict[str, tuple[int, str]], headers: dict[str, str], result: Sniffed) -> None:
-    """`columns` as dataset.toml wants it: left out, header = name in the file, or a list by position."""
-    stated = result.reading["columns"]
-    if isinstance(stated, dict):
-        pairs = {headers[name]: source for name, source in stated.items()}
-        result.reading["columns"] = pairs
-        if all(header == source for header, source in pairs.items()):
-            del result.reading["columns"]
-        return
-    width = max([len(stated), *(i + 1 for i, _ in columns.values())])
-    listed = [""] * width
-    for name, (i, _) in columns.items():
-        listed[i] = headers[name]
-    result.reading["columns"] = listed
-
-
-def column(body: list[list[str]], i: int, decimal: str) -> Array:
-    """The numbers of a column, NaN where a cell is not one."""
-    cells = [row[i] if i < len(row) else "" for row in body]
-    point = "" if decimal == "," else "."
-    numbers = [
-        float(cell.replace(".", point).replace(",", ".")) if NUMBER[decimal].match(cell) else np.nan for cell in cells
-    ]
-    return np.array(numbers, dtype=float)
-
-
-def times(body: list[list[str]], i: int) -> Array:
-    """Seconds since the first stamp in a column, NaN where it holds none."""
-    cells = [row[i] if i < len(row) else "" for row in body]
-    try:
-        return seconds(cells) if any(map(is_stamp, cells[:1])) else np.full(len(cells), np.nan)
-    except ValueError:
-        return np.full(len(cells), np.nan)
-
-
-def guessed(name: str, values: Array) -> str:
-    """The unit that makes the size of the values that of a damper on a bench."""
-    finite = values[np.isfinite(values)]
-    if len(finite) < 2:
-        return EXPECTED_UNIT[name]
-    span = float(np.ptp(finite))
-    if name == "time":
-        return "ms" if float(np.median(np.abs(np.diff(finite)))) >= 0.2 else "s"
-    if name == "temperature":
-        return "K" if float(np.median(finite)) > 200.0 else "degC"
-    limit, small, large = {"stroke": (1.0, "m", "mm"), "force": (60.0, "kN", "N"), "velocity": (10.0, "m/s", "mm/s")}[name]
-    return small if span < limit else large
-
-
-EXPECTED_UNIT = UNITS | {"stroke": "mm", "velocity": "mm/s"}
-
-
-def kind_of(time: Array, stroke: Array) -> str:
-    """The kind of a measurement by its speed and its turning points; "" where nothing moves."""
-    sound = np.isfinite(time) & np.isfinite(stroke)
-    time, stroke = time[sound], stroke[sound]
-    rising = np.concatenate([[True], np.diff(np.maximum.accumulate(time)) > 0]) if len(time) else sound[:0]
-    time, stroke = time[rising], stroke[rising]
-    if len(time) < 16 or float(np.ptp(stroke)) == 0.0:
-        return ""
-    middle, half = (stroke.max() + stroke.min()) / 2, float(np.ptp(stroke)) / 2
-    # Turning points between crossings of the middle, each by more than a tenth of the stroke.
-    side = np.where(stroke > middle + 0.1 * half, 1, np.where(stroke < middle - 0.1 * half, -1, 0))
-    moved = np.flatnonzero(side)
-    parts = np.split(moved, np.flatnonzero(np.diff(side[moved])) + 1)
-    turns = np.array([float(np.abs(stroke[part] - middle).max()) for part in parts])
-    coarse = max(1, len(time) // 20000)
-    speed = np.abs(np.gradient(stroke[::coarse], time[::coarse]))
-    if float(np.quantile(speed, 0.9)) < SLOW:
-        return "quasi-static"
-    inner = turns[1:-1]
-    common = Counter(np.round(inner / half / ALIKE).astype(int).tolist()).most_common(1)
-    return "harmonic" if len(inner) >= 3 and common[0][1] >= 0.8 * len(inner) else "stochastic"

@@ -14,7 +14,8 @@ from twintube.data.dataset import FILE
 from twintube.data.formats import TEXT
 from twintube.data.keys import READING
 from twintube.data.read_binary import READERS
-from twintube.data.sniff import Sniffed, sniff
+from twintube.data.sniff import sniff
+from twintube.data.sniff_values import Sniffed
 from twintube.engine.simulate import InputError
 from twintube.files import replacing, write_text
 from twintube.reading import MB, ReadError, check_regular
