@@ -9,9 +9,10 @@ import pytest
 from twintube.diagnosis.fits.candidates import LOSING, RECALIBRATE, Candidate
 from twintube.diagnosis.fits.options import Option, Selection
 from twintube.diagnosis.measurement.faults import Fault
-from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
+from twintube.diagnosis.result import Errors, Estimate, Gain, Map, Signature, Tried
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.verdict.verdict import Judgement, judge, sentence
+from twintube.diagnosis.verdict.where import describe
 
 COUNT = 1000  # held-out samples
 SCORE = 2000.0  # of the model without a cause, twice the negative log-likelihood
@@ -323,3 +324,19 @@ def test_what_became_superfluous_beside_a_cause_is_its_rival() -> None:
     kept = replace(selection(second), rounds=[[first, second]])
     judgement = judged(kept)
     assert judgement.verdict == "ambiguous" and [o.names for o in judgement.rivals] == [("valve_wear",)]
+
+
+def residual(quantity: str, means: Sequence[float], about: float) -> Map:
+    """A map of errors with these means, and a spread `about` each."""
+    mean = np.array(means)
+    size = np.hypot(mean, about)
+    return Map(quantity, "m", np.arange(len(means)) / 10.0, size, size / 2, np.ones(len(means)), mean)
+
+
+def test_an_error_that_is_the_same_everywhere_is_described_as_a_constant() -> None:
+    """Both channels of the other sign turn the force of the gas: nothing is larger at any place, and all is wrong."""
+    turned = [residual("stroke", (115.0, 112.0, np.nan, 118.0), 8.0), residual("time", (116.0, 113.0), 8.0)]
+    assert describe(turned).startswith("everywhere by 115 N (measured above simulated)")
+    assert "less gas" in describe(turned) and "both of the other sign" in describe(turned)
+    assert "everywhere" not in describe([residual("stroke", (5.0, 5.0, 60.0), 8.0)])
+    assert "everywhere" not in describe([residual("stroke", (50.0, -50.0, 50.0), 1.0)])

@@ -453,6 +453,7 @@ class Rules:
     bins: int = maps(16, "", "of a map; quantities of fewer values show each value", JUDGEMENT)
     bin_samples: int = maps(10, "", "that a bin must hold", JUDGEMENT)
     striking: float = maps(1.5, "1", "times the usual error, from which a bin stands out", JUDGEMENT)
+    constant: float = maps(0.9, "1", "of the error that its mean is at least, where it is the same everywhere", JUDGEMENT)
     regions: int = maps(3, "", "most regions that are named", JUDGEMENT)
     structure_alarm: float = maps(0.01, "1", "chance that white noise in all records shows structure in any", STATISTICS)
 

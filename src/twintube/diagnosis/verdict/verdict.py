@@ -168,7 +168,9 @@ def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]
             return "No effect is missing: other values of the degradation parameters explain the records."
         case "unexplained":
             near = " and ".join(lower(candidates[name].title) for name in judgement.nearest)
-            why = "; ".join(f"of {lower(candidates[name].title)}, {doubt}" for name, doubt in judgement.doubts.items())
+            alone = len(judgement.nearest) == 1
+            doubts = ((lower(candidates[name].title), doubt) for name, doubt in judgement.doubts.items())
+            why = "; ".join(doubt if alone else f"of {title}, {doubt}" for title, doubt in doubts)
             nearest = f"; the nearest, {near}, removes {gain}" if near and judgement.explained > 0 else ""
             nearest += f", but {why}" if nearest and why else ""
             return f"The simulation is wrong in a way that no known cause explains{nearest}."

@@ -68,8 +68,11 @@ def binned(quantity: str, x: Array) -> tuple[Array, NDArray[np.int64]]:
 
 
 def describe(several: Sequence[Map], left: bool = False) -> str:
-    """The regions that stand out, of the base model or of what is left, the most striking first."""
-    regions = []
+    """The regions that stand out, of the base model or of what is left, the most striking first; or a constant."""
+    regions: list[tuple[float, str]] = []
+    everywhere = "" if left else constant(several)
+    if everywhere:
+        return everywhere
     for m in several:
         error = m.extended if left else m.base
         known = np.isfinite(error) & (m.noise > 0)
@@ -85,6 +88,21 @@ def describe(several: Sequence[Map], left: bool = False) -> str:
             regions.append((contrast, f"{about} ({error[known][worst]:.0f} N, measured {side} simulated)"))
     regions.sort(reverse=True)
     return "largest at " + "; ".join(text for _, text in regions[: RULES.regions]) if regions else "nowhere in particular"
+
+
+def constant(several: Sequence[Map]) -> str:
+    """An error that is the same in all bins of all quantities; empty where it is not."""
+    means, sizes = (np.concatenate([getattr(m, name) for m in several]) for name in ("mean", "base"))
+    known = np.isfinite(means)
+    means, sizes = means[known], sizes[known]
+    if not len(means) or abs(float(means.sum())) < RULES.constant * float(sizes.sum()) or np.ptp(np.sign(means)) > 0:
+        return ""
+    level = float(np.median(means))
+    side, gas = ("above", "less") if level > 0 else ("below", "more")
+    return (
+        f"everywhere by {abs(level):.0f} N (measured {side} simulated), as with a zero of the load cell, {gas} gas pressure "
+        "than the parameter set has, or stroke and force both of the other sign"
+    )
 
 
 def readable(value: float, unit: str) -> str:
