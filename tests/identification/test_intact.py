@@ -1,5 +1,7 @@
 """Step one: the intact damper from its records."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -82,3 +84,6 @@ def test_bad_records_are_refused() -> None:
         quasi_static(there_and_back, np.where(np.arange(400) < 200, -30.0, 30.0))
     with pytest.raises(InputError, match="1 intact harmonic records"):
         identify_intact(load("SA1"), None, intact_records(load("SA1"), 0.0)[:1])
+    beside = [replace(record, stroke=record.stroke + 0.2) for record in intact_records(load("SA1"), 0.0)[:2]]
+    with pytest.raises(InputError, match=r"never crosses 0, the middle position; set stroke_offset"):
+        identify_intact(load("SA1"), None, beside)

@@ -131,7 +131,11 @@ def fv_points(damper: Damper, records: Sequence[Harmonic]) -> tuple[list[tuple[f
         for rising in (True, False):
             i = np.flatnonzero((z[:-1] < 0) & (z[1:] >= 0) if rising else (z[:-1] > 0) & (z[1:] <= 0))
             if len(i) == 0:
-                raise InputError(f"harmonic record up to {record.top_speed:g} m/s never crosses stroke 0")
+                low, high = float(z.min()), float(z.max())
+                raise InputError(
+                    f"harmonic record up to {record.top_speed:.3g} m/s: its stroke runs from {low:.3g} to {high:.3g} m and "
+                    "never crosses 0, the middle position; set stroke_offset in dataset.toml"
+                )
             share = -z[i] / (z[i + 1] - z[i])
             # The median: the first crossing may still be the start from rest.
             speed = float(np.median(v[i] + share * (v[i + 1] - v[i])))
