@@ -133,8 +133,8 @@ def fv_points(damper: Damper, records: Sequence[Harmonic]) -> tuple[list[tuple[f
             if len(i) == 0:
                 low, high = float(z.min()), float(z.max())
                 raise InputError(
-                    f"{record.name or 'harmonic record'} (up to {record.top_speed:.3g} m/s): its stroke runs from {low:.3g} to "
-                    f"{high:.3g} m and never crosses 0, the middle position; set stroke_offset in dataset.toml"
+                    f"{record.name or 'harmonic record'} (up to {record.top_speed:.3g} m/s): its stroke runs from "
+                    f"{low:.3g} to {high:.3g} m and never crosses 0, the middle position; set stroke_offset in dataset.toml"
                 )
             share = -z[i] / (z[i + 1] - z[i])
             # The median: the first crossing may still be the start from rest.
