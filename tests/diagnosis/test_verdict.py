@@ -280,6 +280,13 @@ def test_within_noise_an_effect_is_named_by_what_it_explains_and_a_fault_by_half
         assert judged(selection(option("force_gain", score=score)), forces=forces).causes == causes
 
 
+def test_a_fault_that_was_put_right_is_not_named_again_where_its_removal_leaves_noise() -> None:
+    gain = Fault("force_gain", "Calibration", "The force channel reads 5 % too much from b on.", 1.05)
+    for base, causes in ((10.5, []), (14.0, ["force_gain"])):
+        chosen = selection(option("force_gain", score=0.2 * SCORE))
+        assert judged(chosen, forces=(base, 10.0, 10.0), faults=[gain]).causes == causes
+
+
 def test_within_noise_no_cause_is_named_that_something_else_surpasses_by_far() -> None:
     for score, causes in ((0.7 * SCORE, []), (0.2 * SCORE, ["valve_wear"])):
         chosen = selection(option("valve_wear", score=score), option("fluid_lag", score=0.05 * SCORE))

@@ -335,6 +335,12 @@ def test_next_steps():
     assert {verdict for verdict in VERDICTS if has_extension(example(verdict))} == {"cause", "ambiguous", "recalibrate"}
 
 
+def test_a_fault_that_is_named_twice_is_as_probable_and_mended_once():
+    d = example("measurement_fault")
+    twice = replace(d, causes=[*d.causes, *d.causes])
+    assert confidence(twice) == confidence(d) and next_step(twice) == next_step(d)
+
+
 def test_the_picture_shows_where_the_error_falls_most():
     d = example("cause")
     result = telling(d)

@@ -82,7 +82,7 @@ def named(d: Diagnosis) -> list[str]:
     """The names under which `probabilities` holds the verdict."""
     names = [cause.effect for cause in d.causes[: 1 if d.verdict == "ambiguous" else None]]
     names += [RECALIBRATE] if recalibrated(d) else []
-    return names or {"none": ["none"]}.get(d.verdict, ["unknown"])
+    return list(dict.fromkeys(names)) or {"none": ["none"]}.get(d.verdict, ["unknown"])
 
 
 def confidence(d: Diagnosis) -> str:
@@ -121,7 +121,8 @@ def next_step(d: Diagnosis) -> str:
         steps.append(IDENTIFY)
     steps += [f"confirm {lower(title_of(name))}: {EFFECTS[name].decides}" for name in effects]
     again = " Then diagnose again." if any(cause.effect in REPAIRS for cause in d.causes) else ""
-    return "; ".join(steps)[:1].upper() + "; ".join(steps)[1:] + "." + again
+    text = "; ".join(dict.fromkeys(steps))
+    return f"{text[:1].upper()}{text[1:]}.{again}"
 
 
 def decisive(d: Diagnosis) -> list[str]:

@@ -74,8 +74,8 @@ def judge(
     if quiet and all(candidates[name].fault for name in causes):
         # So little is within what a careful bench is off by, which an effect of the damper is not.
         enough = selection.final.score <= (1 - RULES.half) * selection.start.score
-    if quiet and surpassed(selection):
-        enough = False
+    if quiet and (surpassed(selection) or {*causes} <= {fault.effect for fault in faults}):
+        enough = False  # not twice: with the fault put right the error is noise
     if late and base <= RULES.quiet_late * floor:
         enough = False  # sampling moves the steps of the force, too
     close = rivals(selection, extended > RULES.quiet * floor)
