@@ -19,7 +19,8 @@ from twintube.diagnosis.fits.candidates import (
     usual_delay,
 )
 from twintube.diagnosis.fits.fit import Problem
-from twintube.diagnosis.fits.starts import best_start, lowest, starts
+from twintube.diagnosis.fits.grids import lowest
+from twintube.diagnosis.fits.starts import best_start, starts
 from twintube.diagnosis.measurement.edges import with_noise
 from twintube.diagnosis.measurement.sampling import with_sampling
 from twintube.diagnosis.records.seen import DELAY
