@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 5ce582270c29e4d8, body 56f13700e1639963; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 500d6636b1e8c9e9, body 202eda6d4e0b371a; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -927,7 +927,7 @@ static double kernel_dahl(struct kernel_Parameters* p, struct kernel_Derived* d,
 /* Share of the friction that is left [1]. */
 static double kernel_oil_temperature_scale_friction(struct kernel_Parameters* p, struct kernel_State* s, double z, double v)
 {
-    return exp((-p->friction_kelvin) * s->warm);
+    return exp((-p->friction_kelvin) * (s->warm + p->H_start / 700.0));
 }
 
 /* Factor of the friction force [1] at the stroke `z` [m]. */
@@ -1975,9 +1975,11 @@ static void kernel_effects_transition(struct kernel_Parameters* p, struct kernel
 /* Share of the fluid force that is left [1]. */
 static double kernel_oil_temperature_scale_fluid(struct kernel_Parameters* p, struct kernel_State* s, double v)
 {
+    double kelvin;
     double thin;
     double laminar;
-    thin = exp(double_min(2, 2.0, (-p->fade_heat) * (p->H_start + s->heat) - p->fade_kelvin * s->warm));
+    kelvin = s->warm + p->H_start / 700.0;
+    thin = exp(double_min(2, 2.0, (-p->fade_heat) * (p->H_start + s->heat) - p->fade_kelvin * kelvin));
     laminar = 1.0 / (1.0 + p->turbulence * fabs(v));
     return laminar * thin + (1.0 - laminar) * pow(thin, p->thin_density);
 }

@@ -95,6 +95,13 @@ def test_a_measured_temperature_acts_on_oil_friction_and_gas() -> None:
     assert eased == pytest.approx((math.exp(-0.2) - 1.0) * rubbing, rel=1e-6)
 
 
+def test_heat_at_the_start_is_a_temperature_where_temperatures_are_measured() -> None:
+    """Records usually begin at another temperature than that of the F-v curve: 7000 J are 10 K."""
+    for changes in ({"fade_kelvin": 0.01}, {"friction_kelvin": 0.01}):
+        hotter = means(15.0, **changes, gas_kelvin=0.0)
+        assert means(5.0, **changes, gas_kelvin=0.0, H_start=7000.0) == pytest.approx(hotter, rel=1e-12)
+
+
 def test_a_temperature_is_nothing_to_a_damper_without_the_effect() -> None:
     assert np.array_equal(means(40.0), means(0.0))
     assert np.array_equal(means(0.0, fade_kelvin=0.02, friction_kelvin=0.02)[5:], means(0.0, fade_kelvin=1e-12)[5:])

@@ -7,8 +7,9 @@ the F-v curve. Heat capacity and viscosity index act only through their ratio `f
 of a passage is laminar by 1 / (1 + turbulence |v|), turbulence being b / (a mu); the rest goes with the density, of which
 `thin_density` is what viscosity loses, in logarithms.
 
-Where the temperature is measured, it is `s.warm` [K] beyond that of the parameter set, set from outside; it acts by
-fade_kelvin and friction_kelvin in the same exponential way. The gas is enclosed: force and stiffness of the preload rise by
+Where the temperature is measured, `s.warm` [K], set from outside, is what it is beyond the usual one at the beginning of
+a record, of which H_start says how far it is from that of the F-v curve: H_start / CAPACITY. Both act by fade_kelvin and
+friction_kelvin in the same exponential way. The gas is enclosed: force and stiffness of the preload rise by
 gas_kelvin per kelvin, which is 1 / 296 K of the absolute pressure and more of the pressure above ambient. Where nothing is
 measured gas_heat makes the gas follow the retained heat.
 """
@@ -25,6 +26,7 @@ CAUSE = "Heat, of the dissipated work or from outside, thins the oil, eases the 
 ABSENCE = "The measured fluid force falls below the model's while the damper gets warm, and comes back after a rest."
 DECIDES = "the tube's temperature, or a rest of ten minutes within a record: heat goes, lost oil does not come back"
 NEEDS_TIME = True
+CAPACITY = 700.0  # [J/K] that H_start counts by where the temperature is measured
 THICKEST = 2.0  # logarithm of the force of cold oil over that of the F-v curve, at most
 
 
@@ -71,14 +73,15 @@ def oil_temperature_phases(p: Parameters, s: State, way: float, dt: float) -> No
 
 def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
     """Share of the fluid force that is left [1]."""
-    thin = math.exp(min(THICKEST, -p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * s.warm))
+    kelvin = s.warm + p.H_start / CAPACITY
+    thin = math.exp(min(THICKEST, -p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * kelvin))
     laminar = 1.0 / (1.0 + p.turbulence * abs(v))
     return laminar * thin + (1.0 - laminar) * math.pow(thin, p.thin_density)
 
 
 def oil_temperature_scale_friction(p: Parameters, s: State, z: float, v: float) -> float:
     """Share of the friction that is left [1]."""
-    return math.exp(-p.friction_kelvin * s.warm)
+    return math.exp(-p.friction_kelvin * (s.warm + p.H_start / CAPACITY))
 
 
 def oil_temperature_elastic(p: Parameters, s: State, z: float) -> float:
