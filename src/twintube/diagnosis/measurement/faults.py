@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from twintube.arrays import Array
@@ -136,14 +137,29 @@ def unit_error(problem: Problem) -> tuple[Fault | None, Problem]:
     for unit in units:
         better, worse = now - unit.misfit >= RULES.unit_clear, unit.misfit - now >= RULES.unit_clear
         better &= unit.misfit <= -RULES.unit_gain  # what the model does not follow in either unit is no other unit
+        if unit.channel == "stroke" and not other_strokes(problem, unit.factor, better):
+            continue
         # These records are explained as well as the others then, which the unit would spoil.
         if better.any() and worse.any() and unit.misfit[better].max() <= now[~better].max() + RULES.unit_gain:
             pairs = zip(problem.records, unit.problem.records, better, strict=True)
             right = problem.with_records([other if wrong else record for record, other, wrong in pairs])
             return unit.fault(tuple(r.name for r, wrong in zip(problem.records, better, strict=True) if wrong)), right
     if units and now.mean() - units[0].misfit.mean() >= RULES.unit_gain:
-        return units[0].fault(()), units[0].problem
+        spoilt = units[0].channel == "stroke" and (units[0].misfit - now >= RULES.unit_clear).any()
+        return (None, problem) if spoilt else (units[0].fault(()), units[0].problem)
     return None, problem
+
+
+def other_strokes(problem: Problem, factor: float, some: NDArray[np.bool_]) -> bool:
+    """Whether the ranges of the stroke of `some` records, times a factor, are nearer to those of the others.
+
+    A rig that oscillates alike in all files has a single unit: what explains weak forces by tiny strokes is no unit.
+    """
+    if not some.any() or some.all():
+        return True
+    ranges = np.log([max(float(np.ptp(record.stroke)), 1e-9) for record in problem.records])
+    apart = float(np.median(ranges[some]) - np.median(ranges[~some]))
+    return abs(apart + float(np.log(factor))) < abs(apart)
 
 
 @dataclass(frozen=True)
