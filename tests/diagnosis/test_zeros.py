@@ -109,6 +109,23 @@ def test_a_zero_that_drifts_on_from_record_to_record_is_a_rate(records: list[Pre
     assert np.ptp(still.means(still.errors({}) * still.weight)) < 1.0
 
 
+def test_a_drift_takes_its_constant_with_it(records: list[PreparedRecord]) -> None:
+    """Which record has the zero of the load cell nobody knows: it need not be the first one."""
+    count = len(records)
+    fault, still = zero_change(zeroed(records, np.linspace(-15.0, 30.0, count)))
+    assert fault is not None and fault.effect == "zero_drift"
+    assert np.abs(still.means(still.errors({}) * still.weight)).max() < 2.5
+
+
+def test_an_even_drift_shows_in_five_records_and_a_step_does_not(records: list[PreparedRecord]) -> None:
+    evenly = np.linspace(0.0, 30.0, 5)
+    fault, _ = zero_change(zeroed(records[:5], evenly))
+    assert fault is not None and fault.effect == "zero_drift"
+    uneven = evenly + np.array([5.0, -5.0, 0.0, -5.0, 5.0])
+    assert zero_change(zeroed(records[:5], uneven))[0] is None
+    assert zero_change(zeroed(records[:5], np.array([0.0, 0.0, 0.0, 30.0, 30.0])))[0] is None
+
+
 def test_zeros_that_scatter_and_a_force_that_comes_with_the_loss_of_oil_do_not_move(records: list[PreparedRecord]) -> None:
     rng = np.random.default_rng(5)
     pushed_out = np.array([-20.0 * (not record.intact) for record in records])

@@ -204,7 +204,7 @@ class Rules:
     stroke_draws: int = measurement(2, "", "draws of the noise of strokes, for what it leaves open in the force", NUMERICS)
     open_filter: float = measurement(0.05, "1", "of a bend of the force, to which a filter is known", DEVELOPMENT)
     usual_zeros: float = measurement(3.0, "1", "standard deviations up to which a mean error counts as a zero", JUDGEMENT)
-    order_least: int = measurement(6, "", "records in which a zero is seen to move from record to record", DEVELOPMENT)
+    order_least: int = measurement(5, "", "records in which a zero is seen to move evenly; one more for a step", DEVELOPMENT)
     order_side: int = measurement(2, "", "records before and after a step of the zero at least", DEVELOPMENT)
     order_left: float = measurement(
         0.15, "1", "of the squared means of the records that a moving zero leaves at most", DEVELOPMENT

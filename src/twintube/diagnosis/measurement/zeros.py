@@ -48,7 +48,8 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
         apart = at - at.mean()
         fits[key] = apart * float(apart @ means) / float(apart @ apart)
     keys = [(record.oil_level, record.gas_preload) for record in problem.records]
-    for cut in range(RULES.order_side, count - RULES.order_side + 1):
+    cuts = range(RULES.order_side, count - RULES.order_side + 1) if count > RULES.order_least else ()
+    for cut in cuts:
         same = keys[cut] == keys[cut - 1]
         if same or not (problem.records[cut].intact or problem.records[cut - 1].intact) or pulled_in(problem, means):
             side = np.arange(count) >= cut
@@ -56,7 +57,8 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     left = {cut: float(np.sum((means - means.mean() - fit) ** 2)) for cut, fit in fits.items()}
     cut = min(left, key=lambda cut: left[cut])
     size = float(fits[cut][0] - fits[cut][-1])  # errors are simulated less measured forces
-    if left[cut] > RULES.order_left * rest or abs(size) < RULES.small_force * largest(problem.records):
+    most = RULES.order_left if cuts else RULES.half * RULES.order_left  # as rare by chance with fewer records
+    if left[cut] > most * rest or abs(size) < RULES.small_force * largest(problem.records):
         return None, problem
     # In each state of several records the zero must move as in all.
     for some in states(problem.records):
@@ -69,7 +71,9 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     if np.sum((apart - fits[cut][:, None]) ** 2) > RULES.order_state * np.sum(apart**2):
         return None, problem
     keys_alike = (EVENLY, RUNNING) if cut in (EVENLY, RUNNING) else (cut,)
-    several = {key: without(problem, fits[key], key == RUNNING) for key in keys_alike}
+    # What drifts all along has no zero of its own to begin with: the constant goes with it.
+    level = -fits[cut][0] if cut > 0 else float(means.mean())
+    several = {key: without(problem, fits[key] + level, key == RUNNING) for key in keys_alike}
     cut = min(several, key=lambda key: float(apart_from_means(several[key][0]).sum()))
     still, rate = several[cut]
     near = range(max(1, cut - 1), min(count, cut + 2)) if cut > 0 else range(0)
@@ -100,10 +104,11 @@ def scattered(zeros: Array, left: float, value: float) -> float:
 
 
 def without(problem: Problem, zeros: Array, running: bool) -> tuple[Problem, float]:
-    """The problem without zeros (r,) [N] that move from the first on, and their rate [N/s] where they do within records."""
-    shift, lasting = zeros - zeros[0], np.array([float(np.ptp(record.time)) for record in problem.records])
-    rate = -shift[-1] / (problem.records[-1].before[0] + (lasting[-1] - lasting[0]) / 2) if running else 0.0
-    each = [x - rate * (r.time - r.time[0] - T / 2) for r, x, T in zip(problem.records, shift, lasting, strict=True)]
+    """The problem without zeros (r,) [N] of its records, and their rate [N/s] where they do within records."""
+    lasting = np.array([float(np.ptp(record.time)) for record in problem.records])
+    elapsed = problem.records[-1].before[0] + (lasting[-1] - lasting[0]) / 2
+    rate = (zeros[0] - zeros[-1]) / elapsed if running else 0.0
+    each = [x - rate * (r.time - r.time[0] - T / 2) for r, x, T in zip(problem.records, zeros, lasting, strict=True)]
     pairs = zip(problem.records, each, strict=True)
     return problem.with_records([replace(r, force=r.force + x) for r, x in pairs]), float(rate)
 
