@@ -9,6 +9,7 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.dampers import load
+from twintube.diagnosis.engine import zero_put_right
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.measurement.zeros import differ, scatter, step, zero_change, zero_drift
 from twintube.diagnosis.records.record import PreparedRecord
@@ -124,6 +125,17 @@ def test_an_even_drift_shows_in_five_records_and_a_step_does_not(records: list[P
     uneven = evenly + np.array([5.0, -5.0, 0.0, -5.0, 5.0])
     assert zero_change(zeroed(records[:5], uneven))[0] is None
     assert zero_change(zeroed(records[:5], np.array([0.0, 0.0, 0.0, 30.0, 30.0])))[0] is None
+
+
+def test_a_zero_whose_removal_gains_nothing_is_not_named(
+    records: list[PreparedRecord], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    moved = zeroed(records, np.linspace(0.0, 30.0, len(records)))
+    fault, still = zero_put_right(moved)
+    assert fault is not None and fault.effect == "zero_drift"
+    monkeypatch.setattr("twintube.diagnosis.engine.zero_change", lambda problem: (fault, moved))
+    assert zero_put_right(still) == (None, still)
+    assert zero_put_right(moved) == (None, moved)
 
 
 def test_zeros_that_scatter_and_a_force_that_comes_with_the_loss_of_oil_do_not_move(records: list[PreparedRecord]) -> None:

@@ -58,7 +58,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     smoothed, problem, notes = force_averaging(dataset.records, problem)
     problem = with_motion(with_sampling(settled(problem)))
     recorded = recorded.with_usual(problem.usual)
-    stepped, problem = zero_change(with_uncertainty(problem))
+    stepped, problem = zero_put_right(with_uncertainty(problem))
     problem, drift = zero_drift(problem)
     known = not bare_of_strokes(problem)
     problem, bare = with_history(problem)
@@ -216,6 +216,14 @@ def excluded_gain(recorded: Problem, problem: Problem) -> Gain:
         rows.append((0.0 if record.name in kept else squares, squares))
     table = np.array(rows)
     return Gain(whole(table), whole(table), (0.0, 1.0), worst(table))
+
+
+def zero_put_right(problem: Problem) -> tuple[Fault | None, Problem]:
+    """A zero that moves, and the problem without it; none that would be named against its own figure."""
+    stepped, still = zero_change(problem)
+    if stepped is not None and put_right([stepped], problem, still)[stepped].heldout <= 0.0:
+        return None, problem
+    return stepped, still
 
 
 def put_right(faults: Sequence[Fault | None], recorded: Problem, problem: Problem) -> dict[Fault, Gain]:
