@@ -131,9 +131,8 @@ def velocity_apart(columns: dict[str, tuple[int, str]], body: list[list[str]], d
 
 
 def correlation(a: Array, b: Array) -> float:
-    """Pearson's correlation coefficient, 0 where a row does not change."""
-    spread = float(a.std() * b.std())
-    return float(np.mean((a - a.mean()) * (b - b.mean()))) / spread if spread > 0.0 else 0.0
+    """Pearson's correlation coefficient, 0 where one of the rows does not change."""
+    return float(np.corrcoef(a, b)[0, 1]) if np.ptp(a) > 0.0 and np.ptp(b) > 0.0 else 0.0
 
 
 EXPECTED_UNIT = UNITS | {"stroke": "mm", "velocity": "mm/s"}
