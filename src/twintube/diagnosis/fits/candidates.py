@@ -32,6 +32,7 @@ def hooked(hooks: str) -> tuple[str, ...]:
 LATENESS = hooked("force|transition")  # effects that make the force late
 LATE = (*LATENESS, DELAY, CLOCK)  # and faults that do
 DELAYED = (*LATENESS, INERTIA)  # for which a delay stands in
+LIKE_SAMPLING = (*LATE, INERTIA)  # what the force does in part when it is filtered or sampled a little later
 TURNING = hooked("force")  # what begins at a reversal
 FILLED = hooked("level")  # another fill than the recorded one, in all states alike or in one
 # What changes volumes alone moves steps of the force, or brings them about.

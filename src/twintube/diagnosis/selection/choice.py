@@ -2,7 +2,17 @@
 
 from collections.abc import Mapping, Sequence
 
-from twintube.diagnosis.fits.candidates import ALIKE, FACTORS, FADING, LATE, RECALIBRATE, Candidate, nuisances, period
+from twintube.diagnosis.fits.candidates import (
+    ALIKE,
+    FACTORS,
+    FADING,
+    LATE,
+    LIKE_SAMPLING,
+    RECALIBRATE,
+    Candidate,
+    nuisances,
+    period,
+)
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.fits.options import Fold, Option
 from twintube.diagnosis.records.seen import DELAY
@@ -48,7 +58,8 @@ class Chooser(Judge):
     def usual(self, current: Option, option: Option, options: Sequence[Option]) -> bool:
         """Whether what every measurement has explains as much: what is too short for sampling, a gain, other parameters."""
         gained = RULES.near_sampling * (current.score - option.score)
-        others = [o for o in options if o.names[-1] in LATE and self.short(o)] if option.names[-1] in LATE else []
+        late = option.names[-1] in LIKE_SAMPLING
+        others = [o for o in options if o.names[-1] in LATE and self.short(o)] if late else []
         others += [o for o in options if general(option, o) and self.known(o.names[-1]).fault and not self.acts(o)]
         # At the edge of a state nobody knows the degradation parameters so well.
         others += [o for o in options if o.names[-1] == RECALIBRATE and not self.acts(o)]

@@ -210,6 +210,8 @@ def tried(selector: Selector, selection: Selection) -> list[Tried]:
                 reason = "improves the held-out records most" if most_of_all else PREFERRED
             elif not selector.acts(option):
                 reason = "is neutral, or not more than every measurement has"
+            elif selector.usual(current, option, options):
+                reason = "is explained nearly as well by what every measurement has"
             elif options[0].names[-1] in selection.chosen and option.score >= options[0].score:
                 reason = "improves them less than the chosen candidate"
             else:
