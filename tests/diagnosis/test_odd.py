@@ -109,6 +109,15 @@ def test_little_makes_a_record_of_the_intact_damper_odd(good: list[Record]) -> N
     assert judged([*good, degraded[0], turned_up(degraded[1]), degraded[2]])[0] is None
 
 
+def test_a_constant_of_all_records_without_their_gas_makes_none_of_them_odd(good: list[Record]) -> None:
+    """Some gas may be left in these; where one of them lacks the constant, it is a zero of the others."""
+    slow, medium, fast = [small.record(small.run(speed, small.DEGRADED)) for speed in (0.3, 0.6, 1.0)]
+    shifted = [replace(r, force=r.force + 60.0) for r in (slow, medium)]
+    assert judged([*good, *shifted])[0] is None
+    fault, _ = judged([*good, *shifted, fast])
+    assert fault is not None and (fault.effect, fault.records) == ("force_offset", tuple(r.name for r in shifted))
+
+
 def test_what_is_wrong_in_most_records_makes_none_of_them_odd(good: list[Record]) -> None:
     assert judged([replace(r, force=1.3 * r.force) for r in good])[0] is None
 

@@ -26,6 +26,8 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
         fault = own_unit(part, names, usual)
         return (fault, others) if fault is not None else (None, problem)
     fault = own_fault(part, names, {c.name: c.least[c.name] for c in faults(problem)})
+    if fault is not None and fault.effect == "force_offset" and with_the_gas(problem, odd):
+        return None, problem
     # A single record of another setting looks as if its gain were wrong.
     gain = fault is not None and len(names) == 1 and fault.effect in ("force_gain", STROKE_GAIN)
     if fault is None or gain:
@@ -37,6 +39,13 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
         filled = own_fill(part, names) if fault is None else None
         fault = filled or (stranger(part, names) if apart else None)
     return (fault, others) if fault is not None else (None, problem)
+
+
+def with_the_gas(problem: Problem, odd: Sequence[int]) -> bool:
+    """Whether several records are all that have their gas, or all that lost it: its force may be another than stated."""
+    intact = [i for i, record in enumerate(problem.records) if record.intact]
+    degraded = [i for i, record in enumerate(problem.records) if not record.intact]
+    return len(odd) > 1 and list(odd) in (intact, degraded)
 
 
 def contradicting(problem: Problem) -> tuple[Sequence[int], bool, float, float]:
