@@ -54,18 +54,21 @@ def test_a_fault_of_a_single_file_is_named(
 
 
 @pytest.mark.parametrize(
-    "change",
+    ("channel", "gain", "change"),
     [
-        lambda r: replace(r, force=1.3 * r.force),
-        lambda r: replace(r, stroke=1.1 * r.stroke, velocity=1.1 * r.velocity),
+        ("force", 1.3, lambda r: replace(r, force=1.3 * r.force)),
+        ("stroke", 1.1, lambda r: replace(r, stroke=1.1 * r.stroke, velocity=1.1 * r.velocity)),
     ],
 )
 def test_a_single_file_of_another_gain_may_be_of_another_setting(
-    good: list[Record], change: Callable[[Record], Record]
+    good: list[Record], channel: str, gain: float, change: Callable[[Record], Record]
 ) -> None:
     fault, rest = judged(changed(good, change))
     assert fault is not None
-    assert (fault.effect, fault.records) == ("odd_record", (good[ODD].name,))
+    assert (fault.effect, fault.records, fault.channel) == ("odd_record", (good[ODD].name,), channel)
+    assert fault.factor == pytest.approx(gain, abs=fault.spread)
+    assert 0.0 < fault.spread < 0.1 * abs(gain - 1.0)
+    assert f"its {channel} times {gain:g}" in fault.explanation
     assert rest == [r.name for i, r in enumerate(good) if i != ODD]
 
 

@@ -16,7 +16,7 @@ from twintube.diagnosis.measurement.edges import with_memory, with_motion, with_
 from twintube.diagnosis.measurement.faults import STRANGER, Fault, force_averaging, read, really_turned, scaled, unit_error
 from twintube.diagnosis.measurement.history import bare_of_strokes, settled, with_history
 from twintube.diagnosis.measurement.jitter import with_uncertainty
-from twintube.diagnosis.measurement.odd import odd_records
+from twintube.diagnosis.measurement.odd import GAINS, odd_records
 from twintube.diagnosis.measurement.sampling import with_sampling
 from twintube.diagnosis.measurement.saturation import saturated
 from twintube.diagnosis.measurement.signature import signatures
@@ -112,7 +112,8 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
         if odd.effect == STRANGER:
             # Some records may differ because a cause acts in them alone, as foam does after a rest.
             answered = concluded(judged)
-            if len(answered.causes) > len(before):
+            scaled_alone = odd.name in GAINS and WITHIN in answered.remarks  # by a cause that no other record shows
+            if len(answered.causes) > len(before) and not scaled_alone:
                 return answered
         part = judged.with_records([record for record in judged.records if record.name in odd.records])
         return replace(concluded(others, odd), left_out=simulated(part, "left_out", [{}, {}, {}]))

@@ -13,6 +13,8 @@ from twintube.diagnosis.measurement.jitter import with_uncertainty
 from twintube.diagnosis.records.seen import STROKE_GAIN
 from twintube.diagnosis.rules import RULES
 
+GAINS = ("force_gain", STROKE_GAIN)  # of a single record: another setting of the damper looks like it
+
 
 def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     """The few records that the model contradicts while it explains all others, and the problem without them."""
@@ -28,8 +30,7 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     fault = own_fault(part, names, {c.name: c.least[c.name] for c in faults(problem)})
     if fault is not None and fault.effect == "force_offset" and with_the_gas(problem, odd):
         return None, problem
-    # A single record of another setting looks as if its gain were wrong.
-    gain = fault is not None and len(names) == 1 and fault.effect in ("force_gain", STROKE_GAIN)
+    gain = fault is not None and len(names) == 1 and fault.effect in GAINS
     if fault is None or gain:
         zero = RULES.small_zero * max(record.peak for record in problem.records)
         least = RULES.odd_little if beyond >= RULES.odd_clear else RULES.odd_force
@@ -37,7 +38,8 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
             least = RULES.odd_intact
         apart = differ(part, least, zero) if fault is None else abs(fault.factor - 1.0) >= least
         filled = own_fill(part, names) if fault is None else None
-        fault = filled or (stranger(part, names) if apart else None)
+        other = stranger(part, names) if fault is None else scaled_stranger(fault)
+        fault = filled or (other if apart else None)
     return (fault, others) if fault is not None else (None, problem)
 
 
@@ -114,13 +116,15 @@ def own_fault(part: Problem, names: tuple[str, ...], least: Mapping[str, float])
         value = fit.values[f.name]
         acts = abs(value - f.start) > least[f.name]
         if acts and right(part, fit.values) and (best is None or fit.misfit.sum() < best[0]):
-            best = (fit.misfit.sum(), candidate, value)
+            best = (fit.misfit.sum(), candidate, fit)
     if best is None:
         return None
-    _, candidate, value = best
+    _, candidate, fit = best
     f = candidate.free[0]
+    value, scattered = fit.values[f.name], float(np.sqrt(max(0.0, fit.covariance[0, 0])))
+    spread = max(RULES.interval * scattered, RULES.channel_width * abs(value - f.start))
     text = f"In {', '.join(names)}: {candidate.cause[0].lower()}{candidate.cause[1:]}"
-    return Fault(candidate.name, candidate.title, text, value, f.name, candidate.units[f.name], names)
+    return Fault(candidate.name, candidate.title, text, value, f.name, candidate.units[f.name], names, spread=spread)
 
 
 def own_fill(part: Problem, names: tuple[str, ...]) -> Fault | None:
@@ -168,3 +172,13 @@ def stranger(part: Problem, names: tuple[str, ...]) -> Fault:
     kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
     text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."
     return Fault(STRANGER, f"Odd {kind}", text, size, "force_rmse_N", "N", names)
+
+
+def scaled_stranger(gain: Fault) -> Fault:
+    """A record that another gain of a channel explains: what has that gain is not told from another setting."""
+    channel = "stroke" if gain.effect == STROKE_GAIN else "force"
+    text = (
+        f"The record {gain.records[0]} does not belong to the others: it is as with its {channel} times {gain.factor:.3g}, "
+        "by another range of the channel or another setting of the damper."
+    )
+    return replace(gain, effect=STRANGER, title="Odd record", explanation=text, channel=channel)
