@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from tests.diagnosis import small
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.measurement.edges import with_noise
-from twintube.diagnosis.measurement.repeats import only_noise
+from twintube.diagnosis.measurement.repeats import only_noise, repeating
+from twintube.diagnosis.rules import RULES
 
 
 def problem(wrong: float, scale: float) -> Problem:
@@ -29,6 +31,27 @@ def test_an_error_far_above_the_noise_is_none_of_it() -> None:
     assert not only_noise(problem(0.0, 0.5))
 
 
-def test_records_without_like_oscillations_tell_nothing() -> None:
-    errors = problem(0.0, 1.0)
-    assert not only_noise(errors.with_records([replace(r, cycle=np.full(len(r.cycle), -1)) for r in errors.records]))
+@pytest.mark.parametrize(("wrong", "noise"), [(0.0, True), (0.01, False)])
+def test_without_like_oscillations_the_same_motion_shows_it(wrong: float, noise: bool) -> None:
+    assert only_noise(without_oscillations(problem(wrong, 1.0))) == noise
+
+
+def test_noise_with_memory_does_not_come_again_with_the_motion() -> None:
+    """Much of it is in a neighbouring interval again, none where the same motion comes again."""
+    errors = without_oscillations(problem(0.0, 1.0))
+    rng = np.random.default_rng(3)
+    for record in errors.records:
+        noise = lfilter([1.0], [1.0, -0.8], rng.standard_normal(len(record.time)))
+        assert noise[1:] @ noise[:-1] > 0.6 * noise @ noise
+        assert abs(repeating(record, noise)) < 0.25 * np.mean(noise**2)
+        assert repeating(record, record.velocity) > 0.9 * np.mean(record.velocity**2)
+
+
+def test_short_records_without_like_oscillations_tell_nothing() -> None:
+    errors = without_oscillations(problem(0.0, 1.0))
+    few = [replace(r, judged=np.arange(len(r.time)) < 2 * RULES.motion_apart) for r in errors.records]
+    assert not only_noise(errors.with_records(few))
+
+
+def without_oscillations(errors: Problem) -> Problem:
+    return errors.with_records([replace(r, cycle=np.full(len(r.cycle), -1)) for r in errors.records])

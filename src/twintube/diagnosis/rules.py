@@ -75,6 +75,8 @@ class Rules:
     alike_turns: float = records(
         1.1, "1", "oscillations whose durations and ranges are within this factor share noise", JUDGEMENT
     )
+    motion_apart: int = records(30, "", "intervals between two of the same motion: noise has no memory then", JUDGEMENT)
+    motion_near: float = records(0.3, "1", "of the usual stroke, speed and acceleration: the same motion", JUDGEMENT)
     still: float = records(1e-3, "1", "of the range of the stroke: an interval of less is at rest ...", JUDGEMENT)
     outlier: float = records(8.0, "1", "usual residuals of a record: an interval beyond is an outlier ...", DEVELOPMENT)
     outliers: float = records(0.01, "1", "... where no more of its intervals are than this share", DEVELOPMENT)

@@ -39,6 +39,8 @@ FILLED = hooked("level")  # another fill than the recorded one, in all states al
 MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked("scale_fluid"), *FILLED))
 LOSING = hooked("lost")  # oil that is lost in a record is missing in those after it
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
+# What moves a mass with the stroke.
+MASSES = (INERTIA, *(name for name, e in effects.EFFECTS.items() if any(p.metadata["unit"] == "kg" for p in e.parameters)))
 RECALIBRATE = "recalibrate"
 CONTENTS = (*MOVING, *(name for name in hooked("motion") if name not in LATE))  # what becomes of oil, freed gas and foam
 ALIKE = (LATE, FRICTION, CONTENTS)  # of each a second only mends the formulation of the first

@@ -161,7 +161,7 @@ def remaining_sentence(judgement: Judgement, candidates: Mapping[str, Candidate]
             margin = 100 * (RULES.quiet - 1)
             if judgement.loud:
                 return (
-                    "Nothing is missing: what the error has above the noise floor does not repeat in further oscillations."
+                    "Nothing is missing: what the error has above the noise floor does not come again where the motion does."
                 )
             return f"Nothing is missing: the error on held-out records is less than {margin:.0f} % above the noise floor."
         case "recalibrate":
