@@ -32,15 +32,12 @@ def hooked(hooks: str) -> tuple[str, ...]:
 LATENESS = hooked("force|transition")  # effects that make the force late
 LATE = (*LATENESS, DELAY, CLOCK)  # and faults that do
 DELAYED = (*LATENESS, INERTIA)  # for which a delay stands in
-LIKE_SAMPLING = (*LATE, INERTIA)  # what the force does in part when it is filtered or sampled a little later
 TURNING = hooked("force")  # what begins at a reversal
 FILLED = hooked("level")  # another fill than the recorded one, in all states alike or in one
 # What changes volumes alone moves steps of the force, or brings them about.
 MOVING = tuple(name for name in hooked("phases|derive") if name not in (*hooked("scale_fluid"), *FILLED))
 LOSING = hooked("lost")  # oil that is lost in a record is missing in those after it
 FRICTION = tuple(name for name in sources() if name.endswith("_friction"))
-# What moves a mass with the stroke.
-MASSES = (INERTIA, *(name for name, e in effects.EFFECTS.items() if any(p.metadata["unit"] == "kg" for p in e.parameters)))
 RECALIBRATE = "recalibrate"
 CONTENTS = (*MOVING, *(name for name in hooked("motion") if name not in LATE))  # what becomes of oil, freed gas and foam
 ALIKE = (LATE, FRICTION, CONTENTS)  # of each a second only mends the formulation of the first

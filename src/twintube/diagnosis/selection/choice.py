@@ -2,20 +2,10 @@
 
 from collections.abc import Mapping, Sequence
 
-from twintube.diagnosis.fits.candidates import (
-    ALIKE,
-    FACTORS,
-    FADING,
-    LATE,
-    LIKE_SAMPLING,
-    RECALIBRATE,
-    Candidate,
-    nuisances,
-    period,
-)
+from twintube.diagnosis.fits.candidates import ALIKE, FACTORS, FADING, LATE, RECALIBRATE, Candidate, nuisances, period
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.fits.options import Fold, Option
-from twintube.diagnosis.records.seen import DELAY
+from twintube.diagnosis.records.seen import DELAY, INERTIA
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.selection.judge import Judge
 from twintube.diagnosis.selection.rivals import general
@@ -58,8 +48,10 @@ class Chooser(Judge):
     def usual(self, current: Option, option: Option, options: Sequence[Option]) -> bool:
         """Whether what every measurement has explains as much: what is too short for sampling, a gain, other parameters."""
         gained = RULES.near_sampling * (current.score - option.score)
-        late = option.names[-1] in LIKE_SAMPLING
-        others = [o for o in options if o.names[-1] in LATE and self.short(o)] if late else []
+        late = [o for o in options if o.names[-1] in LATE and self.short(o)]
+        if option.names[-1] == INERTIA:  # which is exact, so that only noise makes these as good
+            return any(o.score <= option.score + self.limit for o in late)
+        others = late if option.names[-1] in LATE else []
         others += [o for o in options if general(option, o) and self.known(o.names[-1]).fault and not self.acts(o)]
         # At the edge of a state nobody knows the degradation parameters so well.
         others += [o for o in options if o.names[-1] == RECALIBRATE and not self.acts(o)]

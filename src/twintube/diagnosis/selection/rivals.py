@@ -1,6 +1,6 @@
 """What explains the records as well as what was chosen."""
 
-from twintube.diagnosis.fits.candidates import CONTENTS, FACTORS, FILLED, FRICTION, LOSING, MASSES, RECALIBRATE
+from twintube.diagnosis.fits.candidates import CONTENTS, FACTORS, FILLED, FRICTION, LOSING, RECALIBRATE
 from twintube.diagnosis.fits.options import Option, Selection
 from twintube.diagnosis.records.seen import MEASUREMENT
 from twintube.diagnosis.rules import RULES
@@ -76,10 +76,9 @@ def richer(option: Option, than: Option) -> bool:
 def general(option: Option, than: Option) -> bool:
     """Whether the new cause of an option can do what the other's does, with more parameters.
 
-    Friction that depends on the position may be the same everywhere, and wear of the valves that of all branches alike. A
-    mount that hardly yields moves the rod's mass alone, as a clamp does.
+    Friction that depends on the position may be the same everywhere, and wear of the valves that of all branches alike.
     """
     new, old = ({*some.names} - {*other.names} for some, other in ((option, than), (than, option)))
-    alike = any((new | old) <= {*group} for group in (FRICTION, FACTORS, MASSES))
+    alike = any((new | old) <= {*group} for group in (FRICTION, FACTORS))
     more = [len(some.fits[0].free) if some.fits else 0 for some in (option, than)]
     return alike and more[0] > more[1]

@@ -7,7 +7,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.diagnosis.fits.calibration import best_calibration, calibration
-from twintube.diagnosis.fits.candidates import LIKE_SAMPLING, MOVING, RECALIBRATE, Candidate, linear, nuisances
+from twintube.diagnosis.fits.candidates import DELAYED, LATE, MOVING, RECALIBRATE, Candidate, linear, nuisances
 from twintube.diagnosis.fits.fit import Fit, Free, Problem
 from twintube.diagnosis.fits.options import Fold, Option, Selection, fitted
 from twintube.diagnosis.fits.starts import measured, start_cost, starts
@@ -67,7 +67,7 @@ class Selector(Chooser):
     @staticmethod
     def of_measurement(problem: Problem, names: Sequence[str]) -> list[Free]:
         """What of the measurement is free in a model: the delay, known from all records, beside what is late itself."""
-        return [f for f in nuisances(problem) if f.name != DELAY or any(name in LIKE_SAMPLING for name in names)]
+        return [f for f in nuisances(problem) if f.name != DELAY or any(name in (*LATE, *DELAYED) for name in names)]
 
     def beginning(self, current: Option, name: str) -> tuple[float, list[dict[str, float]]]:
         """Where a further cause begins in all folds, a simple point and the best, and the sum of squares at the latter.
@@ -143,8 +143,8 @@ class Selector(Chooser):
         current, rounds = self.start, []
         while True:
             taken = self.taken(current, options)
-            if taken is not None and taken.names[-1] in LIKE_SAMPLING:
-                taken = None if self.preferred(current, self.shortest(current, options)) else taken
+            if taken is not None and self.preferred(current, self.shortest(current, options)) and taken.names[-1] in LATE:
+                taken = None
             rounds.append(list(options) if taken is None else [taken, *(o for o in options if o is not taken)])
             if taken is None:
                 break
