@@ -9,7 +9,7 @@ from tests.diagnosis import small
 from twintube.diagnosis.fits.candidates import RECALIBRATE, candidates, nuisances
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.fits.options import Fold, Option
-from twintube.diagnosis.records.seen import DELAY
+from twintube.diagnosis.records.seen import DELAY, INERTIA
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.selection.select import Selector
 
@@ -211,6 +211,10 @@ def test_what_something_too_short_for_the_sampling_explains_as_well_is_no_cause(
     assert not seen.usual(seen.start, lag, [lag, limit]), "the delay does not end within the sampling"
     assert not seen.usual(seen.start, lag, [lag, option(DELAY, 0.6, channel_delay=0.5 * late)])
     assert not seen.usual(seen.start, wear, [wear, short])
+    # A mass at the clamp is exact: what is worse by more than noise does not stand for it.
+    mass = option(INERTIA, 0.30, clamp_inertia=3.0)
+    assert seen.usual(seen.start, mass, [mass, option(DELAY, 0.30, channel_delay=0.5 * late)])
+    assert not seen.usual(seen.start, mass, [mass, short])
     # A wear that a gain within the calibration does as well.
     several = (fit.free[0] for fit in wear.fits)
     wear = replace(wear, fits=tuple(replace(fit, free=(f,) * 9) for fit, f in zip(wear.fits, several, strict=True)))
