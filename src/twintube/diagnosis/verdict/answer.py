@@ -18,6 +18,7 @@ from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, G
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.selection.select import Selector
 from twintube.diagnosis.verdict.confidence import evidence, probabilities
+from twintube.diagnosis.verdict.moved_zero import ZERO, moved_zero
 from twintube.diagnosis.verdict.verdict import judge, sentence
 from twintube.diagnosis.verdict.where import describe, maps, structured
 from twintube.fitting.parameters import DEGRADATION
@@ -56,12 +57,21 @@ def answer(
     causes = [name for name in selection.chosen if name != RECALIBRATE]
     estimates = {name: estimated(selector.whole, known[name], extended, halves) for name in causes}
     attempts = tried(selector, selection)
-    judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults), attempts, only_noise(problem))
+    moved = moved_zero(held, selection.limit)
+    unclear = only_noise(problem), moved is not None
+    judgement = judge(selection, known, estimates, seen, errors(held), gain, list(faults), attempts, *unclear)
     residuals = maps(records)
     named = [*judgement.causes, *(fault.effect for fault in faults)]
     probable = evidence(judgement.verdict, named, [o.names[-1] for o in judgement.rivals], attempts)
+    if moved is not None and any(o.names[-1] == ZERO for o in judgement.rivals):  # which no row of the table is about
+        alike = max(probable.shares[name] for name in judgement.causes)
+        probable = replace(probable, shares={**probable.shares, ZERO: alike})
     left = [describe(residuals, left=True)] if judgement.remaining == "unexplained" else []
     rivals = [(o, known[o.names[-1]]) for o in judgement.rivals]
+
+    def explained(rival: Option) -> float:
+        return whole(gains(predictions(selector, (*options[:2], rival)), least=floor(held)))
+
     return Diagnosis(
         title=dataset.title,
         verdict=judgement.verdict,
@@ -71,8 +81,7 @@ def answer(
             *(Cause(name, known[name].title, known[name].cause, estimates[name], gain) for name in judgement.causes),
         ],
         alternatives=[
-            Alternative(c.name, whole(gains(predictions(selector, (*options[:2], o)), least=floor(held))), apart(c))
-            for o, c in rivals
+            Alternative(c.name, moved if c.name == ZERO and moved is not None else explained(o), apart(c)) for o, c in rivals
         ],
         errors={"fit": errors(fitted), "heldout": errors(held)},
         where=describe(residuals),

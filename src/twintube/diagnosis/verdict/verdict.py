@@ -11,6 +11,7 @@ from twintube.diagnosis.measurement.faults import STRANGER, Fault
 from twintube.diagnosis.result import Errors, Estimate, Gain, Signature, Tried
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.selection.rivals import rivals
+from twintube.diagnosis.verdict.moved_zero import ZERO
 
 NUMBERS = {2: "Two", 3: "Three"}
 
@@ -41,12 +42,14 @@ def judge(
     faults: Sequence[Fault],
     attempts: Sequence[Tried],
     only_noise: bool = False,
+    moved: bool = False,
 ) -> Judgement:
     """The verdict from the selected causes, the signatures in the records and the faults that were put right.
 
     `estimates` are the values of the chosen causes, `errors` those of the models on held-out records, `gain` that of the
     model with all chosen causes, `attempts` the candidates as the page shows them, `only_noise` says that the errors of the
-    model as given do not repeat. A cause is named only where none of these figures speaks against it.
+    model as given do not repeat, `moved` that a zero that moved with the filling explains as much. A cause is named only
+    where none of these figures speaks against it.
     """
     base, extended, floor = (errors[name].force_rmse_N for name in ("base", "extended", "noise_floor"))
     right = selection.final.score <= RULES.right * selection.count
@@ -79,6 +82,8 @@ def judge(
     if late and base <= RULES.quiet_late * floor:
         enough = False  # sampling moves the steps of the force, too
     close = rivals(selection, extended > RULES.quiet * floor)
+    if moved and len(selection.chosen) == 1 and not any(candidates[name].fault for name in causes):
+        close = [o for o in selection.rounds[0] if o.names[-1] == ZERO] or close
     solved = bool(selection.chosen) and proven and enough and not doubts
     if outside and not (solved and extended <= RULES.quiet * floor):
         remaining = "unexplained"
