@@ -75,7 +75,8 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     seen = signatures(dataset.records)
     seen += [cut] if cut is not None and all(signature.name != cut.name for signature in seen) else []
 
-    def concluded(judged: Problem, odd: Fault | None = None) -> Diagnosis:
+    def concluded(judged: Problem, odd: Fault | None = None, *, inside: bool = True) -> Diagnosis:
+        """The answer to some records without the `odd`; `inside` says that a cause may be known from within a record."""
         faults = put_right(before, recorded, judged)
         if odd is not None:
             faults[odd] = excluded_gain(recorded, judged)
@@ -94,11 +95,11 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
             judged = remembering
             folds, split_remarks = split(dataset.title, judged.records)
             answered = by(judged, folds, "with the memory of noise: ")
-        few = split_remarks == [BY_VELOCITY] and len(answered.causes) < RULES.rounds
+        few = inside and split_remarks == [BY_VELOCITY] and len(answered.causes) < RULES.rounds
         wrong = contradicted(with_outliers(judged, outliers), answered) if few else None
-        inside = within(wrong.records) if wrong is not None else []
-        if wrong is not None and inside:
-            closer = by(wrong, inside, "within the records: ")
+        tenths = within(wrong.records) if wrong is not None else []
+        if wrong is not None and tenths:
+            closer = by(wrong, tenths, "within the records: ")
             if says_more(answered, closer):
                 answered, split_remarks = closer, [WITHIN]
         return replace(answered, remarks=[*split_remarks, *remarks, *answered.remarks])
@@ -110,10 +111,10 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
         if odd is None:
             return concluded(judged)
         if odd.effect == STRANGER:
-            # Some records may differ because a cause acts in them alone, as foam does after a rest.
-            answered = concluded(judged)
-            scaled_alone = odd.name in GAINS and WITHIN in answered.remarks  # by a cause that no other record shows
-            if len(answered.causes) > len(before) and not scaled_alone:
+            # Some records may differ because a cause acts in them alone, as foam does after a rest. Where a gain explains a
+            # single record, a cause that no other shows does not stand against it.
+            answered = concluded(judged, inside=odd.name not in GAINS)
+            if len(answered.causes) > len(before):
                 return answered
         part = judged.with_records([record for record in judged.records if record.name in odd.records])
         return replace(concluded(others, odd), left_out=simulated(part, "left_out", [{}, {}, {}]))
