@@ -18,7 +18,7 @@ from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, G
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.selection.select import Selector
 from twintube.diagnosis.verdict.confidence import evidence, probabilities
-from twintube.diagnosis.verdict.moved_zero import ZERO, moved_zero
+from twintube.diagnosis.verdict.moved_zero import MOVED, ZERO, moved_zero
 from twintube.diagnosis.verdict.verdict import judge, sentence
 from twintube.diagnosis.verdict.where import describe, maps, structured
 from twintube.fitting.parameters import DEGRADATION
@@ -68,6 +68,7 @@ def answer(
         probable = replace(probable, shares={**probable.shares, ZERO: alike})
     left = [describe(residuals, left=True)] if judgement.remaining == "unexplained" else []
     rivals = [(o, known[o.names[-1]]) for o in judgement.rivals]
+    told_by = {c.name: apart(c) for _, c in rivals} | ({ZERO: MOVED} if moved is not None else {})
 
     def explained(rival: Option) -> float:
         return whole(gains(predictions(selector, (*options[:2], rival)), least=floor(held)))
@@ -81,7 +82,8 @@ def answer(
             *(Cause(name, known[name].title, known[name].cause, estimates[name], gain) for name in judgement.causes),
         ],
         alternatives=[
-            Alternative(c.name, moved if c.name == ZERO and moved is not None else explained(o), apart(c)) for o, c in rivals
+            Alternative(c.name, moved if c.name == ZERO and moved is not None else explained(o), told_by[c.name])
+            for o, c in rivals
         ],
         errors={"fit": errors(fitted), "heldout": errors(held)},
         where=describe(residuals),
@@ -92,7 +94,7 @@ def answer(
         base=dataset.damper,
         recalibrated=damper_of(dataset.damper, refitted[1], [RECALIBRATE], {}),
         extended=damper_of(dataset.damper, extended, judgement.kept, known),
-        next_measurements=[apart(c) for _, c in rivals],
+        next_measurements=[told_by[c.name] for _, c in rivals],
         probabilities=probabilities(probable, known),
         structure={model: structured(records, model) for model in ("base", "recalibrated", "extended")},
         remarks=[PUT_RIGHT] * bool(faults) + [BEGUN] * bool(judgement.causes and problem.begun(extended.values)),

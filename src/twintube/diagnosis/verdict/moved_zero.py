@@ -9,6 +9,10 @@ from twintube.diagnosis.result import RecordResult
 from twintube.diagnosis.rules import RULES
 
 ZERO = "force_offset"
+MOVED = (
+    "Zero of the load cell, if it moved when the filling was changed: the load cell read with the damper taken out, before "
+    "and after"
+)
 
 
 def moved_zero(held: Sequence[RecordResult], limit: float) -> float | None:
