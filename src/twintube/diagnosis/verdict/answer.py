@@ -18,7 +18,7 @@ from twintube.diagnosis.result import Alternative, Cause, Diagnosis, Estimate, G
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.selection.select import Selector
 from twintube.diagnosis.verdict.confidence import evidence, probabilities
-from twintube.diagnosis.verdict.moved_zero import MOVED, ZERO, moved_zero
+from twintube.diagnosis.verdict.moved_zero import MOVED, NOT_THAT_OF_ALL, ZERO, moved_zero
 from twintube.diagnosis.verdict.verdict import judge, sentence
 from twintube.diagnosis.verdict.where import describe, maps, structured
 from twintube.fitting.parameters import DEGRADATION
@@ -63,7 +63,8 @@ def answer(
     residuals = maps(records)
     named = [*judgement.causes, *(fault.effect for fault in faults)]
     probable = evidence(judgement.verdict, named, [o.names[-1] for o in judgement.rivals], attempts)
-    if moved is not None and any(o.names[-1] == ZERO for o in judgement.rivals):  # which no row of the table is about
+    unlike = moved is not None and any(o.names[-1] == ZERO for o in judgement.rivals)  # which no row of the table is about
+    if unlike:
         alike = max(probable.shares[name] for name in judgement.causes)
         probable = replace(probable, shares={**probable.shares, ZERO: alike})
     left = [describe(residuals, left=True)] if judgement.remaining == "unexplained" else []
@@ -97,7 +98,11 @@ def answer(
         next_measurements=[told_by[c.name] for _, c in rivals],
         probabilities=probabilities(probable, known),
         structure={model: structured(records, model) for model in ("base", "recalibrated", "extended")},
-        remarks=[PUT_RIGHT] * bool(faults) + [BEGUN] * bool(judgement.causes and problem.begun(extended.values)),
+        remarks=[
+            *[PUT_RIGHT] * bool(faults),
+            *[BEGUN] * bool(judgement.causes and problem.begun(extended.values)),
+            *[NOT_THAT_OF_ALL] * unlike,
+        ],
     )
 
 

@@ -13,6 +13,10 @@ MOVED = (
     "Zero of the load cell, if it moved when the filling was changed: the load cell read with the damper taken out, before "
     "and after"
 )
+NOT_THAT_OF_ALL = (
+    "the zero that is not told apart is a constant of the records with gas and another of those without; that among the "
+    "candidates is one of all records alike"
+)
 
 
 def moved_zero(held: Sequence[RecordResult], limit: float) -> float | None:
