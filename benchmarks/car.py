@@ -10,7 +10,6 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.dampers import load
-from twintube.dampers.closures import closed
 from twintube.demo.car_ride import drive_car_with_fmus
 from twintube.demo.damper_fmu import DamperFmu
 from twintube.demo.four_dampers import SingleFmus
@@ -25,7 +24,7 @@ SECONDS, SPEED, RUNS = 60.0, 50 / 3.6, 5
 
 def bench_car() -> dict[str, float]:
     """Times real time on one core, on a class D road at 50 km/h with steps of 1 ms; the road is made before."""
-    front, rear = (closed(load(name)) for name in ("SA7", "SA8"))
+    front, rear = (load(name) for name in ("SA7", "SA8"))
     car = full_car(load_car(), [front, front, rear, rear])
     road = Road("D").heights(car, SECONDS * SPEED)
     inputs = np.zeros((round(SECONDS / DT), 3))

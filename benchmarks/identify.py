@@ -39,7 +39,7 @@ def bench_identify() -> dict[str, float]:
     The paper's: 2 levels, 8 velocities, 48 x 100 for Table 6, 120 x 500 for Tables 7 and 8. The optimisers: all 14
     parameters together, 40 x 250, error of equation 43 as mean over the seeds, and that of the true parameters.
     """
-    damper = load("SA8")
+    damper = load("SA8", as_published=True)
     records = records_of(damper, BLOCKS, NOISE)
     basic = damper.with_(**NO_FOAM, **NO_CAVITATION)
     slow = Objective(basic, TABLE_6, [r for r in records if r.top_speed <= 0.53], with_work=False)

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from twintube import load
-from twintube.dampers.closures import SCALAR, condition
+from twintube.dampers.freed_gas import SCALAR, condition
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.quarter_car import static_load
 from twintube.vehicle.ride import measures, ride, track
@@ -36,4 +36,4 @@ figure.legend(loc="outside upper center", ncols=3)
 
 # %%
 # The DLC is the standard deviation of the wheel load over the static load, from second 5 on. What becomes of the
-# gas that cavitation frees is *assumed* (closure ``return``, see :doc:`/effects`).
+# gas that cavitation frees is *assumed* (``dissolves``, see :doc:`/effects`).

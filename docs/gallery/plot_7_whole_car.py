@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from twintube import load
-from twintube.dampers.closures import condition
+from twintube.dampers.freed_gas import condition
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.full.car import WHEELS
 from twintube.vehicle.full.figures import ride_figures

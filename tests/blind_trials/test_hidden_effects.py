@@ -10,7 +10,7 @@ from twintube.lab.blind_trials.hidden import DRAWS, EFFECTS, KINDS, secret
 from twintube.lab.blind_trials.model import COLUMNS, FOAMED, FORCE, FREED, K_DEGR, LOST, OIL, PLACE, WARM
 from twintube.lab.blind_trials.quantities import Hidden
 
-P = load("SA8").parameters
+P = load("SA8", as_published=True).parameters
 
 
 class Run:

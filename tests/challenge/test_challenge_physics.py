@@ -15,7 +15,7 @@ from twintube.lab.challenge.excitation import STYLES, Order, motion
 from twintube.lab.challenge.run import Record, Run, Step, begun, copied, finished, marched
 from twintube.lab.challenge.sampling import taken
 
-DAMPER = load("SA8")
+DAMPER = load("SA8", as_published=True)
 SIGN = {"sign": 1.0, "reach": 0.045}
 
 

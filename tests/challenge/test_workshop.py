@@ -27,7 +27,7 @@ from twintube.lab.workshop.other_causes import (
     WrongPreload,
 )
 
-DAMPER = load("SA8")
+DAMPER = load("SA8", as_published=True)
 RATE = 4000.0
 
 

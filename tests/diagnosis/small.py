@@ -55,7 +55,7 @@ def run(
             parts.append((begin + t, -AMPLITUDE * np.cos(omega * t), velocity * np.sin(omega * t)))
             begin = float(parts[-1][0][-1])
     time, stroke, velocities = (np.concatenate(some) for some in zip(*parts, strict=True))
-    given = (damper or load("SA8")).with_(oil_level=level, gas_preload=int(level == INTACT))
+    given = (damper or load("SA8", as_published=True)).with_(oil_level=level, gas_preload=int(level == INTACT))
     result = simulate(given, stroke, velocities, time)
     return Run(level, speed, time, stroke, velocities, result.force, result.F_fluid, result.F_friction, result.F_gas)
 
@@ -91,7 +91,7 @@ def records(
 
 def problem(several: Sequence[Record]) -> Problem:
     """The model against the records."""
-    damper = load("SA8")
+    damper = load("SA8", as_published=True)
     return Problem(damper, prepare(LoadedDataset("Small", damper, list(several), [])))
 
 

@@ -179,7 +179,7 @@ def test_the_lowest_of_a_parabola() -> None:
 
 def test_a_calibration_moves_the_parameters_that_help_and_no_others() -> None:
     """Two of fourteen are wrong: the others keep what was given, so that they do not follow the noise."""
-    true = load("SA8").with_(X_Re=0.25, B=0.5)
+    true = load("SA8", as_published=True).with_(X_Re=0.25, B=0.5)
     runs = [small.run(v, level, slow=2, damper=true) for level in (0.7, small.DEGRADED) for v in (0.3, 0.6, 1.0)]
     problem = with_noise(small.problem([small.record(r, seed=i) for i, r in enumerate(runs)]))
     candidate = calibration(problem)
@@ -192,7 +192,9 @@ def test_a_calibration_moves_the_parameters_that_help_and_no_others() -> None:
 
 
 def test_degradation_parameters_that_interact_are_sought_together() -> None:
-    true = load("SA8").with_(X_Re=0.15, X_Co2=0.59, G_PV=0.34, S_BV=0.2, E=11.5, Y_Co_cav=0.16, Y_Re_cav=0.07)
+    true = load("SA8", as_published=True).with_(
+        X_Re=0.15, X_Co2=0.59, G_PV=0.34, S_BV=0.2, E=11.5, Y_Co_cav=0.16, Y_Re_cav=0.07
+    )
     runs = [small.run(v, level, slow=2, damper=true) for level in (0.7, small.DEGRADED) for v in (0.3, 0.6, 1.3)]
     problem = with_noise(small.problem([small.record(r, seed=i) for i, r in enumerate(runs)]))
     candidate = calibration(problem)
@@ -217,7 +219,7 @@ def test_no_candidate_changes_forces_while_its_strength_vanishes() -> None:
 
 @pytest.mark.parametrize("power", [0.0, 0.5, 1.0, 1.5, 2.0])
 def test_oil_that_leaked_in_a_record_is_missing_in_those_after_it(power: float) -> None:
-    film, damper = 2e-7, load("SA8")
+    film, damper = 2e-7, load("SA8", as_published=True)
     runs = [small.run(speed, fill) for fill, speed in ((small.INTACT, 0.3), (small.DEGRADED, 0.1), (small.DEGRADED, 0.6))]
     problem = small.problem([small.record(r) for r in runs])
     lost = [film * 0.1 ** (1.0 - power) * float(np.trapezoid(np.abs(r.velocity) ** power, r.time)) for r in runs]
@@ -233,7 +235,7 @@ def test_oil_that_leaked_in_a_record_is_missing_in_those_after_it(power: float) 
 
 
 def test_oil_that_a_cut_lost_in_a_record_is_missing_in_those_after_it_at_a_usual_force() -> None:
-    damper = load("SA8")
+    damper = load("SA8", as_published=True)
     runs = [small.run(speed, fill) for fill, speed in ((small.INTACT, 0.3), (small.DEGRADED, 0.1), (small.DEGRADED, 0.6))]
     problem = small.problem([small.record(r) for r in runs])
     ring = 0.25 * np.pi * (damper.parameters.D_li**2 - damper.parameters.D_PR**2)

@@ -130,7 +130,7 @@ def test_turned_sign_is_named_by_the_command_and_nothing_else(tmp_path: Path) ->
 def test_a_record_of_another_damper_is_left_out_and_shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engine, "candidates", lambda problem: [c for c in candidates(problem) if c.fault])
     records = small.records(speeds=(0.1, 0.3, 0.6, 1.0, 1.3))
-    records[2] = replace(small.record(small.run(0.6, damper=load("SA7"))), name="stray", file="stray.csv")
+    records[2] = replace(small.record(small.run(0.6, damper=load("SA7", as_published=True))), name="stray", file="stray.csv")
     folder = small.write(records, tmp_path / "data")
     result = CliRunner().invoke(app, ["diagnose", str(folder), "--output", str(tmp_path / "out")])
     assert result.exit_code == 0, result.output
@@ -172,7 +172,7 @@ def test_every_second_tenth_of_a_single_velocity_is_held_out_in_turn(good: list[
 
 def test_a_tolerance_turns_a_small_deviation_into_noise() -> None:
     records = small.problem(small.records(lambda r: 1.03 * r.force)).records
-    strict, tolerant = (Problem(load("SA8"), records, tolerance=x) for x in (0.0, 0.05))
+    strict, tolerant = (Problem(load("SA8", as_published=True), records, tolerance=x) for x in (0.0, 0.05))
     assert strict.misfits(strict.residual({})).min() > 10
     assert tolerant.misfits(tolerant.residual({})).max() < 1.0
     kept = tolerant.with_records(records[:2]).with_drift(1.0)
@@ -227,7 +227,7 @@ def test_nothing_hidden_is_nothing_named(tmp_path: Path) -> None:
     answer = answered("none", tmp_path)
     assert (answer.verdict, answer.causes) == ("none", [])
     assert len(answer.structure["base"]) <= 1
-    assert answer.extended.parameters == load("SA8").parameters
+    assert answer.extended.parameters == load("SA8", as_published=True).parameters
 
 
 def test_spikes_in_several_records_that_nothing_explains_are_left_out(tmp_path: Path, good: list[Record]) -> None:
@@ -256,7 +256,7 @@ def test_what_no_effect_makes_is_unexplained_and_described(tmp_path: Path) -> No
     answer = answered("backlash", tmp_path)
     assert (answer.verdict, answer.causes) == ("unexplained", [])
     assert "play" in answer.sentence
-    assert answer.extended.parameters == load("SA8").parameters
+    assert answer.extended.parameters == load("SA8", as_published=True).parameters
 
 
 @pytest.mark.slow

@@ -57,7 +57,7 @@ def test_a_slow_random_motion_holds_no_slow_strokes_of_its_own() -> None:
     z = sum(np.sin(2 * np.pi * f * t + phase) / f for f, phase in parts)
     z *= 0.08 / np.abs(np.gradient(z, t)).max()
     v = np.gradient(z, t)
-    force = simulate(load("SA8").with_(oil_level=small.DEGRADED, gas_preload=0), z, v, t).force
+    force = simulate(load("SA8", as_published=True).with_(oil_level=small.DEGRADED, gas_preload=0), z, v, t).force
     like = small.record(small.run(0.3, small.DEGRADED))
     usable = np.ones(len(t), dtype=bool)
     random = replace(like, measurement="stochastic", time=t, stroke=z, velocity=v, force=force, usable=usable)

@@ -91,7 +91,11 @@ def test_a_record_is_odd_by_its_gain_where_most_intervals_have_little_force(
 
 @pytest.mark.parametrize("stranger", ["another damper", "another fill"])
 def test_a_record_of_something_else_is_named(good: list[Record], stranger: str) -> None:
-    run = small.run(0.6, damper=load("SA7")) if stranger == "another damper" else small.run(0.6, small.DEGRADED)
+    run = (
+        small.run(0.6, damper=load("SA7", as_published=True))
+        if stranger == "another damper"
+        else small.run(0.6, small.DEGRADED)
+    )
     other = replace(small.record(run), name="stray", oil_level=1.0, gas_preload=True)
     fault, rest = judged(changed(good, lambda _: other))
     assert fault is not None

@@ -296,7 +296,7 @@ def test_every_second_tenth_is_compared_in_turn(runs: list[small.Run]) -> None:
     assert not np.any(halves[0].judged & halves[1].judged)
     sizes = np.bincount(halves[0].part[ready.judged])
     assert len(sizes) == RULES.parts and np.ptp(sizes) <= 1
-    problem = Problem(load("SA8"), halves)
+    problem = Problem(load("SA8", as_published=True), halves)
     assert len(problem.unit_counts) == RULES.parts  # five of either half
     squares = problem.residual({}) ** 2
     assert problem.unit_misfits({}) @ problem.unit_counts == pytest.approx(squares.sum())

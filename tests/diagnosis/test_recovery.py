@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from twintube.core import effects
-from twintube.dampers.closures import GAS
+from twintube.dampers.freed_gas import GAS
 from twintube.diagnosis import Diagnosis, diagnose
 from twintube.lab.blind_trials.trials import Trial, trial, write
 

@@ -117,7 +117,7 @@ def test_a_speed_just_beyond_the_threshold_of_cavitation_may_be_noise() -> None:
     """A record that passes it by 1 % knows nothing of cavitation, one that passes it by 20 % does."""
     for factor, open_to_doubt in ((1.01, True), (1.2, False), (0.9, False)):
         problem = small.problem(
-            small.records(lambda r: r.force, (factor * load("SA8").parameters.v_cav,), (small.DEGRADED,))
+            small.records(lambda r: r.force, (factor * load("SA8", as_published=True).parameters.v_cav,), (small.DEGRADED,))
         )
         doubt = barely_cavitating(problem, problem.simulated(problem.damping({}))[1])
         assert (doubt.max() > 0.05 * problem.records[0].peak) == open_to_doubt

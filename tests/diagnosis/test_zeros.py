@@ -27,12 +27,12 @@ def records() -> list[PreparedRecord]:
 
 
 def test_the_scatter_of_the_records_zeros_is_not_that_of_a_wrong_model(records: list[PreparedRecord]) -> None:
-    worn, _ = zero_drift(Problem(load("SA8"), records))
+    worn, _ = zero_drift(Problem(load("SA8", as_published=True), records))
     rng, peak = np.random.default_rng(1), max(record.peak for record in records)
     zeros = 0.02 * peak * rng.standard_normal(len(records))
     pairs = zip(records, zeros, strict=True)
     moved = [replace(r, force=r.force + z) for r, z in pairs]
-    drifting, remarks = zero_drift(Problem(load("SA8"), moved))
+    drifting, remarks = zero_drift(Problem(load("SA8", as_published=True), moved))
     assert worn.drift < 0.01 * peak
     assert 0.01 * peak < drifting.drift < 0.04 * peak
     assert "differs from record to record" in remarks[0]
@@ -47,7 +47,7 @@ def test_a_single_record_of_another_zero_does_not_make_all_zeros_scatter(records
 
 
 def test_errors_are_whitened_by_the_covariance_of_a_zero_of_every_record(records: list[PreparedRecord]) -> None:
-    problem = Problem(load("SA8"), records[:3], drift=7.0)
+    problem = Problem(load("SA8", as_published=True), records[:3], drift=7.0)
     a, b = problem.starts[1:3]
     weight = problem.weight[a:b]
     covariance = np.eye(b - a) + 7.0**2 * np.outer(weight, weight)
@@ -70,10 +70,10 @@ def test_a_constant_force_of_a_state_differs_from_zeros_that_scatter(records: li
 
 def zeroed(records: list[PreparedRecord], zeros: Sequence[float]) -> Problem:
     """Records of a right model whose forces read constants beside the force."""
-    right = Problem(load("SA8"), records)
+    right = Problem(load("SA8", as_published=True), records)
     forces = [right.forces({})[a:b] for a, b in itertools.pairwise(right.starts)]
     moved = [replace(r, force=f + z, noise=np.full(len(f), 1.0)) for r, f, z in zip(records, forces, zeros, strict=True)]
-    return Problem(load("SA8"), moved)
+    return Problem(load("SA8", as_published=True), moved)
 
 
 def test_a_zero_that_moves_in_the_order_of_the_records_is_a_fault_and_is_put_right(records: list[PreparedRecord]) -> None:

@@ -19,7 +19,7 @@ def strong(name: str, share: float = 0.1) -> dict[str, Any]:
 @pytest.fixture
 def sa8() -> Damper:
     """SA8 at 60 % oil without preload: foam and cavitation at work."""
-    return load("SA8").with_(oil_level=0.6, gas_preload=0)
+    return load("SA8", as_published=True).with_(oil_level=0.6, gas_preload=0)
 
 
 @pytest.fixture
@@ -45,4 +45,4 @@ def dashpot() -> Damper:
     """An intact damper that is nothing but a linear dashpot of 2000 N s/m."""
     v = [0.1 * (i + 1) for i in range(FV_POINTS)]
     F = [2000.0 * x for x in v]
-    return load("SA8").with_(v_re=v, F_re=F, v_co=v, F_co=F, F_FrS=0.0, F_0=0.0, c_gas=0.0)
+    return load("SA8", as_published=True).with_(v_re=v, F_re=F, v_co=v, F_co=F, F_FrS=0.0, F_0=0.0, c_gas=0.0)

@@ -59,7 +59,7 @@ def test_a_spot_rubs_where_it_is_and_nowhere_else(sa8: Damper) -> None:
 
 def test_wear_scales_each_branch_and_its_work() -> None:
     block = harmonic_block(1.048)
-    base = load("SA8").with_(F_FrS=0.0)
+    base = load("SA8", as_published=True).with_(F_FrS=0.0)
     p = base.parameters
     worn = simulate(base.with_(wear_re=-0.3, wear_co=0.2), block.stroke, block.velocity)
     scaled = base.with_(F_re=[0.7 * F for F in p.F_re], F_co=[1.2 * F for F in p.F_co])
@@ -71,7 +71,7 @@ def test_wear_scales_each_branch_and_its_work() -> None:
 
 
 def test_a_weak_blow_off_takes_a_constant_force_where_it_is_open() -> None:
-    block, sa8 = harmonic_block(1.048), load("SA8")
+    block, sa8 = harmonic_block(1.048), load("SA8", as_published=True)
     v = block.velocity
     for speed in (0.2, 1.0):
         weak = sa8.with_(opening_re=60.0, opening_co=25.0, opening_speed=speed)
@@ -88,7 +88,7 @@ def test_a_weak_blow_off_takes_a_constant_force_where_it_is_open() -> None:
 )
 def test_a_wrong_fill_is_another_fill(recorded: float, error: float, true: float) -> None:
     block = harmonic_block(1.572)
-    base = load("SA8").with_(gas_preload=0)
+    base = load("SA8", as_published=True).with_(gas_preload=0)
     wrong = simulate(base.with_(oil_level=recorded, level_error=error), block.stroke, block.velocity)
     right = simulate(base.with_(oil_level=true), block.stroke, block.velocity)
     assert wrong.force == pytest.approx(right.force, abs=1e-6)
@@ -98,6 +98,6 @@ def test_a_wrong_fill_is_another_fill(recorded: float, error: float, true: float
 
 def test_the_intact_state_keeps_the_recorded_level() -> None:
     block = harmonic_block(1.048)
-    intact = load("SA8")
+    intact = load("SA8", as_published=True)
     a, b = (simulate(x, block.stroke, block.velocity) for x in (intact, intact.with_(level_error=-0.2)))
     assert np.array_equal(a.force, b.force)

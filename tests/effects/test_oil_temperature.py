@@ -15,7 +15,7 @@ from twintube.rig.signals import harmonic_block
 
 def test_fluid_force_fades_with_the_work_while_nothing_cools() -> None:
     block = harmonic_block(1.048)
-    base = load("SA8")
+    base = load("SA8", as_published=True)
     plain = simulate(base, block.stroke, block.velocity)
     faded = simulate(base.with_(fade_heat=1e-4, cooling_time=2000.0), block.stroke, block.velocity, block.time)
     end = len(block.time) - 1
@@ -28,7 +28,7 @@ def test_fluid_force_fades_with_the_work_while_nothing_cools() -> None:
 def test_rest_recovers() -> None:
     z = np.array([0.0, *np.linspace(0, 0.04, 100), 0.04, 0.04, *np.linspace(0.04, 0.0, 100)])
     v = np.array([0.0, *np.full(100, 0.4), 0.0, 0.0, *np.full(100, -0.4)])
-    base = load("SA8")
+    base = load("SA8", as_published=True)
     forces = []
     for rest in (0.1, 60.0, 1e4):
         t = np.cumsum([0.0, *np.full(101, 1e-3), rest, *np.full(100, 1e-3)])
@@ -42,19 +42,21 @@ def test_rest_recovers() -> None:
 
 def test_a_warm_start_thins_the_oil_from_the_beginning() -> None:
     block = harmonic_block(0.262)
-    base = load("SA8")
+    base = load("SA8", as_published=True)
     plain = simulate(base, block.stroke, block.velocity)
     warm = simulate(base.with_(fade_heat=1e-4, H_start=500.0, cooling_time=5.0), block.stroke, block.velocity, block.time)
     assert warm.F_fluid[0] == pytest.approx(plain.F_fluid[0] * math.exp(-0.05))
 
 
 def test_only_the_laminar_part_of_the_force_knows_the_viscosity() -> None:
-    base = load("SA8").with_(fade_heat=1e-4, H_start=1000.0, cooling_time=5.0)
+    base = load("SA8", as_published=True).with_(fade_heat=1e-4, H_start=1000.0, cooling_time=5.0)
     left = {}
     for speed in (0.1, 1.0):
         z, v = np.linspace(-0.03, 0.03, 61), np.full(61, speed)
         t = np.arange(61) * 1e-3 / speed
-        plain, mixed = (simulate(damper, z, v, t).F_fluid[1] for damper in (load("SA8"), base.with_(turbulence=2.0)))
+        plain, mixed = (
+            simulate(damper, z, v, t).F_fluid[1] for damper in (load("SA8", as_published=True), base.with_(turbulence=2.0))
+        )
         left[speed] = mixed / plain
     thin = math.exp(-0.1)  # hardly any work has been done after the first millimetre
     assert left == pytest.approx({x: (thin + 2.0 * x) / (1.0 + 2.0 * x) for x in left}, rel=2e-3)
@@ -77,14 +79,14 @@ def means(warm: float, **changes: float) -> Array:
     z = np.concatenate([np.linspace(-0.03, 0.03, 61), np.linspace(0.03, -0.03, 61)[1:]])
     v = np.where(np.arange(121) < 60, 0.2, -0.2)
     record = Warmed(np.arange(121) * 5e-3, z, v, np.full(121, warm))
-    problem = SimulatedRecords(load("SA8"), [record], parts=4, failed=np.inf)
+    problem = SimulatedRecords(load("SA8", as_published=True), [record], parts=4, failed=np.inf)
     return problem.run(problem.rows(), changes.items())[0][5:55]
 
 
 def test_a_measured_temperature_acts_on_oil_friction_and_gas() -> None:
     frictionless = {"F_FrS": 0.0, "gas_kelvin": 0.0}
     plain = means(0.0, **frictionless, fade_kelvin=0.01)
-    p = load("SA8").parameters
+    p = load("SA8", as_published=True).parameters
     gas = p.c_gas * (np.linspace(-0.03, 0.03, 61)[5:55] - 0.0005) - p.F_0
     assert means(20.0, **frictionless, fade_kelvin=0.01) - gas == pytest.approx(math.exp(-0.2) * (plain - gas), rel=1e-3)
     # The pressure of an enclosed gas goes with its absolute temperature.
@@ -109,7 +111,7 @@ def test_a_temperature_is_nothing_to_a_damper_without_the_effect() -> None:
 
 def test_gas_follows_the_retained_heat_where_nothing_is_measured() -> None:
     block = harmonic_block(1.048)
-    base = load("SA8").with_(fade_heat=1e-9, cooling_time=2000.0)
+    base = load("SA8", as_published=True).with_(fade_heat=1e-9, cooling_time=2000.0)
     cold, warm = (simulate(x, block.stroke, block.velocity, block.time) for x in (base, base.with_(gas_heat=1e-5)))
     heat = cold.work  # 40 s against 2000 s
     assert warm.F_gas[-1] / cold.F_gas[-1] == pytest.approx(1.0 + 1e-5 * heat[-1], rel=0.02)

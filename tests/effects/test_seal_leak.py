@@ -12,7 +12,7 @@ from twintube.rig.signals import harmonic_block
 
 
 def test_the_film_leaves_from_the_reserve_first() -> None:
-    p = load("SA8").with_(leak_film=1e-5).parameters
+    p = load("SA8", as_published=True).with_(leak_film=1e-5).parameters
     d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)
@@ -35,7 +35,7 @@ def test_a_film_may_end_with_the_reserve() -> None:
     """The reserve is lost whole, of the rest the share. Oil that the chambers give it again for gas is lost, too."""
     lost = []
     for share in (0.0, 0.5, 1.0):
-        p = load("SA8").with_(leak_film=1e-5, leak_beyond=share, oil_level=0.6, gas_preload=0).parameters
+        p = load("SA8", as_published=True).with_(leak_film=1e-5, leak_beyond=share, oil_level=0.6, gas_preload=0).parameters
         d, s, f = blank(Derived), blank(State), blank(Flow)
         model.set_up(p, d)
         model.start(p, d, s, 0.0)
@@ -61,7 +61,7 @@ def test_force_falls_over_the_measurement(sa8: Damper) -> None:
 
 @pytest.mark.parametrize("power", [0.0, 0.5, 1.0, 2.0])
 def test_the_loss_per_time_goes_with_a_power_of_the_speed(power: float) -> None:
-    p = load("SA8").with_(leak_film=1e-6, leak_power=power).parameters
+    p = load("SA8", as_published=True).with_(leak_film=1e-6, leak_power=power).parameters
     lost = []
     for speed in (0.1, 0.4):
         d, s, f = blank(Derived), blank(State), blank(Flow)
@@ -77,7 +77,7 @@ def test_the_loss_per_time_goes_with_a_power_of_the_speed(power: float) -> None:
 def test_pressure_drives_oil_past_a_cut_in_rebound_and_air_comes_in_for_it() -> None:
     air = {}
     for cut in (0.0, 1e-8):
-        p = load("SA8").with_(cut_area=cut).parameters
+        p = load("SA8", as_published=True).with_(cut_area=cut).parameters
         d, s, f = blank(Derived), blank(State), blank(Flow)
         model.set_up(p, d)
         model.start(p, d, s, -0.03)

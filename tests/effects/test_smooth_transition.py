@@ -16,7 +16,7 @@ from twintube.rig.signals import harmonic_block
 @pytest.mark.parametrize("steps", [1, 7])
 def test_step_becomes_an_exponential(steps: int) -> None:
     """As tests/kernel/test_limits.py: with X_Re = 0 k_degr steps from 0 to 1 when V1 has no gas left."""
-    p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01).parameters
+    p = load("SA7", as_published=True).with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01).parameters
     d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)
@@ -51,7 +51,11 @@ def test_k_stays_between_its_values(sa8: Damper) -> None:
 
 
 def test_part_of_the_rise_comes_before_the_gas_has_run_out() -> None:
-    p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01, early_share=0.5).parameters
+    p = (
+        load("SA7", as_published=True)
+        .with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01, early_share=0.5)
+        .parameters
+    )
     d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)
@@ -69,7 +73,7 @@ def test_part_of_the_rise_comes_before_the_gas_has_run_out() -> None:
 def test_a_time_instead_of_a_length() -> None:
     """What is missing after the gas has run out fades with the time, whatever the velocity."""
     for velocity in (0.02, 0.05):
-        p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, tau_build=0.01).parameters
+        p = load("SA7", as_published=True).with_(dead_length=0.13, oil_level=0.35, gas_preload=0, tau_build=0.01).parameters
         d, s, f = blank(Derived), blank(State), blank(Flow)
         model.set_up(p, d)
         model.start(p, d, s, 0.0)
@@ -83,7 +87,11 @@ def test_a_time_instead_of_a_length() -> None:
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_what_lasts_from_rebound_to_rebound_fades_over_the_same_length(share: float) -> None:
     """In the first rebound all force, then gas again, where the paper has none."""
-    p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01, carry_turn=share).parameters
+    p = (
+        load("SA7", as_published=True)
+        .with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01, carry_turn=share)
+        .parameters
+    )
     d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)
@@ -104,10 +112,14 @@ def test_what_lasts_from_rebound_to_rebound_fades_over_the_same_length(share: fl
 def test_with_all_that_lasts_each_direction_is_a_filter_of_first_order() -> None:
     """A mixing length, with a memory of each direction: dk/ds = (k_flow - k) / L, whatever makes k_flow change."""
     length = 0.005
-    damper = load("SA1").with_(oil_level=0.37, gas_preload=0, build_up=length, carry_over=1.0, carry_turn=1.0)
+    damper = load("SA1", as_published=True).with_(
+        oil_level=0.37, gas_preload=0, build_up=length, carry_over=1.0, carry_turn=1.0
+    )
     block = harmonic_block(0.524)
     result = simulate(damper, block.stroke, block.velocity, block.time)
-    plain = simulate(load("SA1").with_(oil_level=0.37, gas_preload=0), block.stroke, block.velocity, block.time)
+    plain = simulate(
+        load("SA1", as_published=True).with_(oil_level=0.37, gas_preload=0), block.stroke, block.velocity, block.time
+    )
     assert np.ptp(plain.k_degr) > 0.5
     kept = {1.0: 1.0, -1.0: 1.0}
     expected = np.empty(len(block.time))
@@ -124,7 +136,9 @@ def test_with_all_that_lasts_each_direction_is_a_filter_of_first_order() -> None
 @pytest.mark.parametrize("share", [0.0, 1.0])
 def test_a_reversal_between_two_samples_is_like_a_reversal_at_a_sample(share: float) -> None:
     """Whether velocity or stroke changes its sign first is a chance of the sampling."""
-    damper = load("SA1").with_(oil_level=0.83, gas_preload=0, build_up=0.0045, carry_over=1.0, carry_turn=share)
+    damper = load("SA1", as_published=True).with_(
+        oil_level=0.83, gas_preload=0, build_up=0.0045, carry_over=1.0, carry_turn=share
+    )
     frequency = 8.34
     time = np.arange(0.0, 40.0 / frequency, 2.5e-4)
     phase = 2 * np.pi * frequency * time
@@ -138,7 +152,7 @@ def test_a_reversal_between_two_samples_is_like_a_reversal_at_a_sample(share: fl
 @pytest.mark.parametrize("share", [0.0, 0.5])
 def test_foam_in_front_of_oil_ends_as_gradually_as_gas(share: float) -> None:
     """Before the second end the rise is known from the first, and the share of it comes within two lengths."""
-    p = load("SA7").with_(gas_preload=0, build_up=0.005, early_share=share).parameters
+    p = load("SA7", as_published=True).with_(gas_preload=0, build_up=0.005, early_share=share).parameters
     d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)
@@ -160,7 +174,7 @@ def test_foam_in_front_of_oil_ends_as_gradually_as_gas(share: float) -> None:
 
 
 def test_a_layer_of_no_thickness_does_nothing() -> None:
-    p = load("SA7").with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01).parameters
+    p = load("SA7", as_published=True).with_(dead_length=0.13, oil_level=0.35, gas_preload=0, build_up=0.01).parameters
     missing = []
     for layer in (1e-7, 1e-5, 1e-2):
         d, s, f = blank(Derived), blank(State), blank(Flow)

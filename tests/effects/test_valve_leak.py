@@ -21,7 +21,7 @@ D = 2000.0  # [N s/m] of the dashpot
 @pytest.mark.parametrize("name", names())
 @pytest.mark.parametrize(("bleed_re", "bleed_co", "laminar"), [(0.05, 0.02, 0.0), (0.5, 0.5, 1.0), (1e-4, 0.3, 0.4)])
 def test_valves_and_leak_pass_what_the_piston_displaces(name: str, bleed_re: float, bleed_co: float, laminar: float) -> None:
-    p = load(name).with_(bleed_re=bleed_re, bleed_co=bleed_co, bleed_laminar=laminar).parameters
+    p = load(name, as_published=True).with_(bleed_re=bleed_re, bleed_co=bleed_co, bleed_laminar=laminar).parameters
     for u in (1e-9, 1e-3, 0.02, 0.1, 0.26, 1.0, 5.0, -1e-9, -0.005, -0.1, -0.5, -3.0):
         F = fluid_force(p, u) * effects_scale_valve(p, u)
         assert 0.0 < F / fluid_force(p, u) <= 1.0
@@ -30,7 +30,7 @@ def test_valves_and_leak_pass_what_the_piston_displaces(name: str, bleed_re: flo
 
 
 def test_a_leak_takes_most_of_the_slow_force_and_little_of_the_fast_one() -> None:
-    base = load("SA8").with_(F_FrS=0.0, F_0=0.0, c_gas=0.0)
+    base = load("SA8", as_published=True).with_(F_FrS=0.0, F_0=0.0, c_gas=0.0)
     shares = []
     for velocity in (0.05, 0.262, 1.572):
         block = harmonic_block(velocity)
@@ -43,7 +43,7 @@ def test_a_leak_takes_most_of_the_slow_force_and_little_of_the_fast_one() -> Non
 
 def test_a_scale_acts_on_what_the_leak_has_left() -> None:
     block = harmonic_block(0.524)
-    base = load("SA8").with_(F_FrS=0.0, bleed_re=0.05, bleed_co=0.1)
+    base = load("SA8", as_published=True).with_(F_FrS=0.0, bleed_re=0.05, bleed_co=0.1)
     leaking, both = (simulate(x, block.stroke, block.velocity) for x in (base, base.with_(wear_re=-0.2, wear_co=0.1)))
     scale = np.where(block.velocity >= 0.0, 0.8, 1.1)
     assert both.F_fluid == pytest.approx(scale * leaking.F_fluid, abs=1e-6)

@@ -10,7 +10,6 @@ import pytest
 
 from tests.explorer.conftest import OWN
 from twintube.dampers import load
-from twintube.dampers.closures import closed
 from twintube.engine.simulate import simulate
 from twintube.rig.plan import amplitude
 from twintube.rig.signals import OSCILLATIONS, PRECONDITIONING, V_PRECONDITIONING, oscillations
@@ -90,7 +89,7 @@ def test_a_drive_shows_the_wheel_load_that_the_package_computes(view: View) -> N
     view.open("#damper=SA8&oil=50&excitation=drive&speed=50&gas=return")
     match = re.search(r"coefficient ([\d.]+), intact ([\d.]+) .* work (\d+) %", view.summary())
     assert match is not None
-    damper, corner = closed(load("SA8")), load_car().corner(load("SA8"))
+    damper, corner = load("SA8"), load_car().corner(load("SA8"))
     route = track(50.0, round(view.now()))
     worn, intact = (
         ride(damper.with_(oil_level=level, gas_preload=gas), corner, route) for level, gas in ((0.5, 0), (1.0, 1))
@@ -121,7 +120,7 @@ def test_every_control_changes_the_result_and_the_address_restores_it(view: View
         lambda: page.uncheck("[name=preload]"),
         lambda: page.select_option("#road", "E"),
         lambda: page.check("[name=cavitation]"),
-        lambda: page.select_option("#gas", "displaced"),
+        lambda: page.select_option("#gas", "pushes_oil"),
     ]
     for action in actions:
         action()

@@ -14,7 +14,6 @@ from fmpy.fmi2 import FMU2Slave
 from tests.explorer.wasm import Module
 from twintube.arrays import Array
 from twintube.dampers import Damper, load, names
-from twintube.dampers.closures import closed
 from twintube.explorer import translate
 from twintube.fmu.equations import checked
 from twintube.fmu.table import variables
@@ -106,7 +105,7 @@ def test_the_module_equals_the_native_unit_over_the_harmonic_plan(sa8_native: Pa
     largest = np.zeros(3)
     for damper in map(load, names()):
         for level in oil_levels(damper):
-            state = closed(at_oil_level(damper, level))
+            state = at_oil_level(damper, level)
             for v in velocities(damper):
                 block = harmonic_block(v, amplitude(damper), DT)
                 expected = native.record(state, block.time, block.stroke, block.velocity)
@@ -121,7 +120,7 @@ def test_the_module_equals_the_native_unit_over_the_harmonic_plan(sa8_native: Pa
 
 @pytest.mark.parametrize("name", ["SA8", "SA7"])
 def test_the_quarter_car_of_the_module_is_that_of_the_package(name: str) -> None:
-    damper = closed(load(name).with_(oil_level=0.5, gas_preload=0))
+    damper = load(name).with_(oil_level=0.5, gas_preload=0)
     corner, route = load_car().corner(damper), track(50.0, 6.0)
     expected = drive(damper, corner, route.heights, route.dt, rates=route.rates, preconditioned=True)
     module, n = Module(), len(route.heights)

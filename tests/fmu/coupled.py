@@ -7,7 +7,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.dampers import load
-from twintube.dampers.closures import condition
+from twintube.dampers.freed_gas import condition
 from twintube.fmu import build_fmu
 from twintube.fmu.car import build_car_fmu
 from twintube.vehicle.cars import load_car

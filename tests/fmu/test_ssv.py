@@ -17,7 +17,6 @@ from typer.testing import CliRunner
 
 from twintube.cli import app
 from twintube.dampers import Damper, elements, load, names
-from twintube.dampers.closures import closed
 from twintube.demo.damper_fmu import DamperFmu
 from twintube.fmu.ssv import to_ssv
 
@@ -143,7 +142,7 @@ def test_command_writes_the_parameters(tmp_path: Path) -> None:
     run = CliRunner().invoke(app, ["ssv", "SA7", "--oil-level", "0.56", "--gas-lost", "--output", str(file)])
     assert run.exit_code == 0, run.output
     assert "SA7" in run.output
-    assert file.read_text(encoding="utf-8") == to_ssv(closed(WORN))
+    assert file.read_text(encoding="utf-8") == to_ssv(WORN)
     arguments = ["ssv", "SA7", "--oil-level", "0.56", "--gas-lost", "--as-published", "--output", str(file)]
     assert CliRunner().invoke(app, arguments).exit_code == 0
     assert file.read_text(encoding="utf-8") == to_ssv(WORN)

@@ -18,7 +18,7 @@ from twintube.rig.signals import BLOCKS
 @pytest.fixture(scope="module")
 def basic() -> Damper:
     """SA3 as variant 2: without foam and cavitation."""
-    return load("SA3").with_(**NO_FOAM, **NO_CAVITATION)
+    return load("SA3", as_published=True).with_(**NO_FOAM, **NO_CAVITATION)
 
 
 @pytest.fixture(scope="module")

@@ -26,12 +26,12 @@ def intact_records(damper: Damper, noise: float) -> list[Harmonic]:
 
 @pytest.mark.parametrize("name", names())
 def test_curve_friction_and_gas_spring_come_back(name: str) -> None:
-    truth = load(name)
+    truth = load(name, as_published=True)
     signal = ramp(truth)
     slow = (signal.stroke, simulate(truth, signal.stroke, signal.velocity).force)
     records = intact_records(truth, noise=0.01)
-    other = {"F_FrS": 10.0, "F_0": 1.0, "c_gas": 1.0, "sigma_0": 1e4, "v_re": load("SA1").parameters.v_re,
-             "F_re": [2 * F for F in load("SA1").parameters.F_re]}  # fmt: skip
+    other = {"F_FrS": 10.0, "F_0": 1.0, "c_gas": 1.0, "sigma_0": 1e4, "v_re": load("SA1", as_published=True).parameters.v_re,
+             "F_re": [2 * F for F in load("SA1", as_published=True).parameters.F_re]}  # fmt: skip
     damper, estimates = identify_intact(truth.with_(**other), slow, records)
     identified = damper.parameters
     p = truth.parameters
@@ -51,7 +51,7 @@ def test_curve_friction_and_gas_spring_come_back(name: str) -> None:
 
 def test_a_single_slow_oscillation_from_the_middle_is_enough() -> None:
     """Upwards it has no stroke from end to end, but two halves."""
-    truth = load("SA8")
+    truth = load("SA8", as_published=True)
     angle = np.linspace(0.0, 2 * np.pi, 2001)
     stroke = 0.045 * np.sin(angle)
     time = angle * 0.045 / 1e-4  # so slow that the valves hardly act
@@ -66,7 +66,7 @@ def test_a_single_slow_oscillation_from_the_middle_is_enough() -> None:
 
 
 def test_intact_identification_predicts_a_held_out_block() -> None:
-    truth = load("SA7")
+    truth = load("SA7", as_published=True)
     records = intact_records(truth, noise=0.01)
     held_out = records.pop(4)
     damper, _ = identify_intact(truth, None, records)
@@ -83,7 +83,9 @@ def test_bad_records_are_refused() -> None:
     with pytest.raises(InputError, match="check the signs"):
         quasi_static(there_and_back, np.where(np.arange(400) < 200, -30.0, 30.0))
     with pytest.raises(InputError, match="1 intact harmonic records"):
-        identify_intact(load("SA1"), None, intact_records(load("SA1"), 0.0)[:1])
-    beside = [replace(record, stroke=record.stroke + 0.2) for record in intact_records(load("SA1"), 0.0)[:2]]
+        identify_intact(load("SA1", as_published=True), None, intact_records(load("SA1", as_published=True), 0.0)[:1])
+    beside = [
+        replace(record, stroke=record.stroke + 0.2) for record in intact_records(load("SA1", as_published=True), 0.0)[:2]
+    ]
     with pytest.raises(InputError, match=r"never crosses 0, the middle position; set stroke_offset"):
-        identify_intact(load("SA1"), None, beside)
+        identify_intact(load("SA1", as_published=True), None, beside)

@@ -26,7 +26,7 @@ SPEEDS = (0.05, 0.131, 0.262)
 
 def little_friction() -> Damper:
     """Friction builds up over 45 um, as in a racing damper."""
-    return load("SA1").with_(F_FrS=18.2, sigma_0=401e3)
+    return load("SA1", as_published=True).with_(F_FrS=18.2, sigma_0=401e3)
 
 
 def record(damper: Damper, v: float, seed: int, stroke_noise: float, amplitude: float = 0.03) -> Record:
@@ -40,7 +40,7 @@ def record(damper: Damper, v: float, seed: int, stroke_noise: float, amplitude: 
 
 def fitted(stroke_noise: float) -> tuple[list[Record], SineFit]:
     records = [record(little_friction(), v, i, stroke_noise) for i, v in enumerate(SPEEDS)]
-    return records, identify_sines(load("SA1"), [harmonic(r) for r in records])
+    return records, identify_sines(load("SA1", as_published=True), [harmonic(r) for r in records])
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +76,7 @@ def test_validation_shows_what_the_noise_does(noisy_fit: tuple[list[Record], Sin
 
 
 def test_drives_count_in_the_headline_and_take_the_zero_of_the_load_cell() -> None:
-    damper, offset = load("SA1"), 50.0
+    damper, offset = load("SA1", as_published=True), 50.0
     drive = replace(record(damper, 0.131, 0, 0.0), measurement="stochastic")
     drive = replace(drive, force=drive.force + offset)
     (without,), (right,) = validate_drives(damper, [drive]), validate_drives(damper, [drive], offset)
@@ -91,12 +91,12 @@ def test_drives_count_in_the_headline_and_take_the_zero_of_the_load_cell() -> No
 
 
 def test_samples_that_say_nothing_do_not_count() -> None:
-    clean = [record(load("SA1"), v, i, 0.0) for i, v in enumerate(SPEEDS[1:])]
+    clean = [record(load("SA1", as_published=True), v, i, 0.0) for i, v in enumerate(SPEEDS[1:])]
     usable = np.ones(len(clean[0].time), dtype=bool)
     usable[-4000:-3700] = False
     wrong = replace(clean[0], force=np.where(usable, clean[0].force, 5e3))
     excluded = [harmonic(replace(wrong, usable=usable)), harmonic(clean[1])]
-    fit, truth = identify_sines(load("SA1"), excluded), load("SA1").parameters
+    fit, truth = identify_sines(load("SA1", as_published=True), excluded), load("SA1", as_published=True).parameters
     assert pytest.approx(truth.F_FrS, rel=0.05) == fit.damper.parameters.F_FrS
     assert validate_harmonic(fit.damper, excluded[0], "fit").force_rmse < 0.1 * 5e3
     assert validate_harmonic(fit.damper, harmonic(wrong), "fit").force_rmse > 0.1 * 5e3
@@ -107,12 +107,12 @@ def test_a_friction_damper_is_refused_before_the_search(monkeypatch: pytest.Monk
         raise AssertionError("searched")
 
     monkeypatch.setattr("twintube.identification.sines.minimize_scalar", search)
-    block = harmonic(record(load("SA1"), 0.131, 0, 0.0))
-    p = load("SA1").parameters
+    block = harmonic(record(load("SA1", as_published=True), 0.131, 0, 0.0))
+    p = load("SA1", as_published=True).parameters
     scale = np.array([stribeck(p, float(v)) for v in block.velocity])
     rubbing = replace(block, force=10_800.0 * scale * saturation(block.stroke, 2e-4))
     with pytest.raises(InputError, match=r"friction of about \d{4,5} N, friction.F_FrS must be from 0 to 2000 N"):
-        identify_sines(load("SA1"), [rubbing])
+        identify_sines(load("SA1", as_published=True), [rubbing])
 
 
 @pytest.mark.parametrize(("kind", "message"), [("stochastic", "only stochastic"), ("quasi-static", "only quasi-static")])
@@ -128,8 +128,8 @@ def test_a_single_sine_says_what_it_cannot_tell(tmp_path: Path) -> None:
 
 def folder(path: Path, kind: str) -> Path:
     """A dataset of a single record."""
-    r = record(load("SA1"), 0.131, 0, 0.0)
-    (path / "damper.toml").write_text(to_toml(load("SA1")))
+    r = record(load("SA1", as_published=True), 0.131, 0, 0.0)
+    (path / "damper.toml").write_text(to_toml(load("SA1", as_published=True)))
     table = np.column_stack([r.time, 1e3 * r.stroke, r.force])
     np.savetxt(path / "a.csv", table, "%.9g", ",", header="time [s],stroke [mm],force [N]", comments="")
     toml = 'title = "Single"\ndamper = "damper.toml"\n[[record]]\nfile = "a.csv"\noil_level = 1.0\ngas_preload = true\n'

@@ -61,7 +61,7 @@ def written(folder: Path, source: str, damper: Damper, head: str, middles: dict[
 
 def wide() -> Damper:
     """A damper with room for the strokes of the sources; what is identified does not depend on its oil."""
-    base = load("SA1")
+    base = load("SA1", as_published=True)
     return base.with_(h_l=0.35, V_oil=base.parameters.V_oil + 1e-5)
 
 

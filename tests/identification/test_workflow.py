@@ -68,7 +68,7 @@ def test_no_oscillation_is_refused() -> None:
 
 
 def test_friction_of_sines_is_the_kernel_s() -> None:
-    damper = load("SA7").with_(k_high=1.0, F_FrS=40.0, sigma_0=4e4, delta_D=1.0)
+    damper = load("SA7", as_published=True).with_(k_high=1.0, F_FrS=40.0, sigma_0=4e4, delta_D=1.0)
     block = harmonic_block(0.05)
     result = simulate(damper, block.stroke, block.velocity)
     assert 40.0 * saturation(block.stroke, 1e-3) == pytest.approx(result.F_friction, abs=1e-6)
@@ -76,7 +76,7 @@ def test_friction_of_sines_is_the_kernel_s() -> None:
 
 def test_sines_alone_give_an_intact_damper_that_predicts() -> None:
     """Without a quasi-static record: a block that was not fitted comes out to a few percent of its peak."""
-    truth = load("SA1")
+    truth = load("SA1", as_published=True)
     rng = np.random.default_rng(2)
     records = []
     for v in BLOCKS[:7]:
@@ -105,13 +105,13 @@ def judged(truth: Damper, velocities: tuple[float, ...], budget: Budget) -> None
 
 
 def test_truth_lies_in_the_intervals_and_the_undetermined_are_named() -> None:
-    judged(load("SA7"), BLOCKS[1::2], Budget((24, 30), (32, 40), (24, 80), (32, 80)))
+    judged(load("SA7", as_published=True), BLOCKS[1::2], Budget((24, 30), (32, 40), (24, 80), (32, 80)))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["SA1", "SA7", "SA8"])
 def test_truth_lies_in_the_intervals_with_the_paper_s_budget(name: str) -> None:
-    judged(load(name), BLOCKS, PAPER)
+    judged(load(name, as_published=True), BLOCKS, PAPER)
 
 
 def folder_of(path: Path, truth: Damper, start: Damper) -> Path:
@@ -137,7 +137,7 @@ def folder_of(path: Path, truth: Damper, start: Damper) -> Path:
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    truth = load("SA8")
+    truth = load("SA8", as_published=True)
     start = truth.with_(**UNKNOWN, F_FrS=60.0, F_re=[1.3 * F for F in truth.parameters.F_re])
     return folder_of(tmp_path_factory.mktemp("identify") / "bench", truth, start)
 
@@ -190,7 +190,7 @@ def test_command_identifies_and_a_killed_run_ends_the_same(bench: Path, tmp_path
     assert not journal.exists()
     summary = json.loads((whole / "identification.json").read_text())
     assert summary["heldout"]["work_error_first"] < 0.05
-    damper = load(whole / "identified.toml")
+    damper = load(whole / "identified.toml", as_published=True)
     assert damper.parameters.F_FrS == pytest.approx(25.0, rel=0.1)
     assert "identified from 'Bench'" in damper.sources["degradation"]
     assert "fv" not in damper.assumed
@@ -228,7 +228,7 @@ def test_a_folder_is_identified_by_the_public_function(bench: Path, tmp_path: Pa
 def test_a_run_resumed_after_an_upgrade_uses_no_value_of_the_former_program(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    damper, block = load("SA7"), harmonic_block(0.524)
+    damper, block = load("SA7", as_published=True), harmonic_block(0.524)
     record = Harmonic(0.6, 0, block.time, block.stroke, block.velocity, 900 * block.velocity, block.marks)
     records = [record, replace(record, oil_level=0.5)]
     objective = Objective(damper, TABLE_6, records, with_work=False)

@@ -6,7 +6,7 @@ import pytest
 from twintube.core import model
 from twintube.core.outputs import total_force
 from twintube.dampers import load
-from twintube.dampers.closures import READINGS
+from twintube.dampers.freed_gas import VARIED
 from twintube.engine.simulate import InputError, at_rest, simulate
 from twintube.inspection import METHODS, Condition, Detection, conditions, first_seen, study
 from twintube.inspection.scatter import AMBIENT, FADE, KELVIN, RANGES, ROOM, samples, warm
@@ -84,7 +84,7 @@ def test_a_temperature_acts_as_the_measured_temperature_of_the_package_does():
             found.append(total_force(s))
         forces.append(found)
     assert forces[1] == pytest.approx(forces[0], abs=1e-6 * max(forces[0]))
-    assert max(forces[1]) < 0.97 * max(simulate(damper, block.stroke, block.velocity).force)
+    assert max(forces[1]) < 0.97 * max(simulate(damper, block.stroke, block.velocity, block.time).force)
 
 
 def test_the_study_sees_30_percent_oil_and_not_90():
@@ -101,13 +101,11 @@ def test_the_study_sees_30_percent_oil_and_not_90():
     assert [d.as_json for d in again] == alone, "the number of processes is without effect"
 
 
-def test_every_closure_is_studied_and_the_scalar_factor_once():
-    found = study(
-        [load("SA8")], load_car(), conditions((0.4,), None), ("push_down",), count=20, closures=READINGS, processes=1
-    )
-    assert [d.condition.closure for d in found if not d.condition.scalar] == list(READINGS)
+def test_every_way_is_studied_and_the_scalar_factor_once():
+    found = study([load("SA8")], load_car(), conditions((0.4,), None), ("push_down",), count=20, ways=VARIED, processes=1)
+    assert [d.condition.freed_gas for d in found if not d.condition.scalar] == list(VARIED)
     assert sum(d.condition.scalar for d in found) == 1
-    assert {first_seen(found, "SA8", "push_down", name) for name in READINGS} == {0.4}
+    assert {first_seen(found, "SA8", "push_down", name) for name in VARIED} == {0.4}
     assert first_seen(found, "SA8", "push_down", "return_fast") is None, "was not studied"
 
 

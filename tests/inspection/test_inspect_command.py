@@ -7,10 +7,10 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
-from twintube.dampers.closures import READINGS
+from twintube.dampers.freed_gas import DEFAULT, VARIED
 from twintube.inspection import METHODS
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, markdown, method_rows, range_rows
-from twintube.report.inspection import by_closure
+from twintube.report.inspection import by_way
 
 RUNNER = CliRunner()
 ROOT = Path(__file__).parents[2]
@@ -34,10 +34,10 @@ def test_entries_and_detection_as_json(tmp_path: Path) -> None:
     assert {item["false_alarm_rate"] for item in found["detection"]} == {0.05}
     assert all(0 <= d["detected_band"][0] <= d["detected_share"] <= d["detected_band"][1] <= 1 for d in found["detection"])
     assert [item["oil_level"] for item in found["first_seen"]] == [0.4, 0.4]
-    assert "eusama: 90% detected at 5% false alarms from oil level 40% under every closure tried" in run.output
+    assert "eusama: 90% detected at 5% false alarms from oil level 40% whatever freed gas does" in run.output
     for item in found["first_seen"]:
-        assert set(item["closures"]) == set(READINGS) and item["closures"]["return"] == item["oil_level"]
-    assert all(set(entry["closures"]) == set(READINGS) for entry in found["entries"])
+        assert set(item["freed_gas_ways"]) == set(VARIED) and item["freed_gas_ways"][DEFAULT] == item["oil_level"]
+    assert all(set(entry["freed_gas_ways"]) == set(VARIED) for entry in found["entries"])
 
 
 def test_the_page_has_all_methods_and_pictures(tmp_path: Path) -> None:
@@ -94,7 +94,7 @@ def test_without_scatter_there_are_only_figures(tmp_path: Path) -> None:
         (["--method", "shaking"], "error: method shaking: must be one of eusama, phase_shift"),
         (["--oil-level", "1.7", "--scatter", "0"], "error: SA8: oil_level = 1.7: must be a number from 0 to 1"),
         (["--scatter", "7"], "error: samples = 7: must be from 20 to 10000"),
-        (["--closure", "x"], "error: --closure x: must be one of letter, return"),
+        (["--freed-gas", "x"], "error: --freed-gas x: must be one of stays, dissolves"),
         (["--car", "x"], "error: unknown car x: neither a file nor one of "),
         (["SA9"], "error: unknown damper SA9"),
     ],
@@ -112,8 +112,8 @@ def test_the_documentation_has_the_tables_of_methods_and_ranges() -> None:
     assert markdown(RANGE_HEAD, range_rows()) in page
 
 
-def test_what_flips_from_closure_to_closure_is_said() -> None:
-    assert by_closure({"return": "60%"}) == "60%"
-    assert by_closure({"return": "60%", "letter": "60%"}) == "60% under every closure tried"
-    texts = {"return": "60%", "letter": "50%", "displaced": "not seen", "exhausted": "50%"}
-    assert by_closure(texts) == "60%, but 50% under the closures letter, exhausted, not seen under the closure displaced"
+def test_what_flips_from_way_to_way_is_said() -> None:
+    assert by_way({"dissolves": "60%"}) == "60%"
+    assert by_way({"dissolves": "60%", "stays": "60%"}) == "60% whatever freed gas does"
+    texts = {"dissolves": "60%", "stays": "50%", "pushes_oil": "not seen", "limited": "50%"}
+    assert by_way(texts) == "60%, but 50% with freed gas stays, limited, not seen with freed gas pushes_oil"

@@ -107,7 +107,7 @@ def test_oil_falls_by_cavitation_alone(p: Parameters, motion: list[tuple[float, 
 def test_a_sliding_flow_with_a_trace_of_foaming_ends(name: str) -> None:
     # V1 slides along "no gas": what it keeps is zero up to rounding, of either sign, and the foam takes a share of that.
     for sixty_fourths in range(1, 65):
-        p = replace(load(name).parameters, oil_level=1.0, gas_preload=0, X_Re=0.0, S_BV=0.0, S_BVoil=0.0, S_PV=1e-108,
+        p = replace(load(name, as_published=True).parameters, oil_level=1.0, gas_preload=0, X_Re=0.0, S_BV=0.0, S_BVoil=0.0, S_PV=1e-108,
                     S_PVoil=0.0, B=0.0, E=0.0, v_cav=0.0, L_PV=0.0, G_PV=0.0, X_Co1=0.0, X_Co2=0.0, Y_Re_cav=0.0,
                     Y_Co_cav=sixty_fourths / 64, cavitation_foams=1, cavitation_loss=0.0)  # fmt: skip
         run(p, [(0.0, 1.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 1.0)])

@@ -14,7 +14,7 @@ from twintube.rig.signals import harmonic_block
 @pytest.mark.parametrize("velocity", [0.05, 0.524, 2.0])
 def test_full_damper_with_preload_is_the_intact_one(name: str, velocity: float) -> None:
     block = harmonic_block(velocity)
-    result = simulate(load(name), block.stroke, block.velocity)
+    result = simulate(load(name, as_published=True), block.stroke, block.velocity)
     assert np.all(result.k_degr == 1.0)
     assert np.all(result.V1_gas == 0.0)
     assert np.all(result.V2_gas == 0.0)
@@ -23,14 +23,14 @@ def test_full_damper_with_preload_is_the_intact_one(name: str, velocity: float) 
 @pytest.mark.parametrize("name", names())
 def test_empty_damper_has_no_fluid_force(name: str) -> None:
     block = harmonic_block(1.048)
-    result = simulate(load(name).with_(oil_level=0.0, gas_preload=0), block.stroke, block.velocity)
+    result = simulate(load(name, as_published=True).with_(oil_level=0.0, gas_preload=0), block.stroke, block.velocity)
     assert np.all(result.k_degr == 0.0)
     assert np.all(result.F_fluid == 0.0)
 
 
 @pytest.mark.parametrize("name", names())
 def test_neutral_foam_and_cavitation_are_variant_2(name: str) -> None:
-    damper = load(name)
+    damper = load(name, as_published=True)
     block = harmonic_block(1.572)
     base = damper.with_(oil_level=damper.measured_levels[-1], gas_preload=0, S_BV=0.0, S_PV=0.0, Y_Co_cav=0.0, Y_Re_cav=0.0)
     result = simulate(base, block.stroke, block.velocity)
@@ -48,7 +48,7 @@ def test_neutral_foam_and_cavitation_are_variant_2(name: str) -> None:
 
 
 def test_slow_motion_neither_foams_nor_cavitates() -> None:
-    damper = load("SA8").with_(oil_level=0.5, gas_preload=0, v_cav=0.9)
+    damper = load("SA8", as_published=True).with_(oil_level=0.5, gas_preload=0, v_cav=0.9)
     block = harmonic_block(0.05)
     result = simulate(damper, block.stroke, block.velocity)
     assert np.all(result.V1_foam + result.V2_foam + result.V3_foam == 0.0)
@@ -56,7 +56,7 @@ def test_slow_motion_neither_foams_nor_cavitates() -> None:
 
 
 def test_fv_curve_alone() -> None:
-    damper = load("SA1").with_(F_FrS=0.0, F_0=0.0, c_gas=0.0)
+    damper = load("SA1", as_published=True).with_(F_FrS=0.0, F_0=0.0, c_gas=0.0)
     p = damper.parameters
     velocity = np.linspace(-2.0, 2.0, 401)
     stroke = np.cumsum(velocity) * 1e-4
@@ -67,7 +67,7 @@ def test_fv_curve_alone() -> None:
 
 
 def test_fv_curve_goes_on_along_its_last_segment() -> None:
-    damper = load("SA1").with_(F_FrS=0.0, F_0=0.0, c_gas=0.0)
+    damper = load("SA1", as_published=True).with_(F_FrS=0.0, F_0=0.0, c_gas=0.0)
     result = simulate(damper, [0.0, 0.001], [15.0, 15.0])
     v, F = damper.parameters.v_re[3:5], damper.parameters.F_re[3:5]
     slope = (F[1] - F[0]) / (v[1] - v[0])
@@ -76,7 +76,7 @@ def test_fv_curve_goes_on_along_its_last_segment() -> None:
 
 def test_gas_in_v1_delays_the_rebound_force_by_its_volume() -> None:
     """X_Re = 0: gas g in V1 takes the stroke g / A_1, then oil comes at once (equations 16, 23, 24)."""
-    damper = load("SA7").with_(oil_level=0.35, gas_preload=0)
+    damper = load("SA7", as_published=True).with_(oil_level=0.35, gas_preload=0)
     assert damper.parameters.X_Re == 0.0
     d, s, f = blank(Derived), blank(State), blank(Flow)
     p = damper.parameters
@@ -94,7 +94,9 @@ def test_gas_in_v1_delays_the_rebound_force_by_its_volume() -> None:
 
 def test_foam_of_a_known_recipe() -> None:
     """Rebound with an empty reserve: the bottom valve's gas makes foam of S (1 + S_oil) times its volume (31, 34)."""
-    damper = load("SA8").with_(oil_level=0.3, gas_preload=0, S_BV=0.5, S_BVoil=0.4, Y_Co_cav=0.0, Y_Re_cav=0.0)
+    damper = load("SA8", as_published=True).with_(
+        oil_level=0.3, gas_preload=0, S_BV=0.5, S_BVoil=0.4, Y_Co_cav=0.0, Y_Re_cav=0.0
+    )
     d, s, f = blank(Derived), blank(State), blank(Flow)
     p = damper.parameters
     prepare(p, d)

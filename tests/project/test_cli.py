@@ -153,17 +153,20 @@ def test_ride_says_when_the_damping_is_lost(tmp_path: Path) -> None:
     assert {"dlc", "dlc_window", "time_to_failure_s", "damping_work_J", "contact_loss_share"} <= set(found)
     assert found["dlc"] > 1.1 * found["intact"]["dlc"]
     assert found["time_to_failure_s"] is not None
-    assert found["closure"].startswith("return")
-    letter = RUNNER.invoke(app, [*arguments, "--closure", "letter"])
-    assert letter.exit_code == 0
-    assert json.loads(file.read_text())["closure"].startswith("letter")
+    assert found["freed_gas"].startswith("dissolves")
+    for option in (["--freed-gas", "stays"], ["--as-published"]):
+        published = RUNNER.invoke(app, [*arguments, *option])
+        assert published.exit_code == 0
+        assert json.loads(file.read_text())["freed_gas"].startswith("stays")
+    both = RUNNER.invoke(app, [*arguments, "--freed-gas", "limited", "--as-published"])
+    assert both.exit_code == 2 and "give one of them" in both.stderr
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["--road-class", "F"], "error: --road-class F: must be one of A, B, C, D, E"),
-        (["--closure", "x"], "error: --closure x: must be one of letter, return"),
+        (["--freed-gas", "x"], "error: --freed-gas x: must be one of stays, dissolves"),
         (["--car", "x"], "error: unknown car x: neither a file nor one of escort, passat_b8"),
         (["--oil-level", "2"], "error: SA8: oil_level = 2: must be a number from 0 to 1"),
     ],

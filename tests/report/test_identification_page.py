@@ -15,9 +15,9 @@ SIZES = {0.131: 0.02, 0.2: 0.01, 0.3: 0.02}  # amplitude [m] by velocity [m/s]
 
 
 def result() -> Result:
-    records = [record(load("SA1"), v, 1, 0.0, size) for v, size in SIZES.items()]
+    records = [record(load("SA1", as_published=True), v, 1, 0.0, size) for v, size in SIZES.items()]
     drive = replace(records[1], measurement="stochastic", name="drive")
-    return identify_dataset(LoadedDataset("Bench", load("SA1"), [*records, drive], []))
+    return identify_dataset(LoadedDataset("Bench", load("SA1", as_published=True), [*records, drive], []))
 
 
 def test_page_of_intact_records(tmp_path: Path) -> None:

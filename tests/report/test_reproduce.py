@@ -56,7 +56,7 @@ def test_no_process_is_refused(tmp_path):
 
 @pytest.mark.parametrize(("level", "verb"), [(1.0, "fills"), (0.2, "does not fill")])
 def test_reason_states_whether_the_oil_fills_the_chambers(level, verb):
-    assert f" mL and {verb} the two working chambers" in filling(load("SA4"), level)
+    assert f" mL and {verb} the two working chambers" in filling(load("SA4", as_published=True), level)
 
 
 def test_figures_are_chosen():

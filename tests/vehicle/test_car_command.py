@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
-from twintube.dampers.closures import DEFAULT
+from twintube.dampers.freed_gas import DEFAULT
 from twintube.report.conclusion import read_inspection, section
 from twintube.vehicle.cars import FOLDER
 from twintube.vehicle.maneuvers import MANEUVERS
@@ -27,7 +27,7 @@ def test_figures_page_and_table_of_an_inspection(tmp_path: Path) -> None:
     assert result.exit_code == 0, result.output
     content = json.loads(figures.read_text())
     assert {row["model"] for row in content["compared"]} == {"full model", "scalar factor"}
-    assert len(content["drives"]) == 12  # two seeds: intact, four closures, scalar factor
+    assert len(content["drives"]) == 12  # two seeds: intact, four ways of the freed gas, scalar factor
     row = content["compared"][0]
     assert row["change_band"][0] <= row["change"] <= row["change_band"][1]
     page = (out / "car.html").read_text()
@@ -38,7 +38,7 @@ def test_figures_page_and_table_of_an_inspection(tmp_path: Path) -> None:
         "work of the damper",
     ):
         assert name in page, name
-    assert "mean (range over 2 seeds and the closures)" in page
+    assert "mean (range over 2 seeds and the ways of the freed gas)" in page
     assert "Seen in an inspection, felt on the road" in page and "stopping distance" in page
     assert (out / "car.png").read_bytes().startswith(b"\x89PNG")
     (table,) = section(read_inspection(inspection), content["compared"]).tables

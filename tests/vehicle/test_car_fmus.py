@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from twintube.arrays import Array
 from twintube.cli import app
 from twintube.dampers import load
-from twintube.dampers.closures import closed, condition
+from twintube.dampers.freed_gas import condition
 from twintube.demo.car_ride import drive_car_with_fmus
 from twintube.demo.damper_fmu import DamperFmu, FmuError
 from twintube.demo.four_dampers import ContainerFmu, SingleFmus
@@ -32,9 +32,7 @@ LOST = (1, 0, 1, 1)
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     folder = tmp_path_factory.mktemp("fmus")
-    front, rear = (
-        build_fmu(closed(load(name)), folder / f"{name}.fmu", platforms=(fmpy.platform,)) for name in ("SA7", "SA8")
-    )
+    front, rear = (build_fmu(load(name), folder / f"{name}.fmu", platforms=(fmpy.platform,)) for name in ("SA7", "SA8"))
     return [front, front, rear, rear]
 
 

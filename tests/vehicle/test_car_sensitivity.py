@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from twintube.cli import app
 from twintube.dampers import ParameterError, load
-from twintube.dampers.closures import DEFAULT
+from twintube.dampers.freed_gas import DEFAULT
 from twintube.vehicle.cars import FOLDER, METAS, load_car
 from twintube.vehicle.full import sensitivity as study
 from twintube.vehicle.full.sensitivity import ASSUMED, FORCES, Assumed, Variant, growth, plus, times

@@ -36,15 +36,15 @@ def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
             assert entry["min_wheel_load_N"] >= 0.0
         for entry in block["oil_levels"]:
             assert len(entry["dlc_window"]) == 2
-            low, high = entry["bands"]["closures"]
-            assert low <= entry["bands"]["closure"]["return"] <= high
+            low, high = entry["bands"]["freed_gas_ways"]
+            assert low <= entry["bands"]["freed_gas"]["dissolves"] <= high
             assert entry["bands"]["all_over_intact"][0] <= entry["bands"]["seeds_over_intact"][0]
-            assert entry["bands"]["closure"]["letter"] == entry["bare_paper_model"]["dlc"]
+            assert entry["bands"]["freed_gas"]["stays"] == entry["bare_paper_model"]["dlc"]
             assert entry["scalar_factor"]["dlc"] > 0
     assert "fv" in result["assumed"]
     assert result["largest_difference_of_dlc_fmu_to_kernel"] == 0.0  # the same road, the same bits
     table = result["time_to_failure"]
-    assert all(len(row) == len(table["oil_levels"]) for rows in table["closures"].values() for row in rows)
+    assert all(len(row) == len(table["oil_levels"]) for rows in table["freed_gas_ways"].values() for row in rows)
     for sentence in result["sentences"]:
         assert sentence in run.stdout
     pictures = {p.name for p in (tmp_path / "out").glob("*.png")}

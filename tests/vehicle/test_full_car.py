@@ -8,7 +8,6 @@ import pytest
 
 from tests.vehicle import full_theory as theory
 from twintube.dampers import Damper, ParameterError, load
-from twintube.dampers.closures import closed
 from twintube.dampers.toml import continued
 from twintube.engine.simulate import InputError
 from twintube.vehicle import maneuvers as table3
@@ -40,7 +39,7 @@ def linear_car(**changes: float) -> FullCar:
 
 @pytest.fixture(scope="module")
 def passat() -> FullCar:
-    front, rear = (closed(load(name)) for name in ("SA7", "SA8"))
+    front, rear = (load(name) for name in ("SA7", "SA8"))
     return full_car(load_car(), [front, front, rear, rear])
 
 
@@ -135,7 +134,7 @@ def test_a_worn_damper_shows_at_its_corner() -> None:
 
 
 def test_a_leak_while_driving_lets_a_corner_go() -> None:
-    front, rear = closed(load("SA7")), closed(load("SA8"))
+    front, rear = load("SA7"), load("SA8")
     leaking = rear.with_(leak_film=1e-5)  # as thick a film as there is: most of the oil within a minute
     car = full_car(load_car(), [front, front, leaking, rear])
     run = ride(car, 50.0, 60.0, Road("D", equal=True))
@@ -236,7 +235,7 @@ def test_braking_begins_after_the_approach(passat: FullCar) -> None:
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in FOLDER.glob("*.toml")))
 def test_every_car_has_what_the_whole_car_needs(name: str) -> None:
-    car = full_car(load_car(name), [closed(load("SA1"))] * 4)
+    car = full_car(load_car(name), [load("SA1")] * 4)
     run = ride(car, 30.0, 8.0, Road("B"))
     assert np.all(np.isfinite(run.load))
 

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from twintube.dampers import Damper, ParameterError, load
-from twintube.dampers.closures import closed
 from twintube.dampers.toml import continued
 from twintube.demo.ride import Ride, RideCase, ride
 from twintube.fmu import build_fmu
@@ -26,7 +25,7 @@ C_DAMPER = 1500.0  # [N.s/m]
 @pytest.fixture(scope="module")
 def fmu_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The FMU of SA8 as `build_fmu.py` makes it."""
-    return build_fmu(closed(load("SA8")), tmp_path_factory.mktemp("fmu") / "SA8.fmu", platforms=(fmpy.platform,))
+    return build_fmu(load("SA8"), tmp_path_factory.mktemp("fmu") / "SA8.fmu", platforms=(fmpy.platform,))
 
 
 def rear(**changes: float) -> Car:
@@ -92,7 +91,7 @@ def test_linear_damper_as_fmu_gives_the_analytic_dlc(tmp_path: Path) -> None:
 @pytest.mark.parametrize("speed", [30.0, 50.0])
 def test_halving_the_step_changes_the_dlc_by_less_than_one_percent(oil_level: float, speed: float) -> None:
     """A wheel that leaves the road without damping moves chaotically: one percent, or twice the standard error over twelve roads."""
-    car, state = rear(), closed(load("SA8").with_(oil_level=oil_level, gas_preload=0))
+    car, state = rear(), load("SA8").with_(oil_level=oil_level, gas_preload=0)
     coarse, fine = np.array([
         [measures(ride_compiled(state, car, track(speed, 60.0, seed=seed, dt=dt)), car)["dlc"] for seed in range(1, 13)]
         for dt in (1e-3, 5e-4)
@@ -105,7 +104,7 @@ def test_halving_the_step_changes_the_dlc_by_less_than_one_percent(oil_level: fl
 def test_the_fmu_and_the_compiled_damper_give_the_same_bits(fmu_file: Path, level: float, preload: int) -> None:
     route = track(50.0, 20.0)
     by_fmu = ride(fmu_file, rear(), RideCase(50.0, level, preload), route)
-    compiled = ride_compiled(closed(load("SA8").with_(oil_level=level, gas_preload=preload)), rear(), route)
+    compiled = ride_compiled(load("SA8").with_(oil_level=level, gas_preload=preload), rear(), route)
     assert np.array_equal(by_fmu.wheel_load, compiled.wheel_load)
     assert np.array_equal(by_fmu.force, compiled.force)
 
@@ -168,7 +167,7 @@ def test_oil_loss_raises_the_wheel_load_fluctuation_and_it_grows_during_the_ride
 @pytest.mark.parametrize("level", [1.0, 0.4])
 def test_the_stops_hold_the_damper_within_its_stroke(name: str, level: float) -> None:
     damper = load(name)
-    run = ride_compiled(closed(damper.with_(oil_level=level, gas_preload=0)), load_car().corner(damper), track(70.0, 120.0))
+    run = ride_compiled(damper.with_(oil_level=level, gas_preload=0), load_car().corner(damper), track(70.0, 120.0))
     assert np.abs(run.stroke).max() < damper.parameters.stroke_max
 
 
@@ -178,7 +177,7 @@ def test_stops_begin_earlier_for_a_damper_with_a_short_stroke() -> None:
 
 
 def test_a_longer_ride_starts_with_the_bits_of_a_shorter_one() -> None:
-    car, state = rear(), closed(load("SA8").with_(oil_level=0.6, gas_preload=0))
+    car, state = rear(), load("SA8").with_(oil_level=0.6, gas_preload=0)
     short, long = (ride_compiled(state, car, track(50.0, seconds)) for seconds in (60.0, 600.0))
     n = len(short.time)
     for start, whole in ((short.wheel_load, long.wheel_load), (short.force, long.force), (short.oil, long.oil)):

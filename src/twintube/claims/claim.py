@@ -7,7 +7,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
-from twintube.dampers.closures import DEFAULT, LETTER, closed
+from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, with_freed_gas
 from twintube.engine.simulate import Simulation, simulate, work_between
 from twintube.rig.plan import amplitude, at_oil_level
 from twintube.rig.signals import START, Signal, harmonic_block
@@ -25,12 +25,12 @@ DEAD = "dead lengths (assumed, calibrated)"
 
 @dataclass(frozen=True)
 class Bench:
-    """Settings that the paper does not state: of the test rig, and the closure for the gas that cavitation frees."""
+    """Settings that the paper does not state: of the test rig, and what freed gas does."""
 
     start: str = START  # one of rig.STARTS
     position: float = 0.0  # middle of all strokes [m]
     reach: float = 0.0  # amplitude of the blocks [m]; 0: the value of `plan.amplitude`
-    closure: str = ""  # of every run; empty: `letter` for blocks, the default closure for drives
+    freed_gas: str = ""  # of every run; empty: `stays` for blocks, the default for drives
 
 
 BENCH = Bench()
@@ -84,8 +84,8 @@ def block(damper: Damper, velocity: float, bench: Bench = BENCH, samples: int = 
 
 
 def condition(damper: Damper, oil_level: float, bench: Bench = BENCH, *, drive: bool = False) -> Damper:
-    """The damper at an oil level with the closure of the bench; below 100 % the gas preload is lost."""
-    return closed(at_oil_level(damper, oil_level), bench.closure or (DEFAULT if drive else LETTER))
+    """The damper at an oil level with the bench's way of the freed gas; below 100 % the gas preload is lost."""
+    return with_freed_gas(at_oil_level(damper, oil_level), bench.freed_gas or (DEFAULT if drive else AS_PUBLISHED))
 
 
 @lru_cache(maxsize=20000)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 from twintube.claims import evaluate
 from twintube.claims.claim import BENCH, Bench, Claim
 from twintube.core.variables import Parameters
-from twintube.dampers.closures import CLOSURES
+from twintube.dampers.freed_gas import WAYS
 from twintube.rig.signals import STARTS
 
 POSITIONS = (-0.015, 0.015)  # [m]
@@ -46,7 +46,7 @@ def alternatives(bench: Bench = BENCH) -> list[Alternative]:
     choices += [Alternative("start", v, {}, replace(bench, start=v)) for v in STARTS if v != bench.start]
     choices += [Alternative("position", f"{v * 1e3:+g} mm", {}, replace(bench, position=v)) for v in POSITIONS]
     choices += [Alternative("amplitude", f"{v * 1e3:g} mm", {}, replace(bench, reach=v)) for v in AMPLITUDES]
-    choices += [Alternative("closure", v, {}, replace(bench, closure=v)) for v in CLOSURES]
+    choices += [Alternative("freed_gas", v, {}, replace(bench, freed_gas=v)) for v in WAYS]
     return choices
 
 

@@ -85,7 +85,7 @@ def c13(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         source="Abstract, Sections 3.3 and 4, Figures 29-32",
         tested="all ten drives of Table 3, SA7 and SA8, fluid work (above the friction) relative to intact: "
         f"falls by more than {VISIBLE_BAR:.0%} of the intact work from 100 % to each measured level; uneven road at 30 and "
-        "50 km/h below the single bump at both levels. Drives last longer than a block: with the closure of rides",
+        "50 km/h below the single bump at both levels. Drives last longer than a block: with what freed gas does in rides",
         holds=holds,
         figures={
             "fluid_work_relative_to_intact_at_60_40": {

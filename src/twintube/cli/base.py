@@ -16,6 +16,9 @@ from twintube.extras import missing
 from twintube.words import printable
 
 STYLE: dict[str, Any] = {"add_completion": False, "rich_markup_mode": None, "pretty_exceptions_enable": False}
+AS_PUBLISHED = Annotated[
+    bool, typer.Option("--as-published", help="The paper's equations alone: gas that cavitation frees stays gas.")
+]
 OUTPUTS = ("output", "json_file", "plot")  # parameters of commands that name what is written
 
 

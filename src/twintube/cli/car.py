@@ -82,7 +82,7 @@ def car(
             typer.echo(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}not driven")
             continue
         low, high = row["change_band"]
-        others = " and all closures" if row["model"] == FULL else ""
+        others = " and all ways of the freed gas" if row["model"] == FULL else ""
         typer.echo(
             f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}"
             f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g} {row['unit']} ({row['change']:+.0%}, "

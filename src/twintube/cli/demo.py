@@ -33,7 +33,9 @@ def demo(
 
     loaded, vehicle = load(damper), load_car(car)
     result, pictures = main_job(loaded, vehicle, output, seconds=seconds, dt=step_ms * 1e-3, seed=seed)
-    typer.echo(f"{loaded.name} in the {axle(loaded)} corner of a {vehicle.title} (assumed); {result['closure']}")
+    typer.echo(
+        f"{loaded.name} in the {axle(loaded)} corner of a {vehicle.title} (assumed); freed gas: {result['freed_gas']}"
+    )
     typer.echo(table(result))
     typer.echo("\n".join(result["sentences"]))
     typer.echo(f"{output / 'summary.json'} and {', '.join(p.name for p in pictures)}")

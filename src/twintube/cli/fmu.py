@@ -6,9 +6,9 @@ from typing import Annotated, Any
 
 import typer
 
-from twintube.cli.base import app
+from twintube.cli.base import AS_PUBLISHED, app
 from twintube.dampers import Damper, load
-from twintube.dampers.closures import acting, closed
+from twintube.dampers.freed_gas import acting
 from twintube.files import write_text
 from twintube.fmu.platforms import PLATFORMS, Kind
 from twintube.words import printable
@@ -16,19 +16,14 @@ from twintube.words import printable
 PARAMETERS = Annotated[Path | None, typer.Option(help="A parameter file (TOML) instead of a named damper.")]
 OIL_LEVEL = Annotated[float | None, typer.Option(help="Start value: oil, share of the intact volume.")]
 GAS_LOST = Annotated[bool, typer.Option("--gas-lost", help="Start value: the gas preload is lost.")]
-AS_PUBLISHED = Annotated[
-    bool,
-    typer.Option("--as-published", help="The paper's equations alone: gas that cavitation frees never dissolves again."),
-]
 
 
-def start_state(damper: Damper, oil_level: float | None, gas_lost: bool, as_published: bool) -> Damper:
+def start_state(damper: Damper, oil_level: float | None, gas_lost: bool) -> Damper:
     """The damper with its start values; raises ParameterError."""
     changes: dict[str, Any] = {} if oil_level is None else {"oil_level": oil_level}
     if gas_lost:
         changes["gas_preload"] = 0
-    changed = damper.with_(**changes)
-    return changed if as_published else closed(changed)
+    return damper.with_(**changes)
 
 
 @app.command(epilog="Example: twintube fmu SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu")
@@ -43,13 +38,13 @@ def fmu(
     platform: Annotated[
         list[str] | None, typer.Option(help=f"Only for this platform; may be repeated: {', '.join(PLATFORMS)}.")
     ] = None,
-    as_published: AS_PUBLISHED = False,
+    published: AS_PUBLISHED = False,
     output: Annotated[Path, typer.Option(help="File (.fmu) or folder; default: the current folder.")] = Path(),
 ) -> None:
     """Build the FMU of a damper and validate it with fmpy.
 
-    As a vehicle rides for minutes, gas that cavitation frees goes back into the oil, unless --as-published asks for the
-    paper's equations alone or the parameter set says itself what becomes of it.
+    Gas that cavitation frees dissolves again, unless --as-published asks for the paper's equations alone or the
+    parameter set says what freed gas does.
 
     The first build for Windows compiles the runtime too and takes a minute or two; later ones take seconds.
     """
@@ -64,12 +59,12 @@ def fmu(
         raise BuildError(f"damper = {damper} and --parameters {parameters}: give one of them")
     if platform and kind == "python":
         raise BuildError(f"--platform {platform[0]}: only for the native kind; the Python kind runs on linux64 and win64")
-    chosen = start_state(load(parameters or damper or "SA8"), oil_level, gas_lost, as_published)
+    chosen = start_state(load(parameters or damper or "SA8", as_published=published), oil_level, gas_lost)
     built = build_fmu(chosen, output, kind, platform or tuple(PLATFORMS), progress)
     typer.echo(
         f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI 2.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"
-        f"cavitation: {acting(chosen)}"
+        f"freed gas: {acting(chosen)}"
     )
 
 
@@ -78,12 +73,12 @@ def ssv(
     damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = False,
-    as_published: AS_PUBLISHED = False,
+    published: AS_PUBLISHED = False,
     output: Annotated[Path, typer.Option(help="SSV file for the parameters.")] = Path("parameters.ssv"),
 ) -> None:
     """Write all parameters for an importer of the FMU, as System Structure Parameter Values of SSP 1.0."""
     from twintube.fmu.ssv import to_ssv
 
-    chosen = start_state(load(damper), oil_level, gas_lost, as_published)
+    chosen = start_state(load(damper, as_published=published), oil_level, gas_lost)
     write_text(output, to_ssv(chosen))
     typer.echo(f"{output}: parameters of {printable(chosen.name)}, {printable(chosen.title)}")

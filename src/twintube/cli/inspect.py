@@ -9,7 +9,6 @@ from tqdm import tqdm
 
 from twintube import dampers
 from twintube.cli.base import app
-from twintube.dampers import ParameterError
 from twintube.files import write_text
 
 
@@ -29,9 +28,7 @@ def inspect(
         bool | None, typer.Option("--gas-lost/--with-preload", help="Gas preload; lost below 100 % oil if left out.")
     ] = None,
     car: Annotated[str, typer.Option(help="A named car or a car's file.")] = "passat_b8",
-    closure: Annotated[
-        str | None, typer.Option(help="Closure for the gas that cavitation frees; several, as a band, if left out.")
-    ] = None,
+    freed_gas: Annotated[str | None, typer.Option(help="What freed gas does; several ways, as a band, if left out.")] = None,
     scatter: Annotated[int, typer.Option(help="Cars and testers drawn for the detection; 0 for none.", min=0)] = 100,
     seed: Annotated[int, typer.Option(help="Seed of the scatter.", min=0)] = 1,
     processes: Annotated[int | None, typer.Option(help="Processes; all cores if left out.", min=1)] = None,
@@ -39,22 +36,20 @@ def inspect(
     output: Annotated[Path | None, typer.Option(help="Folder for the page and its pictures.")] = None,
 ) -> None:
     """Put one corner of a car on the inspection benches, and say from which oil level on each method sees the loss."""
-    from twintube.dampers.closures import CLOSURES, READINGS
+    from twintube.dampers.freed_gas import VARIED, known
     from twintube.inspection import LEVELS, METHODS, conditions, inspected, method, study
     from twintube.inspection.detection import check_count
     from twintube.report.inspection import Inspection, summary, terminal, write_report
     from twintube.vehicle.cars import load_car
 
-    if closure is not None and closure not in CLOSURES:
-        raise ParameterError(f"--closure {closure}: must be one of {', '.join(CLOSURES)}")
     if scatter:
         check_count(scatter)
     wanted = tuple(dict.fromkeys(method(name).name for name in methods or METHODS))
     loaded, vehicle = [dampers.load(name) for name in dict.fromkeys(names or ["SA8"])], load_car(car)
     steps = sorted(dict.fromkeys(levels or LEVELS), reverse=True)
     states = conditions(steps, None if gas_lost is None else int(not gas_lost))
-    closures = READINGS if closure is None else (closure,)
-    entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, closures=closures)]
+    ways = VARIED if freed_gas is None else (known(freed_gas, "--freed-gas").name,)
+    entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, ways=ways)]
     detections = []
     if scatter:
         with tqdm(total=scatter * len(loaded), unit="car", leave=False) as bar:
@@ -65,11 +60,11 @@ def inspect(
                 wanted,
                 count=scatter,
                 seed=seed,
-                closures=closures,
+                ways=ways,
                 processes=processes,
                 progress=bar.update,
             )
-    result = Inspection(loaded, vehicle, entries, detections, closures, seed)
+    result = Inspection(loaded, vehicle, entries, detections, ways, seed)
     if json_file is not None:
         write_text(json_file, json.dumps(summary(result), indent=1) + "\n")
     typer.echo(terminal(result))

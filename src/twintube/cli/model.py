@@ -12,12 +12,12 @@ import typer
 from tqdm import tqdm
 
 from twintube import dampers
-from twintube.cli.base import app
+from twintube.cli.base import AS_PUBLISHED, app
 from twintube.core.checks import VELOCITY
 from twintube.core.effects import Parameters
 from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import ParameterError
-from twintube.dampers.closures import acting, closed
+from twintube.dampers.freed_gas import acting, as_published
 from twintube.engine.simulate import InputError
 from twintube.files import write_bytes, write_text
 from twintube.rig import signals
@@ -35,8 +35,6 @@ def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this da
     """List the named dampers, or show one as TOML with its sources."""
     if damper is not None:
         chosen = dampers.load(damper)
-        typer.echo(f"# Gas that cavitation frees, in blocks and identification - {acting(chosen)}.")
-        typer.echo(f"# In rides and FMUs - {acting(closed(chosen))}.")
         typer.echo(dampers.to_toml(chosen), nl=False)
         return
     for name in dampers.names():
@@ -66,6 +64,7 @@ def simulate(
         bool | None,
         typer.Option("--gas-lost/--gas-present", help="Whether the gas preload is lost; present if nothing says it."),
     ] = None,
+    published: AS_PUBLISHED = False,
     output: Annotated[Path, typer.Option(help="CSV file for the result.")] = Path("simulation.csv"),
     plot: Annotated[
         Path | None, typer.Option(help="PNG file for a picture: stroke, force over stroke and velocity.")
@@ -88,6 +87,7 @@ def simulate(
     level = oil_level if oil_level is not None else entry[1].oil_level if entry else 1.0
     preload = not gas_lost if gas_lost is not None else entry[1].gas_preload if entry else True
     chosen = chosen.with_(oil_level=level, gas_preload=int(preload))
+    chosen = as_published(chosen) if published else chosen
     if entry is not None:
         measured = entry[1]
         motion = Motion(measured.time, measured.stroke, measured.velocity, measured.force)
@@ -111,7 +111,7 @@ def simulate(
     write_text(output, "\n".join(lines) + "\n")
     typer.echo(
         f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
-        f"force from {result.force.min():.0f} to {result.force.max():.0f} N"
+        f"force from {result.force.min():.0f} to {result.force.max():.0f} N; freed gas: {acting(chosen)}"
     )
     if motion.force is not None:
         from twintube.report.simulated_record import deviation
@@ -188,13 +188,15 @@ def claims(
         list[str] | None, typer.Option(help="Another reading of the paper, e.g. leak_carries_oil=1; repeatable.")
     ] = None,
     start: START = signals.START,
-    closure: Annotated[str, typer.Option(help="A closure of every run; none: the letter, in drives that of rides.")] = "",
+    freed_gas: Annotated[
+        str, typer.Option(help="What freed gas does in every run; if left out: stays, in drives dissolves.")
+    ] = "",
 ) -> None:
     """Evaluate the paper's statements C1 to C16 with its published parameters."""
     from twintube.claims import EVALUATORS, evaluate
 
     readings = dict(parsed_reading(text) for text in reading or [])
-    results = list(tqdm(evaluate(readings, bench(start, closure)), total=len(EVALUATORS), unit="claim", leave=False))
+    results = list(tqdm(evaluate(readings, bench(start, freed_gas)), total=len(EVALUATORS), unit="claim", leave=False))
     if json_file is not None:
         write_text(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in results], indent=1) + "\n")
     for c in results:
@@ -215,16 +217,14 @@ def claims(
         typer.echo(f"{what}: {sum(c.holds for c in some)} of {len(some)} hold")
 
 
-def bench(start: str, closure: str = "") -> Any:
+def bench(start: str, freed_gas: str = "") -> Any:
     """The bench of the claims; raises ParameterError."""
     from twintube.claims import Bench
-    from twintube.dampers.closures import CLOSURES
+    from twintube.dampers.freed_gas import known
 
     if start not in signals.STARTS:
         raise ParameterError(f"--start {start}: must be one of {', '.join(signals.STARTS)}")
-    if closure and closure not in CLOSURES:
-        raise ParameterError(f"--closure {closure}: must be one of {', '.join(CLOSURES)}")
-    return Bench(start=start, closure=closure)
+    return Bench(start=start, freed_gas=known(freed_gas, "--freed-gas").name if freed_gas else "")
 
 
 def parsed_reading(text: str) -> tuple[str, float]:
@@ -263,7 +263,7 @@ def calibrate(
 def readings(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write every effect to this file.")] = None,
 ) -> None:
-    """Measure what each other reading, start, ride position, amplitude and closure does to every claim."""
+    """Measure what each other reading, start, ride position, amplitude and way of the freed gas does to every claim."""
     from twintube.claims.compare import alternatives, compare
 
     table = []

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from twintube.cli.base import app
+from twintube.cli.base import AS_PUBLISHED, app
 from twintube.dampers import Damper, load
 from twintube.fmu.platforms import PLATFORMS
 
@@ -20,12 +20,13 @@ PLATFORM = Annotated[
 ]
 
 
-def four(front: str, rear: str, worn: str, oil_level: float) -> list[Damper]:
+def four(front: str, rear: str, worn: str, oil_level: float, published: bool) -> list[Damper]:
     """The dampers in the order of the wheels; raises ParameterError and InputError."""
     from twintube.vehicle.full.maneuvers import SMOOTH
     from twintube.vehicle.full.study import Case, dampers_of
 
-    return list(dampers_of(load(front), load(rear), worn, Case("ride", 50.0, SMOOTH, 1, oil_level)))
+    both = load(front, as_published=published), load(rear, as_published=published)
+    return list(dampers_of(*both, worn, Case("ride", 50.0, SMOOTH, 1, oil_level)))
 
 
 def progress() -> Callable[[str], None]:
@@ -44,6 +45,7 @@ def ssp(
     speed: Annotated[float, typer.Option(help="Speed at the start [km/h].")] = 50.0,
     car_file: Annotated[str, typer.Option("--car", help="A named car or a car's file.")] = "passat_b8",
     platform: PLATFORM = None,
+    published: AS_PUBLISHED = False,
 ) -> None:
     """Write the whole car as an SSP 1.0 file: the car's FMU, four damper FMUs, connections and parameters.
 
@@ -54,7 +56,7 @@ def ssp(
     from twintube.vehicle.full.maneuvers import checked_speed
     from twintube.vehicle.full.run import full_car
 
-    whole = full_car(load_car(car_file), four(front, rear, worn, oil_level))
+    whole = full_car(load_car(car_file), four(front, rear, worn, oil_level, published))
     built = build_ssp(whole, checked_speed(speed), output, platform or tuple(PLATFORMS), progress())
     typer.echo(
         f"{built}: {whole.name} with {front} and {rear}, {worn} at {oil_level:.0%} oil; {built.stat().st_size // 1024} kB"
@@ -70,6 +72,7 @@ def container(
     oil_level: OIL_LEVEL = 1.0,
     step_ms: Annotated[float, typer.Option(help="Communication step [ms]; the importer's must be a multiple.")] = 1.0,
     platform: PLATFORM = None,
+    published: AS_PUBLISHED = False,
 ) -> None:
     """Write the four dampers of a car as one container FMU, for tools in which a single unit is easier than four.
 
@@ -77,6 +80,6 @@ def container(
     """
     from twintube.fmu.container import PLATFORMS, build_container
 
-    dampers = four(front, rear, worn, oil_level)
+    dampers = four(front, rear, worn, oil_level, published)
     built = build_container(dampers, output, step_ms / 1e3, platform or PLATFORMS, progress())
     typer.echo(f"{built}: {front} and {rear}, {worn} at {oil_level:.0%} oil; {built.stat().st_size // 1024} kB")

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from twintube import dampers
-from twintube.cli.base import app
+from twintube.cli.base import AS_PUBLISHED, app
 from twintube.dampers import ParameterError
 from twintube.files import write_text
 
@@ -22,11 +22,14 @@ def ride(
     seconds: Annotated[float, typer.Option(help="Length [s].", min=20.0, max=3600.0)] = 120.0,
     seed: Annotated[int, typer.Option(help="Seed of the road.", min=0)] = 1,
     car: Annotated[str, typer.Option(help="A named car or a car's file.")] = "passat_b8",
-    closure: Annotated[str | None, typer.Option(help="Closure for the gas that cavitation frees.")] = None,
+    published: AS_PUBLISHED = False,
+    freed_gas: Annotated[
+        str | None, typer.Option(help="What freed gas does, another way than the default: see docs/effects.md.")
+    ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="Write the figures to this file.")] = None,
 ) -> None:
     """Drive the quarter car over a random road and compare the damper with the intact one on the same road."""
-    from twintube.dampers.closures import CLOSURES, DEFAULT, acting, closed
+    from twintube.dampers.freed_gas import acting, known, with_freed_gas
     from twintube.vehicle.cars import axle, load_car
     from twintube.vehicle.ride import WINDOW, measures, track
     from twintube.vehicle.ride import ride as run
@@ -34,10 +37,12 @@ def ride(
 
     if road_class not in GD_N0:
         raise ParameterError(f"--road-class {road_class}: must be one of {', '.join(GD_N0)}")
-    if closure is not None and closure not in CLOSURES:
-        raise ParameterError(f"--closure {closure}: must be one of {', '.join(CLOSURES)}")
-    loaded, vehicle = dampers.load(damper), load_car(car)
-    state = closed(loaded.with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1), closure or DEFAULT)
+    if freed_gas is not None and published:
+        raise ParameterError(f"--freed-gas {freed_gas} and --as-published: give one of them")
+    loaded, vehicle = dampers.load(damper, as_published=published), load_car(car)
+    if freed_gas is not None:
+        loaded = with_freed_gas(loaded, known(freed_gas, "--freed-gas").name)
+    state = loaded.with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1)
     corner, route = vehicle.corner(loaded), track(speed, seconds, road_class=road_class, seed=seed)
     intact = run(loaded.with_(oil_level=1.0, gas_preload=1), corner, route)
     figures = measures(run(state, corner, route), corner, intact)
@@ -45,7 +50,7 @@ def ride(
         "damper": loaded.name,
         "oil_level": oil_level,
         "gas_preload": state.parameters.gas_preload,
-        "closure": acting(state),
+        "freed_gas": acting(state),
         "car": vehicle.name,
         "axle": axle(loaded),
         "road": {"class": road_class, "seed": seed},
@@ -56,7 +61,7 @@ def ride(
     if json_file is not None:
         write_text(json_file, json.dumps(conditions | figures, indent=1) + "\n")
     failed = figures["time_to_failure_s"]
-    typer.echo(f"{loaded.name}, {oil_level:.0%} oil, {'no ' if gas_lost else ''}preload; {acting(state)}")
+    typer.echo(f"{loaded.name}, {oil_level:.0%} oil, {'no ' if gas_lost else ''}preload; freed gas: {acting(state)}")
     typer.echo(
         f"DLC {figures['dlc']:.3f} (intact {figures['intact']['dlc']:.3f}), wheel off the road "
         f"{figures['contact_loss_share']:.2%} of the time, {figures['damping_work_share']:.0%} of the intact work"

@@ -12,6 +12,7 @@ from twintube.core import effects
 from twintube.core.checks import outside, problems
 from twintube.core.effects import Parameters
 from twintube.core.variables import FV_POINTS, fmi_name
+from twintube.dampers import freed_gas
 from twintube.dampers.damper import Damper, ParameterError, explained, refuse, suggestion
 from twintube.dampers.quantity import quantity
 from twintube.reading import ReadError, read_toml
@@ -32,10 +33,15 @@ def names() -> list[str]:
     return sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
-def load(damper: str | Path) -> Damper:
-    """A named damper (`"SA8"`) or a parameter file; raises ParameterError."""
+def load(damper: str | Path, *, as_published: bool = False) -> Damper:
+    """A named damper (`"SA8"`) or a parameter file; raises ParameterError.
+
+    Gas that cavitation frees dissolves again (`freed_gas.DEFAULT`) where the parameter set says nothing else.
+    `as_published` leaves that out: the paper's equations alone, in which it stays gas.
+    """
     content, text, file = read_named(damper, FOLDER, "damper")
-    return from_content(content, text, file)
+    loaded = from_content(content, text, file)
+    return freed_gas.as_published(loaded) if as_published else loaded
 
 
 def read_named(name: str | Path, folder: Path, what: str) -> tuple[dict[str, Any], str, str]:
@@ -58,7 +64,7 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     messages: list[str] = []
     values: dict[str, Any] = {}
     known: dict[str, set[str]] = {
-        "": {"name", "title", "sources", "assumed", "measured_oil", "measured_amplitude"},
+        "": {"name", "title", "sources", "assumed", "measured_oil", "measured_amplitude", "freed_gas"},
         "fv": {"velocity_unit", "force_unit"},
     }
     missing: list[str] = []
@@ -82,6 +88,7 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     messages += unknown_keys(content, text, known)
     messages += absent(missing)
     messages += read_curve(as_table(content.get("fv", {})), values)
+    messages += read_freed_gas(content, text, values)
     name, title = (read_text(content, key, text, messages) for key in ("name", "title"))
     sources, assumed = (read_texts(content, key, text, messages) for key in ("sources", "assumed"))
     refuse(file, messages)
@@ -98,6 +105,23 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
         measured_levels=levels,
         measured_amplitude=amplitude,
     )
+
+
+def read_freed_gas(content: dict[str, Any], text: str, values: dict[str, Any]) -> list[str]:
+    """Put what freed gas does into `values`, where the file does not give its parameters; messages about what is wrong."""
+    given = [item for item in fields(Parameters) if item.name in freed_gas.OWN
+             and item.name in as_table(content.get(item.metadata["group"], {}))]  # fmt: skip
+    if "freed_gas" in content:
+        line = line_of(text, "", "freed_gas")
+        if given:
+            return [f"{line}freed_gas = {shown(content['freed_gas'])} and {fmi_name(given[0])}: give one of them"]
+        try:
+            values |= freed_gas.values_of(content["freed_gas"])
+        except ParameterError as error:
+            return [f"{line}{error}"]
+    elif not given:
+        values |= freed_gas.values_of(freed_gas.DEFAULT)
+    return []
 
 
 def as_table(value: Any) -> dict[str, Any]:
@@ -281,10 +305,14 @@ def to_toml(damper: Damper) -> str:
         document["measured_amplitude"] = damper.measured_amplitude
         document["measured_amplitude"].comment("m")
     p = damper.parameters
+    way = freed_gas.way_of(freed_gas.own_values(damper))
+    if way is not None:
+        document["freed_gas"] = way
+        document["freed_gas"].comment(freed_gas.WAYS[way].says)
     idle = {item.name for effect in effects.EFFECTS.values() if not effect.acts(p) for item in effect.parameters}
     for item in fields(Parameters):
         group = item.metadata["group"]
-        if item.metadata["size"] > 1 or item.name in idle:
+        if item.metadata["size"] > 1 or item.name in idle or (way is not None and item.name in freed_gas.OWN):
             continue
         if group and group not in document:
             document[group] = tomlkit.table()

@@ -1,4 +1,4 @@
-"""Dependence of the results on assumptions: the rides repeated with the compiled damper over seeds, closures and values."""
+"""Dependence of the results on assumptions: the rides repeated with the compiled damper over seeds, freed gas and values."""
 
 import os
 from collections.abc import Iterable, Iterator
@@ -10,7 +10,7 @@ from typing import Any
 from tqdm import tqdm
 
 from twintube.dampers import Damper, ParameterError
-from twintube.dampers.closures import CLOSURES, DEFAULT, condition
+from twintube.dampers.freed_gas import DEFAULT, WAYS, condition
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import Drive
 from twintube.vehicle.ride import Track, measures, ride, track
@@ -33,7 +33,7 @@ NAMES = {  # of the car's values, for pictures
 class Setting:
     """One set of assumptions: factor of the F-v curve, addition to the dead length [m], changed values of car and damper."""
 
-    closure: str = DEFAULT
+    freed_gas: str = DEFAULT
     seed: int = 1
     car: tuple[tuple[str, float], ...] = ()
     forces: float = 1.0
@@ -72,7 +72,7 @@ class Rides:
     def run(self, speed: float, level: float | None, setting: Setting) -> Drive:
         """One ride; `level` None is the intact damper."""
         damper = changed(self.damper, setting)
-        state = condition(damper, 1.0 if level is None else level, int(level is None), setting.closure)
+        state = condition(damper, 1.0 if level is None else level, int(level is None), setting.freed_gas)
         route = course(speed, self.seconds, self.seed + setting.seed - 1, self.dt)
         return ride(state, self.car.corner(damper, **dict(setting.car)), route)
 
@@ -139,18 +139,18 @@ def seeds() -> list[Setting]:
     return [Setting(seed=seed) for seed in SEEDS]
 
 
-def closures() -> list[Setting]:
-    """Every closure, on one road."""
-    return [Setting(closure=name) for name in CLOSURES]
+def ways() -> list[Setting]:
+    """Every way of the freed gas, on one road."""
+    return [Setting(freed_gas=name) for name in WAYS]
 
 
 def everything(rides: Rides) -> list[Setting]:
     """All settings of the bands: one assumption varied at a time, and the two most important ones together."""
     ends = [end for pair in assumptions(rides.damper, rides.car).values() for end in pair]
     pairs = [
-        Setting(closure=name, car=(("d_links", links),)) for name in CLOSURES for links in rides.car.band.get("d_links", ())
+        Setting(freed_gas=name, car=(("d_links", links),)) for name in WAYS for links in rides.car.band.get("d_links", ())
     ]
-    return list(dict.fromkeys([*seeds(), *closures(), *ends, *pairs]))
+    return list(dict.fromkeys([*seeds(), *ways(), *ends, *pairs]))
 
 
 def rises(rides: Rides, speed: float, level: float, settings: Iterable[Setting]) -> list[float]:
@@ -159,13 +159,13 @@ def rises(rides: Rides, speed: float, level: float, settings: Iterable[Setting])
 
 
 def bands(rides: Rides, speed: float, level: float | None) -> dict[str, Any]:
-    """Bands of the DLC at one speed and level for JSON; every entry is [smallest, largest] except `closure`."""
-    half_lives = [Setting(closure=name) for name in ("return_fast", "return_slow")]
+    """Bands of the DLC at one speed and level for JSON; every entry is [smallest, largest] except `freed_gas`."""
+    half_lives = [Setting(freed_gas=name) for name in ("dissolves_fast", "dissolves_slow")]
     figures: dict[str, Any] = {
         "seeds": extremes(rides, speed, level, seeds()),
         "half_life": extremes(rides, speed, level, [*half_lives, Setting()]),
-        "closures": extremes(rides, speed, level, closures()),
-        "closure": {s.closure: rides.get(speed, level, s, "dlc") for s in closures()},
+        "freed_gas_ways": extremes(rides, speed, level, ways()),
+        "freed_gas": {s.freed_gas: rides.get(speed, level, s, "dlc") for s in ways()},
         "assumed": {
             name: [rides.get(speed, level, end, "dlc") for end in pair]
             for name, pair in assumptions(rides.damper, rides.car).items()

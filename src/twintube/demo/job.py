@@ -13,7 +13,7 @@ from tqdm import tqdm
 from twintube.core import effects
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
-from twintube.dampers.closures import CLOSURES, DEFAULT, LETTER, SCALAR, acting, closed
+from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, SCALAR, WAYS, acting
 from twintube.demo.bands import SPEEDS, Rides, Setting, bands, everything
 from twintube.demo.moments import SPAN, Moment, moments
 from twintube.demo.ride import Ride, RideCase, ride
@@ -28,7 +28,7 @@ from twintube.vehicle.ride import WINDOW, measures, track
 
 LEVELS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)
 MAP_SPEEDS = (20.0, 30.0, 40.0, 50.0, 60.0, 70.0)  # [km/h] of the time to failure
-MAP_CLOSURES = (DEFAULT, LETTER, "displaced")
+MAP_WAYS = (DEFAULT, AS_PUBLISHED, "pushes_oil")
 MAP_LONGER = 2  # length of these rides over that of the other rides
 FIGURES = ("dlc", "wheel_load_rms_N", "min_wheel_load_N", "contact_loss_share")
 WIDTHS = (5, 7, 6, 13, 13, 7, 10, 6, 6, 10, 9)  # of the table's columns
@@ -86,24 +86,24 @@ def entry(
         compared = measures(rides_by_case[without], car, rides_by_case[RideCase(speed, 1.0, 1, off)])
         figures["without_effects"] = {name: compared[name] for name in FIGURES}
     if level is not None:
-        for name, closure in (("scalar_factor", SCALAR), ("bare_paper_model", LETTER)):
-            compared = rides.results[speed, level, Setting(closure=closure)]
+        for name, freed_gas in (("scalar_factor", SCALAR), ("bare_paper_model", AS_PUBLISHED)):
+            compared = rides.results[speed, level, Setting(freed_gas=freed_gas)]
             over_time = ("dlc_window", "damping_work_window_J", "time_to_failure_s")
             figures[name] = {key: compared[key] for key in (*FIGURES, *over_time)}
     return figures
 
 
 def failure_map(damper: Damper, car: CarSet, seconds: float, dt: float, seed: int) -> dict[str, Any]:
-    """Time to failure [s] over speed and oil level (null: not within the ride) by closure."""
+    """Time to failure [s] over speed and oil level (null: not within the ride) by what freed gas does."""
     rides = Rides(damper, car, seconds, dt, seed)
     levels = LEVELS[1:]
-    settings = {name: Setting(closure=name) for name in MAP_CLOSURES}
+    settings = {name: Setting(freed_gas=name) for name in MAP_WAYS}
     rides.drive_all(MAP_SPEEDS, levels, settings.values(), "time to failure")
     return {
         "seconds": seconds,
         "speeds_kmh": list(MAP_SPEEDS),
         "oil_levels": list(levels),
-        "closures": {
+        "freed_gas_ways": {
             name: [[rides.get(v, level, s, "time_to_failure_s") for level in levels] for v in MAP_SPEEDS]
             for name, s in settings.items()
         },
@@ -173,10 +173,10 @@ def summary(
     result = {
         "damper": damper.name,
         "axle": axle(damper),
-        "closure": acting(closed(damper)),
+        "freed_gas": acting(damper),
         "effects": list(effects.active(damper.parameters)),
         "car": {"name": car.name, "title": car.title, "band": car.band, "assumed": dict(car.assumed)},
-        "assumed": dict(damper.assumed) | {"closure": "; ".join(f"{c.name}: {c.says}" for c in CLOSURES.values())},
+        "assumed": dict(damper.assumed) | {"freed_gas": "; ".join(f"{c.name}: {c.says}" for c in WAYS.values())},
         "road": road_figures(rides.seconds * max(SPEEDS) / 3.6, seed),
         "step_s": rides.dt,
         "seconds": rides.seconds,
@@ -192,7 +192,7 @@ def summary(
 def table(result: dict[str, Any]) -> str:
     """The figures as a table for the terminal."""
     plain = "no effect" if result["effects"] else ""
-    head = ("km/h", "oil", "DLC", "closures", "all bands", plain, "factor", "RMS N", "min N", "no contact", "fails at")
+    head = ("km/h", "oil", "DLC", "freed gas", "all bands", plain, "factor", "RMS N", "min N", "no contact", "fails at")
     lines = [" ".join(f"{name:>{width}}" for name, width in zip(head, WIDTHS, strict=True))]
     for block in result["speeds"]:
         for e in [block["intact"], *block["oil_levels"]]:
@@ -201,7 +201,7 @@ def table(result: dict[str, Any]) -> str:
             failed = e["time_to_failure_s"]
             cells = (
                 f"{block['speed_kmh']:.0f}", "intact" if intact else f"{e['oil_level']:.0%}", f"{e['dlc']:.3f}",
-                "{:.3f}-{:.3f}".format(*e["bands"]["closures"]),
+                "{:.3f}-{:.3f}".format(*e["bands"]["freed_gas_ways"]),
                 "x {:.2f}-{:.2f}".format(*over_intact) if over_intact else "",
                 f"{e['without_effects']['dlc']:.3f}" if "without_effects" in e else "",
                 "" if intact else f"{e['scalar_factor']['dlc']:.3f}", f"{e['wheel_load_rms_N']:.0f}",
@@ -246,10 +246,10 @@ def main_job(
     off = strengths(damper)
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
-        fmu = build_fmu(closed(damper), Path(folder), platforms=(fmpy.platform,))
+        fmu = build_fmu(damper, Path(folder), platforms=(fmpy.platform,))
         rides_by_case = run_all(fmu, car.corner(damper), cases(off), seconds, dt, seed)
     rides = Rides(damper, car, seconds, dt, seed)
-    rides.drive_all(SPEEDS, LEVELS, [*everything(rides), Setting(closure=SCALAR)], "bands")
+    rides.drive_all(SPEEDS, LEVELS, [*everything(rides), Setting(freed_gas=SCALAR)], "bands")
     result, shown = summary(damper, car, rides_by_case, rides, off, seed)
     pictures = draw(output, result, rides_by_case, shown)
     write_text(output / "summary.json", json.dumps(result, indent=1))

@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy import signal
 
+from twintube.dampers.freed_gas import AS_PUBLISHED
 from twintube.demo.ride import Ride
 from twintube.demo.style import BAND, FULL, INTACT, LEVELS, PAPER, SCALAR, save
 from twintube.vehicle.ride import SETTLED, WINDOW
@@ -26,19 +27,19 @@ def window_name(number: int) -> str:
 
 
 def dlc(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """DLC over the oil level in several windows, with bands over seeds and closures, the bare paper model and the factor."""
+    """DLC over the oil level in several windows, with bands over seeds and freed gas, as published, and the factor."""
     figure, axes = plt.subplots(1, len(result["speeds"]), figsize=(12, 5.4), sharey=True)
     for ax, block in zip(axes, result["speeds"], strict=True):
         entries = block["oil_levels"]
         levels = [100 * e["oil_level"] for e in entries]
-        low, high = zip(*(e["bands"]["closures"] for e in entries), strict=True)
-        ax.fill_between(levels, low, high, color=BAND, alpha=0.35, lw=0, label="all closures, whole ride")
+        low, high = zip(*(e["bands"]["freed_gas_ways"] for e in entries), strict=True)
+        ax.fill_between(levels, low, high, color=BAND, alpha=0.35, lw=0, label="all ways of the freed gas, whole ride")
         count = len(block["intact"]["dlc_window"])
         for number, colour in zip(sorted({i % count for i in TIMES}), SHADES, strict=False):
             values = [e["dlc_window"][number] for e in entries]
-            ax.plot(levels, values, "o-", ms=4, color=colour, label=f"with return of the gas, {window_name(number)}")
-        bare = [e["bands"]["closure"]["letter"] for e in entries]
-        ax.plot(levels, bare, "^--", ms=5, color=PAPER, mfc="white", label="bare paper model, whole ride")
+            ax.plot(levels, values, "o-", ms=4, color=colour, label=f"freed gas dissolves, {window_name(number)}")
+        bare = [e["bands"]["freed_gas"][AS_PUBLISHED] for e in entries]
+        ax.plot(levels, bare, "^--", ms=5, color=PAPER, mfc="white", label="freed gas stays (as published), whole ride")
         scalar = [e["scalar_factor"]["dlc"] for e in entries]
         ax.plot(levels, scalar, "s:", ms=5, color=SCALAR, mfc="white", label="scalar factor, whole ride")
         if result["effects"]:
@@ -74,7 +75,7 @@ def development(folder: Path, name: str, result: dict[str, Any]) -> Path:
                     bare = np.array(entry["bare_paper_model"][figure_name]) * scale
                     axes[row][column].plot(middle, bare, ":", color=colour, lw=1.4)
         axes[0][column].set_title(f"{block['speed_kmh']:.0f} km/h", loc="left", fontsize=11)
-        axes[1][column].set_xlabel(f"time [s], windows of {WINDOW:.0f} s   (dotted: bare paper model)")
+        axes[1][column].set_xlabel(f"time [s], windows of {WINDOW:.0f} s   (dotted: as published)")
     axes[0][0].set_ylabel("dynamic load coefficient [1]")
     axes[1][0].set_ylabel("power of the damper [W]")
     for ax in axes.flat:
@@ -84,10 +85,10 @@ def development(folder: Path, name: str, result: dict[str, Any]) -> Path:
 
 
 def failure(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """Time to failure over oil level and speed, for the most different closures."""
+    """Time to failure over oil level and speed, for the most different ways of the freed gas."""
     table = result["time_to_failure"]
-    figure, axes = plt.subplots(1, len(table["closures"]), figsize=(12, 4.4), sharey=True)
-    for ax, (closure, rows) in zip(axes, table["closures"].items(), strict=True):
+    figure, axes = plt.subplots(1, len(table["freed_gas_ways"]), figsize=(12, 4.4), sharey=True)
+    for ax, (freed_gas, rows) in zip(axes, table["freed_gas_ways"].items(), strict=True):
         values = np.array([[np.nan if t is None else t for t in row] for row in rows], dtype=float)
         image = ax.imshow(values, cmap="RdYlGn", vmin=0, vmax=table["seconds"], aspect="auto")
         for i, row in enumerate(rows):
@@ -95,7 +96,7 @@ def failure(folder: Path, name: str, result: dict[str, Any]) -> Path:
                 ax.text(j, i, "-" if time is None else f"{time:.0f}", ha="center", va="center", fontsize=8)
         ax.set_xticks(range(len(table["oil_levels"])), [f"{100 * level:.0f}" for level in table["oil_levels"]])
         ax.set_yticks(range(len(table["speeds_kmh"])), [f"{speed:.0f}" for speed in table["speeds_kmh"]])
-        ax.set_title(closure.replace("_", " "), loc="left", fontsize=10)
+        ax.set_title(freed_gas.replace("_", " "), loc="left", fontsize=10)
         ax.set_xlabel("oil level [%]")
         ax.grid(False)
     axes[0].set_ylabel("speed [km/h]")
@@ -109,7 +110,7 @@ def rises(entry: dict[str, Any], intact: dict[str, Any]) -> dict[str, list[float
     """Smallest and largest DLC relative to intact in the same car on the same road, by the varied assumption."""
     own = entry["dlc"] / intact["dlc"]
     bars = {"road: five seeds": list(entry["bands"]["seeds_over_intact"])}
-    for text, key in (("half-life 6.1-10.2 s", "half_life"), ("closure (freed gas)", "closures")):
+    for text, key in (("half-life 6.1-10.2 s", "half_life"), ("freed gas", "freed_gas_ways")):
         bars[text] = [v / intact["dlc"] for v in entry["bands"][key]]
     for key, ends in entry["bands"]["assumed"].items():
         ratios = [v / w for v, w in zip(ends, intact["bands"]["assumed"][key], strict=True)]

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from twintube.dampers import load
-from twintube.dampers.closures import CLOSURES, DEFAULT
+from twintube.dampers.freed_gas import DEFAULT, WAYS
 from twintube.demo.bands import FORCES, SEEDS, SPEEDS, Rides, Setting, fits, loss
 from twintube.vehicle.cars import CarSet, axle, load_car
 from twintube.vehicle.ride import DT
@@ -22,7 +22,7 @@ def settings(car: CarSet) -> dict[str, Setting]:
     """The settings, by the name of the row."""
     rows = {"default": Setting()}
     rows |= {f"links {value:g} N s/m": Setting(car=(("d_links", value),)) for value in LINKS}
-    rows |= {f"closure `{name}`: {item.says}": Setting(closure=name) for name, item in CLOSURES.items()}
+    rows |= {f"freed gas `{name}`: {item.says}": Setting(freed_gas=name) for name, item in WAYS.items()}
     rows |= {f"dead length {1e3 * value:+.0f} mm": Setting(dead_length=value) for value in LENGTHS if value}
     rows |= {f"full cavitation from {100 * value:g} % of oil loss": loss(value)
              for value in LOSSES}  # fmt: skip
@@ -50,7 +50,7 @@ def table(rides: Rides, rows: dict[str, Setting]) -> str:
 
 def seeded(setting: Setting, seed: int) -> Setting:
     """The setting on another road."""
-    return Setting(setting.closure, seed, setting.car, setting.forces, setting.dead_length, setting.damper)
+    return Setting(setting.freed_gas, seed, setting.car, setting.forces, setting.dead_length, setting.damper)
 
 
 def page(damper: str, car: str) -> str:
@@ -64,7 +64,7 @@ def page(damper: str, car: str) -> str:
         "# Sensitivity of the wheel load", "",
         f"Made by `twintube sensitivity --damper {damper}`: dynamic load coefficient (DLC, standard deviation",
         f"of the wheel load over the static one, from 5 s on) of a quarter car, {vehicle.title}, class D road,",
-        f"{SECONDS:.0f} s, gas preload lost, means over {len(SEEDS)} roads. Default: closure `{DEFAULT}`, links {links:g}",
+        f"{SECONDS:.0f} s, gas preload lost, means over {len(SEEDS)} roads. Default: freed gas `{DEFAULT}`, links {links:g}",
         f"N s/m, dead length {1e3 * p.dead_length:g} mm, full cavitation from {100 * p.cavitation_loss:g} % of oil loss.",
         "All these values are assumed.",
         "", table(rides, rows), "",

@@ -11,10 +11,7 @@ from matplotlib.figure import Figure
 
 from twintube.files import replacing
 
-FOOTNOTE = (
-    "Assumed (unpublished): F-v curve, friction, gas spring, chamber dead length, car, and the closure for the gas that "
-    "cavitation frees"
-)
+FOOTNOTE = "Assumed (unpublished): F-v curve, friction, gas spring, chamber dead length, car, and what freed gas does"
 INTACT, FULL, PAPER, SCALAR = "#1b1b1b", "#2a7f9e", "#b3282d", "#7a7a7a"
 BAND = "#9cc7d8"
 LEVELS = {0.9: "#2a7f9e", 0.8: "#55a868", 0.6: "#d98c21", 0.4: "#b3282d"}  # oil levels in line plots

@@ -3,6 +3,7 @@
 from itertools import groupby
 from typing import Any
 
+from twintube.dampers.freed_gas import AS_PUBLISHED
 from twintube.vehicle.ride import WINDOW
 
 NO_RISE = 1.10  # DLC relative to intact [1] up to which no rise is claimed
@@ -42,7 +43,7 @@ def speed_sentences(block: dict[str, Any]) -> list[str]:
             texts.append(head + f"the DLC rises in the whole band, by {percent(low)} to {percent(high)} relative to intact.")
         else:
             texts.append(head + f"published data do not decide: {percent(low)} to {percent(high)} relative to intact, "
-                         "depending on the closure for the freed gas, road, car and damper.")  # fmt: skip
+                         "depending on what freed gas does, road, car and damper.")  # fmt: skip
     return texts
 
 
@@ -64,7 +65,7 @@ def failure_sentence(block: dict[str, Any]) -> str:
 def model_sentence(block: dict[str, Any]) -> str:
     """The default, the bare paper model and a scalar factor, at 60 % oil."""
     entry = next(e for e in block["oil_levels"] if e["oil_level"] == 0.6)
-    ratios = [v / block["intact"]["dlc"] for v in (entry["dlc"], entry["bands"]["closure"]["letter"],
+    ratios = [v / block["intact"]["dlc"] for v in (entry["dlc"], entry["bands"]["freed_gas"][AS_PUBLISHED],
                                                  entry["scalar_factor"]["dlc"])]  # fmt: skip
     return (
         f"{block['speed_kmh']:.0f} km/h, 60 % oil: {percent(ratios[0])} when the gas dissolves again, {percent(ratios[1])} "
@@ -75,8 +76,8 @@ def model_sentence(block: dict[str, Any]) -> str:
 def sentences(result: dict[str, Any]) -> list[str]:
     """All sentences."""
     texts = [
-        "Bands: five roads, every closure (for the gas that cavitation frees) and both ends of every assumed value, one at "
-        "a time; closure and damping of the links also together."
+        "Bands: five roads, every way of the freed gas and both ends of every assumed value, one at "
+        "a time; freed gas and damping of the links also together."
     ]
     for block in result["speeds"]:
         texts += [*speed_sentences(block), failure_sentence(block), model_sentence(block)]

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.dampers.freed_gas import as_before, as_published
 from twintube.diagnosis.fits.candidates import LATE, RECALIBRATE, candidates
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.fits.gains import bootstrap, gains, whole, worst
@@ -47,7 +48,9 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
         raise InputError(f"tolerance = {tolerance:g}: must be from 0 to {RULES.most_tolerance:g} of the largest force")
     began = time.monotonic()
     progress("reading the records")
-    dataset, turned = read(path)
+    given, turned = read(path)
+    # Blocks of seconds, on which the paper's equations alone were fitted.
+    dataset = replace(given, damper=as_published(given.damper))
     records = prepare(dataset)
     remarks = []
     if not any(record.intact for record in records):
@@ -123,7 +126,13 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     answered = answer_of(with_outliers(problem, outliers)) if len(outliers) > RULES.outlier_records else None
     if answered is None or (len(answered.causes) == len(before) and answered.verdict != RECALIBRATE):
         answered = answer_of(problem)
-    return replace(answered, seconds=time.monotonic() - began, tolerance=tolerance)
+    base, recalibrated, extended = (
+        as_before(damper, given.damper) for damper in (answered.base, answered.recalibrated, answered.extended)
+    )
+    return replace(
+        answered, seconds=time.monotonic() - began, tolerance=tolerance,
+        base=base, recalibrated=recalibrated, extended=extended,
+    )  # fmt: skip
 
 
 def contradicted(problem: Problem, answered: Diagnosis) -> Problem | None:
@@ -200,7 +209,7 @@ def selector_of(problem: Problem, folds: Sequence[Halves], *, history: bool = Tr
 def known_gain(path: str | Path, causes: Sequence[str]) -> float:
     """Share of the explainable held-out error that goes away with the given causes, whatever a diagnosis would choose."""
     dataset, _ = read(path)
-    sampled = with_sampling(settled(Problem(dataset.damper, prepare(dataset))))
+    sampled = with_sampling(settled(Problem(as_published(dataset.damper), prepare(dataset))))
     problem, _ = zero_drift(with_uncertainty(sampled))
     selector = selector_of(problem, split(dataset.title, problem.records)[0])
     option = selector.start

@@ -1,4 +1,4 @@
-"""What the page knows beside the module: dampers, corners of the car, closures, effects, a road; as JSON."""
+"""What the page knows beside the module: dampers, corners of the car, ways of the freed gas, effects, a road; as JSON."""
 
 import base64
 import tomllib
@@ -14,7 +14,7 @@ from twintube.core.checks import tube_limit
 from twintube.core.effects import EFFECTS, Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper, load, names
-from twintube.dampers.closures import CLOSURES, DEFAULT, LETTER, has_own
+from twintube.dampers.freed_gas import DEFAULT, WAYS, has_own
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM, scalar_factor
 from twintube.fmu.table import variables
 from twintube.rig.plan import BLOCKS_17, amplitude
@@ -49,7 +49,7 @@ def damper_data(damper: Damper) -> dict[str, Any]:
         "limit": tube_limit(damper.parameters),
         "levels": damper.measured_levels,
         "corner": astuple(load_car().corner(damper)),
-        "closes": has_own(damper),
+        "ownGas": has_own(damper),
         "assumed": dict(damper.assumed),
     }
 
@@ -76,9 +76,8 @@ def common() -> dict[str, Any]:
         "names": [v.name for v in table],
         "integers": [v.name for v in table if v.integer],
         "parameters": [v.name for v in table if v.causality == "parameter"],
-        "closures": {name: {"says": item.says, "parameters": named(item.parameters)} for name, item in CLOSURES.items()},
-        "letter": LETTER,
-        "return": DEFAULT,
+        "ways": {name: {"says": item.says, "parameters": named(item.parameters)} for name, item in WAYS.items()},
+        "freedGas": DEFAULT,
         "noFoam": named(NO_FOAM),
         "noCavitation": named(NO_CAVITATION),
         "wear": [NAMES[name] for name in scalar_factor(1.0) if name != "oil_level"],

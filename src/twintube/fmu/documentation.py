@@ -9,7 +9,7 @@ from twintube import __version__
 from twintube.core.effects import Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
-from twintube.dampers.closures import OWN, acting
+from twintube.dampers.freed_gas import OWN, acting
 from twintube.fmu import reference, related
 from twintube.fmu.table import Variable, variables
 from twintube.words import printable
@@ -32,8 +32,8 @@ unless an effect that acts with time is switched on.</p>
 """
 GAS = """
 <p><strong>Gas that cavitation frees</strong> in this FMU &ndash; {}. The paper's equations 40 and 41 alone never give it
-back: that suits blocks of seconds, to which they were fitted; over minutes of cavitation no oil would be left. Which closure
-is right is not published. The parameters {} choose it; all 0 are the paper's equations.</p>
+back: that suits blocks of seconds, to which they were fitted; over minutes of cavitation no oil would be left. Which way
+is right is not published. The parameters {} choose it; all 0 are the paper's equations, as published.</p>
 """
 STROKE = """
 <p>The range of the stroke is that of the start values: the piston stays inside the tube. It moves with
@@ -98,7 +98,7 @@ def picture(damper: Damper) -> str:
 
 
 def chosen_by() -> str:
-    """The names of the parameters that choose the closure, as HTML."""
+    """The names of the parameters that choose what freed gas does, as HTML."""
     return ", ".join(f"<em>{fmi_name(item)}</em>" for item in fields(Parameters) if item.name in OWN)
 
 

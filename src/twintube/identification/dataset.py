@@ -7,6 +7,7 @@ from typing import Any
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
+from twintube.dampers.freed_gas import as_before, as_published
 from twintube.data import LoadedDataset, Record, load_dataset
 from twintube.engine.simulate import InputError
 from twintube.fitting.averaging import averaging, through
@@ -69,7 +70,12 @@ def identify_dataset(
     journal: Path | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> Result:
-    """Identify the dataset's damper from its records for fitting and validate it on all; raises InputError."""
+    """Identify the dataset's damper from its records for fitting and validate it on all; raises InputError.
+
+    The paper's equations alone are fitted, as the paper did it on blocks of seconds. Freed gas then does again in the
+    identified damper what it does in the given one.
+    """
+    given, dataset = dataset.damper, replace(dataset, damper=as_published(dataset.damper))
     slow = [r for r in dataset.records if r.measurement == "quasi-static"]
     drives = [r for r in dataset.records if r.measurement == "stochastic"]
     sines = [harmonic(r) for r in dataset.records if r.measurement == "harmonic"]
@@ -100,6 +106,7 @@ def identify_dataset(
     )
     result = replace(result, damper=damper)
     rows = [validate_harmonic(damper, h, kind, result.offset) for h, kind in zip(sines, split, strict=True)]
+    result = replace(result, damper=as_before(damper, given))
     return Result(
         dataset, list(zip(sines, split, strict=True)), result, rows + validate_drives(damper, drives, result.offset),
         remarks + result.remarks + continuation(damper, measured) + noisy(damper, sines),

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from twintube.dampers import Damper
-from twintube.dampers.closures import DEFAULT, closed
+from twintube.dampers.freed_gas import DEFAULT, with_freed_gas
 from twintube.dampers.variants import scalar_factor
 from twintube.inspection.benches import DT, ON_PLATE, Setting, on_plate, plate_motion, read
 from twintube.inspection.figures import WINDOWS, measured_cycles, phase_shift
@@ -24,13 +24,13 @@ class Condition:
     oil_level: float
     gas_preload: int
     scalar: bool = False
-    closure: str = DEFAULT
+    freed_gas: str = DEFAULT
 
     def applied(self, damper: Damper) -> Damper:
         """The damper in this state; raises ParameterError."""
         if self.scalar:
             return damper.with_(gas_preload=self.gas_preload, **scalar_factor(self.oil_level))
-        return closed(damper.with_(oil_level=self.oil_level, gas_preload=self.gas_preload), self.closure)
+        return with_freed_gas(damper.with_(oil_level=self.oil_level, gas_preload=self.gas_preload), self.freed_gas)
 
 
 INTACT = Condition(1.0, 1)
@@ -45,7 +45,7 @@ class Entry:
     method: str
     figure: float  # in the method's unit
     scalar_figure: float | None = None  # with the oil level as factor; None below LEAST_FACTOR
-    readings: Mapping[str, float] = field(default_factory=dict)  # the figure under every closure, that of `figure` included
+    readings: Mapping[str, float] = field(default_factory=dict)  # the figure under every way, that of `figure` included
     windows: Mapping[str, float] = field(default_factory=dict)  # [deg] the phase shift in other windows
 
     @property
@@ -53,9 +53,9 @@ class Entry:
         """Whether the damper passes."""
         return METHODS[self.method].passed(self.figure)
 
-    def passes_under(self, closure: str) -> bool:
-        """Whether it passes under a closure of `readings`."""
-        return METHODS[self.method].passed(self.readings[closure])
+    def passes_under(self, freed_gas: str) -> bool:
+        """Whether it passes under a way of `readings`."""
+        return METHODS[self.method].passed(self.readings[freed_gas])
 
     @property
     def as_json(self) -> dict[str, Any]:
@@ -70,7 +70,7 @@ class Entry:
             "unit": how.unit,
             "limit": how.limit,
             "passed": self.passed,
-            "closures": dict(self.readings),
+            "freed_gas_ways": dict(self.readings),
             "scalar_factor": None
             if scalar is None
             else {"factor": self.condition.oil_level, "figure": scalar, "passed": how.passed(scalar)},
@@ -87,10 +87,10 @@ def conditions(levels: Iterable[float], gas_preload: int | None) -> list[Conditi
     return [Condition(level, int(level >= 1.0) if gas_preload is None else gas_preload) for level in levels]
 
 
-def under(closures: Iterable[str], states: Iterable[Condition]) -> list[Condition]:
-    """The states under each closure in turn."""
+def under(ways: Iterable[str], states: Iterable[Condition]) -> list[Condition]:
+    """The states under each way in turn."""
     several = list(states)
-    return [replace(state, closure=name) for name in closures for state in several]
+    return [replace(state, freed_gas=name) for name in ways for state in several]
 
 
 def inspected(
@@ -99,29 +99,29 @@ def inspected(
     states: Iterable[Condition],
     methods: tuple[str, ...] = tuple(METHODS),
     *,
-    closures: Sequence[str] = (DEFAULT,),
+    ways: Sequence[str] = (DEFAULT,),
     setting: Setting | None = None,
     dt: float = DT,
 ) -> list[Entry]:
     """The figures of all states and methods on ideal benches; raises InputError if the piston would leave the tube.
 
-    `closures` are those of `readings`; the first one is that of `figure`.
+    `ways` are those of `readings`; the first one is that of `figure`.
     """
     bench, corner = setting or Setting(), vehicle.corner(damper)
 
     def figures(state: Condition) -> dict[str, float]:
         return read(state.applied(damper), corner, methods, bench, dt=dt)
 
-    reference = figures(replace(INTACT, closure=closures[0]))
+    reference = figures(replace(INTACT, freed_gas=ways[0]))
     entries = []
-    for state in under(closures[:1], states):
-        models = {each.closure: relative(figures(each), reference) for each in under(closures, [state])}
+    for state in under(ways[:1], states):
+        models = {each.freed_gas: relative(figures(each), reference) for each in under(ways, [state])}
         scalar = replace(state, scalar=True)
         factor = relative(figures(scalar), reference) if state.oil_level >= LEAST_FACTOR else {}
         for name in methods:
-            readings = {closure: model[name] for closure, model in models.items()}
+            readings = {freed_gas: model[name] for freed_gas, model in models.items()}
             windows = in_windows(state.applied(damper), corner, bench, dt) if name == "phase_shift" else {}
-            entries.append(Entry(damper.name, state, name, readings[state.closure], factor.get(name), readings, windows))
+            entries.append(Entry(damper.name, state, name, readings[state.freed_gas], factor.get(name), readings, windows))
     return entries
 
 

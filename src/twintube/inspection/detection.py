@@ -12,7 +12,7 @@ from scipy import stats
 
 from twintube.arrays import Array, freeze_arrays
 from twintube.dampers import Damper
-from twintube.dampers.closures import DEFAULT
+from twintube.dampers.freed_gas import DEFAULT
 from twintube.engine.simulate import InputError
 from twintube.inspection.benches import Setting, read
 from twintube.inspection.corner import INTACT, LEAST_FACTOR, Condition, relative, under
@@ -94,7 +94,7 @@ class Detection:
             "oil_level": self.condition.oil_level,
             "gas_preload": self.condition.gas_preload,
             "scalar_factor": self.condition.scalar,
-            "closure": None if self.condition.scalar else self.condition.closure,
+            "freed_gas": None if self.condition.scalar else self.condition.freed_gas,
             "samples": len(self.figures),
             "false_alarm_rate": FALSE_ALARMS,
             "limit_at_false_alarm_rate": self.threshold,
@@ -140,20 +140,20 @@ def study(
     *,
     count: int,
     seed: int = 1,
-    closures: Sequence[str] = (DEFAULT,),
+    ways: Sequence[str] = (DEFAULT,),
     processes: int | None = None,
     progress: Callable[[], None] = lambda: None,
 ) -> list[Detection]:
-    """The detection of every state under every closure, and of the oil level as a scalar factor, over `count` samples.
+    """The detection of every state under every way, and of the oil level as a scalar factor, over `count` samples.
 
     `progress` is called after each sample of each damper. `processes` is by default the number of cores; the result does not
     depend on it. Raises InputError for a number of samples outside FEWEST to MOST.
     """
     check_count(count)
-    levels = under(closures[:1], states)
-    intact = replace(INTACT, closure=closures[0])
+    levels = under(ways[:1], states)
+    intact = replace(INTACT, freed_gas=ways[0])
     factors = [replace(s, scalar=True) for s in levels if s.oil_level >= LEAST_FACTOR]
-    everything = (intact, *under(closures, levels), *factors)
+    everything = (intact, *under(ways, levels), *factors)
     drawn = samples(count, seed)
     jobs = []
     for damper in dampers:
@@ -178,17 +178,17 @@ def study(
 
 
 def first_seen(
-    detections: Iterable[Detection], damper: str, method: str, closure: str = DEFAULT, *, scalar: bool = False
+    detections: Iterable[Detection], damper: str, method: str, freed_gas: str = DEFAULT, *, scalar: bool = False
 ) -> float | None:
     """The highest oil level from which on down the method detects SEEN of the dampers, else None.
 
-    With `scalar`, those with the oil level as a factor; they have no closure.
+    With `scalar`, those with the oil level as a factor; in them no gas is freed.
     """
     here = [
         d
         for d in detections
         if (d.damper, d.method.name, d.condition.scalar) == (damper, method, scalar)
-        and (scalar or d.condition.closure == closure)
+        and (scalar or d.condition.freed_gas == freed_gas)
     ]
     seen = None
     for item in sorted(here, key=lambda d: d.condition.oil_level):

@@ -32,7 +32,7 @@ TITLE = "Example: damper SA8 on a simulated bench"
 
 def example() -> Trial:
     """The records and their hidden effect; the numbers are reproducible."""
-    damper = load(DAMPER)
+    damper = load(DAMPER, as_published=True)
     hidden, strength = secret(KIND, SEED, damper.parameters, 1.0)
     rng = np.random.default_rng([SEED, crc32(KIND.encode())])
     planned = [plan for plan in plans(damper, tuple(RATES)) if plan.level > LOWEST]

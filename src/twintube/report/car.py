@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from twintube.dampers.closures import SCALAR
+from twintube.dampers.freed_gas import SCALAR
 from twintube.report import conclusion
 from twintube.report.car_figures import tables
 from twintube.report.page import Headline, Picture, Section, Table, html
@@ -78,7 +78,7 @@ def page(
             f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
             "without gas preload. Each figure is that of the worn car over that of the intact car on the same road; the "
             f"band is that of {counted(conditions['seeds'], 'seed')}: other roads of the class, and a slip control whose "
-            "thresholds and rates scatter by a quarter; of the full model also that of four closures for the gas that "
+            "thresholds and rates scatter by a quarter; of the full model also that of four ways of the gas that "
             "cavitation frees. F-v curves are stand-ins (assumed)."
         ],
         sections,
@@ -96,7 +96,7 @@ def statement(rows: Sequence[Mapping[str, Any]]) -> str:
         if not own:
             continue
         if not clear:
-            parts.append(f"{words.lower()}: no change that all seeds and closures share")
+            parts.append(f"{words.lower()}: no change that all seeds and ways of the freed gas share")
             continue
         level = max(r["oil_level"] for r in clear)
         first = max((r for r in clear if r["oil_level"] == level), key=lambda r: abs(r["change"]))
@@ -107,7 +107,7 @@ def statement(rows: Sequence[Mapping[str, Any]]) -> str:
         parts.append(
             f"{words.lower()} from {level:.0%} oil ({first['figure']} {first['change']:+.0%} at "
             f"{first['speed_kmh']:.0f} km/h on {road}, {low:+.0%} to {high:+.0%} over "
-            f"{counted(first['seeds'], 'seed')} and all closures)"
+            f"{counted(first['seeds'], 'seed')} and all ways of the freed gas)"
         )
     return "Felt first, of the levels tried: " + "; ".join(parts) + "."
 
@@ -117,7 +117,7 @@ def table(rows: Sequence[Mapping[str, Any]]) -> Table:
     cells = []
     for row in rows:
         band = row["change_band"]
-        over = counted(row["seeds"], "seed") + ("" if row["model"] == SCALAR else " and the closures")
+        over = counted(row["seeds"], "seed") + ("" if row["model"] == SCALAR else " and the ways of the freed gas")
         cells.append([
             f"{row['speed_kmh']:.0f}", row["road"], f"{row['oil_level']:.0%}", row["model"],
             "not driven" if band is None else f"{row['change']:+.1%}",

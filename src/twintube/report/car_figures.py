@@ -1,9 +1,9 @@
-"""All figures of the drives as tables: intact and worn, each with its range over seeds and closures."""
+"""All figures of the drives as tables: intact and worn, each with its range over seeds and ways of the freed gas."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from twintube.dampers.closures import DEFAULT, SCALAR
+from twintube.dampers.freed_gas import DEFAULT, SCALAR
 from twintube.report.page import Table
 from twintube.vehicle.full.car import WHEELS
 
@@ -36,7 +36,7 @@ def tables(entries: Sequence[Mapping[str, Any]]) -> list[Table]:
 
 
 def table(drive: tuple[Any, ...], rows: Sequence[Mapping[str, Any]]) -> Table:
-    """The figures of one drive; each cell is the mean over the seeds, with the range over seeds and closures."""
+    """The figures of one drive; each cell is the mean over the seeds, with the range over seeds and ways."""
     maneuver, speed, road = drive
     states: dict[str, list[Mapping[str, Any]]] = {}
     for row in rows:
@@ -50,9 +50,8 @@ def table(drive: tuple[Any, ...], rows: Sequence[Mapping[str, Any]]) -> Table:
                 cells.append([f"{title}{place}{f' [{unit}]' if unit != '1' else ''}", *line])
     seeds = len({row["seed"] for row in rows})
     where = road if maneuver == "table3" else f"{speed:.0f} km/h, {'smooth road' if road == 'smooth' else f'class {road}'}"
-    caption = (
-        f"{where}: mean ({'range over ' + str(seeds) + ' seeds and' if seeds > 1 else '1 seed; range over'} the closures)"
-    )
+    over = f"range over {seeds} seeds" if seeds > 1 else "1 seed; range over"
+    caption = f"{where}: mean ({over}{' and' if seeds > 1 else ''} the ways of the freed gas)"
     return Table(["figure", *states], cells, caption, numeric=range(1, len(states) + 1))
 
 
@@ -64,7 +63,7 @@ def state_of(row: Mapping[str, Any]) -> str:
 
 
 def cell(rows: Sequence[Mapping[str, Any]], name: str, wheel: str | None, decimals: int) -> str:
-    """Mean over the seeds, of the full model with the default closure, and the range over all rows."""
+    """Mean over the seeds, of the full model with the default way of the freed gas, and the range over all rows."""
 
     def value(row: Mapping[str, Any]) -> float | None:
         found = row.get(name)

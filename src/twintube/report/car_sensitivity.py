@@ -131,7 +131,7 @@ def page(result: Sensitivity, conditions: Mapping[str, Any]) -> str:
         f"Worn dampers: {conditions['worn']}, {result.level:.0%} oil without gas preload, {SPEED:g} km/h, against the "
         f"intact car. One at a time: mean over {counted(result.seeds, 'seed')}, other roads and slip controls, the same at "
         "both ends; what moves less than the standard error says nothing. All at once: each draw has a road, a slip control "
-        "and a closure for the gas that cavitation frees of its own."
+        "and a way of the freed gas of its own."
     ]
     count = len(result.draws[DRIVES[0]])
     held = "; ".join(f"{name_of(d)}, in {same_sign(result, d):.0%}" for d in DRIVES) if count else "no draws"

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from twintube.dampers.closures import SCALAR
+from twintube.dampers.freed_gas import SCALAR
 from twintube.engine.simulate import InputError
 from twintube.report.page import Section, Table
 

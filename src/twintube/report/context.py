@@ -44,7 +44,7 @@ class Context:
     @cached_property
     def dampers(self) -> dict[str, Damper]:
         """The eight named dampers with the published parameters of Table 9."""
-        return {name: dampers.load(name) for name in dampers.names()}
+        return {name: dampers.load(name, as_published=True) for name in dampers.names()}
 
     def claim(self, name: str) -> Claim:
         """The claim of `twintube.claims` with this id."""

@@ -36,7 +36,7 @@ def fit(
         budget = QUICK if quick else PAPER
         result = identify_damper(damper, slow, intact, degraded, budget=budget, journal=journal, progress=progress)
         write_text(file, dampers.to_toml(result.damper.with_(oil_level=1.0, gas_preload=1)))
-    return dampers.load(file)
+    return dampers.load(file, as_published=True)
 
 
 def generations(quick: bool) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from twintube.core.kernel import fluid_force
+from twintube.dampers.freed_gas import as_published
 from twintube.files import write_bytes, write_text
 from twintube.fitting.parameters import DEGRADATION
 from twintube.fitting.splits import distinct
@@ -28,7 +29,7 @@ def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> Figure:
     """Force over stroke, first and last oscillation, measured and simulated."""
     rows = (len(chosen) + 3) // 4
     figure, axes = style.canvas(rows, min(4, len(chosen)), (11.0, 2.9 * rows + 0.4))
-    damper, offset = result.identification.damper, result.identification.offset
+    damper, offset = as_published(result.identification.damper), result.identification.offset
     for ax, (record, split) in zip(axes.flat, chosen, strict=False):
         simulated = predicted(damper, record, offset)
         for colour, name, force in ((style.GREY, "measured", record.force), (style.RED, "simulated", simulated)):
@@ -52,7 +53,7 @@ def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> Figure:
 
 def live_part(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> str:
     """The same records to look into, as the identified model has them."""
-    damper, offset = result.identification.damper, result.identification.offset
+    damper, offset = as_published(result.identification.damper), result.identification.offset
     looks = []
     for record, split in chosen:
         first, last = int(record.marks[0]), int(record.marks[-1])

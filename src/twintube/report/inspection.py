@@ -32,7 +32,7 @@ class Inspection:
     vehicle: CarSet
     entries: Sequence[Entry]
     detections: Sequence[Detection]
-    closures: Sequence[str]  # for the gas that cavitation frees; the first is that of the figures
+    ways: Sequence[str]  # of the freed gas; the first is that of the figures
     seed: int
 
     @property
@@ -61,8 +61,8 @@ def summary(result: Inspection) -> dict[str, Any]:
     plate = Setting().plate
     return {
         "car": result.vehicle.name,
-        "closure": result.closures[0],
-        "closures": list(result.closures),
+        "freed_gas": result.ways[0],
+        "freed_gas_ways": list(result.ways),
         "plate": {"amplitude_m": plate.amplitude, "top_Hz": plate.top, "coast_s": plate.coast},
         "methods": {
             m.name: {"figure": m.figure, "unit": m.unit, "limit": m.limit, "rule": m.rule, "source": m.source,
@@ -77,8 +77,8 @@ def summary(result: Inspection) -> dict[str, Any]:
         },
         "detection": [item.as_json for item in result.detections],
         "first_seen": [
-            {"damper": damper.name, "method": m.name, "oil_level": seen_under(result, damper, m)[result.closures[0]],
-             "closures": seen_under(result, damper, m),
+            {"damper": damper.name, "method": m.name, "oil_level": seen_under(result, damper, m)[result.ways[0]],
+             "freed_gas_ways": seen_under(result, damper, m),
              "scalar_factor": first_seen(result.detections, damper.name, m.name, scalar=True)}
             for damper in result.dampers
             for m in result.methods
@@ -88,26 +88,26 @@ def summary(result: Inspection) -> dict[str, Any]:
 
 
 def seen_under(result: Inspection, damper: Damper, method: Method) -> dict[str, float | None]:
-    """From which oil level on a method sees the loss, by closure."""
-    return {name: first_seen(result.detections, damper.name, method.name, name) for name in result.closures}
+    """From which oil level on a method sees the loss, by what freed gas does."""
+    return {name: first_seen(result.detections, damper.name, method.name, name) for name in result.ways}
 
 
-def by_closure(texts: Mapping[str, str]) -> str:
-    """One text where all closures agree; else that of the first, and under which conditions it is another."""
+def by_way(texts: Mapping[str, str]) -> str:
+    """One text where all ways of the freed gas agree; else that of the first, and under which conditions it is another."""
     first, *others = texts.items()
     conditions: dict[str, list[str]] = {}
     for name, text in others:
         if text != first[1]:
             conditions.setdefault(text, []).append(name)
     if not conditions:
-        return first[1] + (" under every closure tried" if others else "")
-    flips = (f"{text} under the closure{'s' * (len(names) > 1)} {listed(names)}" for text, names in conditions.items())
+        return first[1] + (" whatever freed gas does" if others else "")
+    flips = (f"{text} with freed gas {listed(names)}" for text, names in conditions.items())
     return f"{first[1]}, but {', '.join(flips)}"
 
 
 def seen_in_words(result: Inspection, damper: Damper, method: Method) -> str:
-    """From which oil level on a method sees the loss, and under which closures from another one."""
-    return by_closure({name: share_or(level, "not seen") for name, level in seen_under(result, damper, method).items()})
+    """From which oil level on a method sees the loss, and under which ways from another one."""
+    return by_way({name: share_or(level, "not seen") for name, level in seen_under(result, damper, method).items()})
 
 
 def factor_seen(result: Inspection, damper: Damper, method: Method) -> str:
@@ -120,23 +120,23 @@ def share_or(level: float | None, otherwise: str) -> str:
     return otherwise if level is None else f"{level:.0%}"
 
 
-def passed_down_to(result: Inspection, damper: Damper, closure: str) -> float | None:
-    """The lowest oil level down to which the damper passes every method under a closure."""
+def passed_down_to(result: Inspection, damper: Damper, freed_gas: str) -> float | None:
+    """The lowest oil level down to which the damper passes every method under a way."""
     passed = None
     for level in sorted({e.condition.oil_level for e in result.entries}, reverse=True):
         own = (e for e in result.entries if (e.damper, e.condition.oil_level) == (damper.name, level))
-        if not all(e.passes_under(closure) for e in own):
+        if not all(e.passes_under(freed_gas) for e in own):
             break
         passed = level
     return passed
 
 
 def sentence(result: Inspection, damper: Damper) -> str:
-    """Down to which oil level the damper passes every method, and under which closures down to another one."""
+    """Down to which oil level the damper passes every method, and under which ways down to another one."""
     names = "every method" if len(result.methods) > 1 else result.methods[0].title
-    levels = {closure: passed_down_to(result, damper, closure) for closure in result.closures}
+    levels = {freed_gas: passed_down_to(result, damper, freed_gas) for freed_gas in result.ways}
     texts = {name: "at none of these oil levels" if x is None else f"down to {x:.0%} oil" for name, x in levels.items()}
-    return f"{damper.name} passes {names} {by_closure(texts)}."
+    return f"{damper.name} passes {names} {by_way(texts)}."
 
 
 def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
@@ -147,15 +147,15 @@ def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
         row = [f"{state.oil_level:.0%}", "yes" if state.gas_preload else "no"]
         for entry, m in zip(entries, result.methods, strict=True):
             row.append(
-                f"{digits(entry.figure, m)}{'' if entry.passed else ' fails'}{other_closures(entry, m)} "
+                f"{digits(entry.figure, m)}{'' if entry.passed else ' fails'}{other_ways(entry, m)} "
                 f"({digits(entry.scalar_figure, m) or 'none'})"
             )
         rows.append(row)
     return rows
 
 
-def other_closures(entry: Entry, method: Method) -> str:
-    """From which to which figure the closures lead, where that shows in the digits."""
+def other_ways(entry: Entry, method: Method) -> str:
+    """From which to which figure the ways of the freed gas lead, where that shows in the digits."""
     ends = [digits(end(entry.readings.values()), method) for end in (min, max)]
     return "" if ends[0] == ends[1] else f" [{ends[0]} to {ends[1]}]"
 
@@ -166,7 +166,7 @@ def terminal(result: Inspection) -> str:
     for damper in result.dampers:
         lines.append(
             f"{damper.name}, {axle(damper)} corner of {result.vehicle.name}; in brackets the oil level as a scalar factor"
-            + ("; [ ]: from closure to closure" if len(result.closures) > 1 else "")
+            + ("; [ ]: from way to way" if len(result.ways) > 1 else "")
         )
         head = ["oil", "preload", *(m.name for m in result.methods)]
         rows = [head, *figure_rows(result, damper)]
@@ -220,10 +220,10 @@ def detection_tables(result: Inspection, damper: Damper) -> list[Table]:
         return shares[0] if shares[0] == shares[1] else f"{several[0].failed_share:.0%} ({shares[0]} to {shares[1]})"
 
     head = ["method", "damper", *(f"{level:.0%} oil" for level in levels)]
-    band = f"{CONFIDENCE:.0%} band{', widest over the closures' if len(result.closures) > 1 else ''}"
+    band = f"{CONFIDENCE:.0%} band{', widest over the ways of the freed gas' if len(result.ways) > 1 else ''}"
     return [
         Table(head, rows(detected), f"{damper.name}: detected at {FALSE_ALARMS:.0%} false alarms ({band})"),
-        Table(head, rows(failed), f"{damper.name}: fails at the method's own limit (from closure to closure)"),
+        Table(head, rows(failed), f"{damper.name}: fails at the method's own limit (from way to way)"),
     ]
 
 
@@ -242,7 +242,7 @@ def damper_section(result: Inspection, damper: Damper, png: bytes) -> Section:
     """Figures of one damper."""
     text = "Lines: the model, open squares: the oil level as a scalar factor on the fluid force. Red: the side that fails."
     head = ["oil", "preload", *(f"{m.title}{f' [{m.unit}]' if m.unit else ''}" for m in result.methods)]
-    table = Table(head, figure_rows(result, damper), "Figure and verdict; [ ]: from closure to closure; ( ): scalar factor")
+    table = Table(head, figure_rows(result, damper), "Figure and verdict; [ ]: from way to way; ( ): scalar factor")
     return Section(
         damper.name, f"{damper.name}, {damper.title}", text=[text], pictures=[Picture(png, damper.name)], tables=[table]
     )
@@ -274,7 +274,7 @@ def write_report(result: Inspection, folder: Path) -> list[Path]:
                 f"detection-{damper.name}", f"Detection of {damper.name}",
                 text=[f"{result.samples} draws from the ranges below; the same cars and testers for all states. "
                       f"Bands: binomial, {CONFIDENCE:.0%}, for the drawn limit, from the lowest to the highest of the "
-                      f"closures {listed(result.closures)}."],
+                      f"freed gas {listed(result.ways)}."],
                 pictures=[Picture(pictures[f"{damper.name}_{name}"], name) for name in ("detected", "roc")],
                 tables=detection_tables(result, damper),
             ))  # fmt: skip
@@ -282,8 +282,8 @@ def write_report(result: Inspection, folder: Path) -> list[Path]:
     sections.append(Section("scatter", "Ranges of the scatter", tables=[Table(RANGE_HEAD, range_rows())]))
     lead = [
         ONE_CORNER,
-        f"Car: {result.vehicle.title}. Figures and lines: closure {result.closures[0]} for the gas that cavitation frees"
-        + (f"; shaded: from the lowest to the highest of {listed(result.closures)}." if len(result.closures) > 1 else "."),
+        f"Car: {result.vehicle.title}. Figures and lines: freed gas {result.ways[0]}"
+        + (f"; shaded: from the lowest to the highest of {listed(result.ways)}." if len(result.ways) > 1 else "."),
     ]
     headline = Headline(" ".join(sentence(result, damper) for damper in result.dampers))
     text = html("Inspection of degraded dampers", lead, sections, summaries, headline=headline)

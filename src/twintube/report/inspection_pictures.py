@@ -41,7 +41,7 @@ def figures_over_oil(of: Callable[[Damper, Method], list[Entry]], damper: Damper
         values = [entry.figure for entry in entries]
         scalar = [np.nan if entry.scalar_figure is None else entry.scalar_figure for entry in entries]
         lowest, highest = ([end(entry.readings.values()) for entry in entries] for end in (min, max))
-        ax.fill_between(oil, lowest, highest, color=style.INK, alpha=0.15, lw=0, label="over the closures")
+        ax.fill_between(oil, lowest, highest, color=style.INK, alpha=0.15, lw=0, label="over the ways of the freed gas")
         ax.plot(oil, values, "o-", ms=4, color=style.INK, label="model")
         ax.plot(oil, scalar, "s:", ms=5, mfc="white", color=style.BLUE, label="oil level as scalar factor")
         top = 1.1 * max(method.limit, *highest, *(x for x in scalar if np.isfinite(x)))
@@ -84,7 +84,7 @@ def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition]) -> Figur
 
 
 def spanned(several: Sequence[Detection]) -> tuple[float, float]:
-    """The band of a share over the closures: the lowest and the highest end of theirs."""
+    """The band of a share over the ways of the freed gas: the lowest and the highest end of theirs."""
     bands = [d.band for d in several]
     return min(low for low, _ in bands), max(high for _, high in bands)
 
@@ -115,7 +115,7 @@ def roc_curves(found: Sequence[Detection], methods: Sequence[Method]) -> Figure:
     figure, pairs = grid(methods)
     for method, ax in pairs:
         own = [d for d in found if d.method.name == method.name and not d.condition.scalar]
-        here = [d for d in own if d.condition.closure == own[0].condition.closure]
+        here = [d for d in own if d.condition.freed_gas == own[0].condition.freed_gas]
         for state, colour in zip(spread([d.condition for d in here]), PALETTE, strict=False):
             item = next(d for d in here if d.condition == state)
             false_alarms, detected = item.roc

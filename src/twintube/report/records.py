@@ -54,12 +54,12 @@ class Job:
 
 def levels(damper: str) -> tuple[float, ...]:
     """Intact and the two degraded states that the paper measured (Table 2)."""
-    return oil_levels(load(damper))
+    return oil_levels(load(damper, as_published=True))
 
 
 def harmonic_jobs(damper: str, at: Iterable[float] | None = None) -> list[Job]:
     """The harmonic blocks of a damper in all states, all or those `at` these velocities [m/s]."""
-    speeds = velocities(load(damper)) if at is None else at
+    speeds = velocities(load(damper, as_published=True)) if at is None else at
     return [Job(damper, "harmonic", v, level) for v in speeds for level in levels(damper)]
 
 
@@ -77,7 +77,7 @@ def drive_jobs(damper: str, numbers: Iterable[int] | None = None) -> list[Job]:
 @lru_cache(maxsize=32)
 def excitation(damper: str, kind: str, value: float) -> Signal:
     """The excitation of a job, the same at all oil levels."""
-    loaded = load(damper)
+    loaded = load(damper, as_published=True)
     if kind == "harmonic":
         return harmonic_block(value, amplitude(loaded), 2 * np.pi * amplitude(loaded) / value / PER_OSCILLATION)
     if kind == "slow":

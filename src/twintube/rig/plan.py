@@ -30,7 +30,7 @@ BLOCKS_17 = (0.05, 0.08, 0.131, 0.196, 0.262, 0.327, 0.393, 0.458, 0.524, 0.655,
              1.572)  # fmt: skip
 
 
-# Measurements to decide between the closures for the gas that cavitation frees (docs/open_choices.md).
+# Measurements to decide between what freed gas does (docs/open_choices.md).
 RECOVERY_SECONDS = 60.0
 RECOVERY_RESTS = (10.0, 30.0, REST)  # [s]
 RECOVERY_LEVELS = (1.0, 0.9)  # oil levels without preload, in addition to the measured ones
@@ -119,7 +119,7 @@ def recovery_signal(damper: Damper, v: float, rest: float, slow: bool) -> Signal
 
 
 def recovery_plan(damper: Damper) -> Iterator[Measurement]:
-    """The measurements to decide between the closures, each at RECOVERY_LEVELS and the measured levels."""
+    """The measurements to decide between the ways of the freed gas, each at RECOVERY_LEVELS and the measured levels."""
     for v in recovery_velocities(damper):
         for slow in (False, True):
             for rest in RECOVERY_RESTS:

@@ -58,19 +58,20 @@ AXES: dict[str, tuple[str, float, float]] = {
     "time_step": ("s", 1e-5, 1e-2),
 }
 INTEGER = ("gas_preload", "variant", "oscillations")
-KEYS = {*AXES, "title", "dampers", "records", "parameters"}
+KEYS = {*AXES, "title", "dampers", "records", "parameters", "as_published"}
 
 
 def variants() -> dict[str, Any]:
     """Figure 33: the model variants at the measured 60 % state."""
     levels = [dampers.load("SA8").measured_levels[0]]
-    return {"title": "Figure 33: model variants", "dampers": ["SA8"], "oil_level": levels, "variant": [1, 2, 3, 4]}
+    return {"title": "Figure 33: model variants", "dampers": ["SA8"], "oil_level": levels, "variant": [1, 2, 3, 4],
+            "as_published": True}  # fmt: skip
 
 
 def oil_levels() -> dict[str, Any]:
     """Figure 34: oil levels from 0 to 100 %."""
     levels = {"from": 0.0, "to": 1.0, "count": 11}
-    return {"title": "Figure 34: oil levels", "dampers": ["SA8"], "oil_level": levels}
+    return {"title": "Figure 34: oil levels", "dampers": ["SA8"], "oil_level": levels, "as_published": True}
 
 
 NAMED: dict[str, Callable[[], dict[str, Any]]] = {"variants": variants, "oil_levels": oil_levels}
@@ -167,10 +168,14 @@ def read_dampers(content: dict[str, Any], text: str, folder: Path, messages: lis
     if "dampers" not in content:
         messages.append("dampers is missing")
         return ()
+    published = content.get("as_published", False)
+    if not isinstance(published, bool):
+        messages.append(f"{line_of(text, '', 'as_published')}as_published = {shown(published)}: must be true or false")
+        return ()
     read: list[Damper] = []
     try:
         for name in strings(content["dampers"]):
-            damper = dampers.load(name if name in dampers.names() else folder / name)
+            damper = dampers.load(name if name in dampers.names() else folder / name, as_published=published)
             read.append(replace(damper, sources={}, assumed={}))
     except (ValueError, OSError) as error:
         messages.append(f"{line}dampers: {error}")

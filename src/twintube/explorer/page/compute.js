@@ -5,7 +5,7 @@ function valuesOf(state, damper, content) {
   const values = Object.fromEntries(content.parameters.map((name, i) => [name, damper.values[i]]));
   if (!state.foam) Object.assign(values, content.noFoam);
   if (!state.cavitation) Object.assign(values, content.noCavitation);
-  if (!damper.closes) Object.assign(values, content.closures[state.gas].parameters);
+  if (!damper.ownGas) Object.assign(values, content.ways[state.gas].parameters);
   state.effects.forEach((name) => Object.assign(values, content.effects[name].parameters));
   return values;
 }

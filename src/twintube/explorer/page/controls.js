@@ -10,7 +10,7 @@ class Controls {
     );
     this.filled(
       fields.gas,
-      Object.keys(content.closures).map((name) => [name, name]),
+      Object.keys(content.ways).map((name) => [name, name]),
     );
     this.filled(
       fields.road,
@@ -30,7 +30,7 @@ class Controls {
     }
     this.lists = { velocity: content.rig.velocities, ramp: content.rig.ramps };
     for (const [name, values] of Object.entries(this.lists)) fields[name].max = values.length - 1;
-    form.addEventListener("input", (event) => changed(this.values(), event.target.name));
+    form.addEventListener("input", () => changed(this.values()));
     form.addEventListener("submit", (event) => event.preventDefault());
   }
 
@@ -78,10 +78,10 @@ class Controls {
     const levels = damper.levels.map((level) => `${Math.round(100 * level)} %`).join(" and ");
     this.form.querySelector("#levels").textContent =
       levels && `The paper measured ${levels}, without preload.`;
-    fields.gas.disabled = damper.closes;
-    this.form.querySelector("#gas-says").textContent = damper.closes
-      ? "The parameter file says what becomes of the gas."
-      : this.content.closures[state.gas].says;
+    fields.gas.disabled = damper.ownGas;
+    this.form.querySelector("#gas-says").textContent = damper.ownGas
+      ? "The parameter file says what freed gas does."
+      : this.content.ways[state.gas].says;
     const reach = Math.min(state.amplitude, fields.amplitude.max);
     const said = {
       oil: `${state.oil} %`,

@@ -172,11 +172,8 @@ function step(direction) {
   moved(result.time[Math.min(Math.max(i, 0), result.records.worn.done - 1)]);
 }
 
-const controls = new Controls(find("controls"), content, (values, changed) => {
+const controls = new Controls(find("controls"), content, (values) => {
   Object.assign(state.values, values);
-  // As the package has it: blocks of seconds by the paper's equations alone, rides with gas that dissolves again.
-  if (changed === "excitation")
-    state.values.gas = values.excitation === "drive" ? content.return : content.letter;
   update();
 });
 const tour = new Tour(

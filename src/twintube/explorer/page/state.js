@@ -25,7 +25,7 @@ function stateRules(content) {
     road: ["D", oneOf(Object.keys(content.road.classes))],
     foam: [true, flag],
     cavitation: [true, flag],
-    gas: [content.letter, oneOf(Object.keys(content.closures))],
+    gas: [content.freedGas, oneOf(Object.keys(content.ways))],
     factor: [false, flag],
     effects: [[], effects],
     slow: [0.25, oneOf([0.02, 0.05, 0.1, 0.25, 0.5, 1, 4])],

@@ -5,7 +5,7 @@ const WORN = {
   excitation: "block",
   foam: true,
   cavitation: true,
-  gas: "letter",
+  gas: "stays",
   factor: false,
   effects: [],
 };

@@ -15,7 +15,7 @@ DT_VIBRATION = 2e-4  # [s] largest step if the rod's mass or the rig can vibrate
 
 def tube(damper: str | Damper, level: float, preload: bool, changes: dict[str, float] | None = None) -> Tube:
     """The damper at the oil `level` [1], with or without gas preload; `changes` are changed parameters."""
-    loaded = load(damper) if isinstance(damper, str) else damper
+    loaded = load(damper, as_published=True) if isinstance(damper, str) else damper
     p = (loaded.with_(**changes) if changes else loaded).parameters
     A_rod, A_2 = pi / 4 * p.D_PR**2, pi / 4 * p.D_li**2
     rod = A_rod / A_2

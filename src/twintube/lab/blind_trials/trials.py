@@ -142,7 +142,7 @@ def trial(
     `blocks` are the measured velocities [m/s], and `recover` those of long blocks of about `seconds` with a pause.
     """
     name = damper or DAMPER.get(kind.split("+", maxsplit=1)[0], "SA8")
-    loaded = load(name)
+    loaded = load(name, as_published=True)
     s, drawn = secret(kind, seed, loaded.parameters, strength)
     rng = np.random.default_rng([seed, crc32(kind.encode())])
     samples, jitter = rng.uniform(250, 400), rng.uniform(0.0, 0.2)

@@ -65,7 +65,7 @@ class Bench:
 def damper_for(needs: frozenset[str], rng: np.random.Generator) -> Damper:
     """One of the eight that can show the cause."""
     names = [f"SA{i}" for i in range(1, 9)]
-    dampers = [load(name) for name in names]
+    dampers = [load(name, as_published=True) for name in names]
     if "cavitation" in needs:
         dampers = [d for d in dampers if d.parameters.v_cav > 0.0 and d.parameters.Y_Re_cav > 0.0]
     return dampers[int(rng.integers(len(dampers)))]

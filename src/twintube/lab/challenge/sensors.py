@@ -129,7 +129,7 @@ def odd_damper(run: Run, x: float, c: Constants) -> None:
     """The file is of another damper."""
     if run.record.number == c["file"]:
         state = {"oil_level": run.record.level, "gas_preload": int(run.record.preload)}
-        forces_of(run, load(c["damper"]).with_(**state))
+        forces_of(run, load(c["damper"], as_published=True).with_(**state))
 
 
 def forces_of(run: Run, damper: Damper) -> None:

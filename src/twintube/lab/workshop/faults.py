@@ -69,7 +69,7 @@ class Stranger(Cause):
         """The other damper with the level that stands on the sheet."""
         if trial.index != self.only:
             return damper
-        return load(self.other).with_(oil_level=trial.level, gas_preload=int(trial.preload))
+        return load(self.other, as_published=True).with_(oil_level=trial.level, gas_preload=int(trial.preload))
 
 
 @dataclass

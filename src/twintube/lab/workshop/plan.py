@@ -117,7 +117,7 @@ def plan_day(seed: int, wish: Wish) -> Day:
     """The campaign of a seed."""
     draw = np.random.default_rng((seed, 77))
     name = str(draw.choice(wish.dampers))
-    damper = load(name)
+    damper = load(name, as_published=True)
     style = str(draw.choice(wish.styles))
     fs = float(draw.choice([x for x in wish.rates if x >= (500 if style in ("triangles", "road") else 200)]))
     rate = fs * np.ceil(FINE / fs)

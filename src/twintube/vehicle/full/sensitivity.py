@@ -9,7 +9,7 @@ import numpy as np
 
 from twintube.core.checks import outside
 from twintube.dampers import Damper, ParameterError
-from twintube.dampers.closures import DEFAULT, READINGS, SCALAR
+from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED
 from twintube.vehicle.cars import METAS, CarSet
 from twintube.vehicle.full.study import HEADLINES, Case, dampers_of, driven_all
 
@@ -155,19 +155,19 @@ def sensitivity(
 ) -> Sensitivity:
     """Drive the variants of a car whose dampers at `worn` are at an oil `level`; raises ParameterError, InputError.
 
-    One at a time: the mean over `seeds` with the default closure, the same roads at both ends. Draws: every assumed value
-    uniform in its range, with a road, a slip control and a closure of READINGS of its own.
+    One at a time: the mean over `seeds`, freed gas as by default, the same roads at both ends. Draws: every assumed value
+    uniform in its range, with a road, a slip control and a way of VARIED of its own.
     """
     several = [variant] + [variant.with_(item, end) for item in ASSUMED for end in (item.low, item.high)]
     plans = [(each, wanted(level, range(1, seeds + 1), [DEFAULT])) for each in several]
     random = np.random.default_rng(seed)
-    closures = []
+    ways = []
     for i in range(draws):
         drawn = variant
         for item in ASSUMED:
             drawn = drawn.with_(item, float(random.uniform(item.low, item.high)))
-        closures.append(READINGS[int(random.integers(len(READINGS)))])
-        plans.append((drawn, wanted(level, [i + 1], [closures[-1], SCALAR])))
+        ways.append(VARIED[int(random.integers(len(VARIED)))])
+        plans.append((drawn, wanted(level, [i + 1], [ways[-1], SCALAR])))
     jobs = [(v.car, dampers_of(v.front, v.rear, worn, case), case) for v, cases in plans for case in cases]
     entries = iter(driven_all(jobs, progress))
     grown = [growth([next(entries) for _ in cases]) for _, cases in plans]
@@ -181,7 +181,7 @@ def sensitivity(
             for i, item in enumerate(ASSUMED)
         },
         {
-            drive: [found[*drive, name][0] for found, name in zip(grown[len(several) :], closures, strict=True)]
+            drive: [found[*drive, name][0] for found, name in zip(grown[len(several) :], ways, strict=True)]
             for drive in DRIVES
         },
         {drive: [found[*drive, SCALAR][0] for found in grown[len(several) :]] for drive in DRIVES},

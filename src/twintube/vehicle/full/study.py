@@ -10,7 +10,7 @@ import numpy as np
 from tqdm import tqdm
 
 from twintube.dampers import Damper
-from twintube.dampers.closures import DEFAULT, READINGS, SCALAR, condition
+from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED, condition
 from twintube.engine.simulate import InputError
 from twintube.vehicle import maneuvers as table3
 from twintube.vehicle.cars import CarSet
@@ -44,7 +44,7 @@ class Case:
     road: str  # of the drives of Table 3 their name
     seed: int
     oil_level: float = 1.0
-    model: str = DEFAULT  # a closure, or SCALAR
+    model: str = DEFAULT  # a way, or SCALAR
 
     @property
     def intact(self) -> bool:
@@ -121,7 +121,7 @@ def cases(
             for speed, road, differs in places
             for seed in range(1, (seeds if differs else 1) + 1)
             for level in (1.0, *(x for x in levels if x != 1.0))
-            for model in ((DEFAULT,) if level == 1.0 else (*READINGS, SCALAR))
+            for model in ((DEFAULT,) if level == 1.0 else (*VARIED, SCALAR))
         ]
     return wanted
 
@@ -155,7 +155,7 @@ def entry(job: tuple[CarSet, Sequence[Damper], Case]) -> dict[str, Any]:
 def compared(entries: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """Rows of headline figures, worn over intact on the same road, of the full model and of the scalar factor.
 
-    The change is the mean over seeds with the default closure, its band that over all seeds and READINGS.
+    The change is the mean over seeds with the default way of the freed gas, its band that over all seeds and VARIED.
     """
     intact = {key(row): row for row in entries if row["oil_level"] == 1.0}
     groups: dict[tuple[Any, ...], list[dict[str, Any]]] = {}
