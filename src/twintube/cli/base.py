@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -19,6 +20,8 @@ STYLE: dict[str, Any] = {"add_completion": False, "rich_markup_mode": None, "pre
 AS_PUBLISHED = Annotated[
     bool, typer.Option("--as-published", help="The paper's equations alone: gas that cavitation frees stays gas.")
 ]
+# The context of the running command; Typer has it in a module of its own, which was click's in former versions.
+RUNNING: ContextVar[Any] = ContextVar("running")
 OUTPUTS = ("output", "json_file", "plot")  # parameters of commands that name what is written
 
 
@@ -56,6 +59,7 @@ class Command(TyperCommand):
 
     def invoke(self, ctx: Any) -> Any:
         """Run it."""
+        RUNNING.set(ctx)
         with answering():
             for name in OUTPUTS:
                 if isinstance(path := ctx.params.get(name), Path):

@@ -8,6 +8,7 @@ import typer
 
 from twintube import dampers
 from twintube.cli.base import app
+from twintube.cli.outputs import check_folder, mark_folder, of_options
 from twintube.engine.simulate import InputError
 from twintube.files import write_bytes, write_text
 from twintube.words import counted
@@ -46,6 +47,8 @@ def car(
     from twintube.vehicle.full.maneuvers import CLASSES, checked_speed
     from twintube.vehicle.full.study import FULL, HEADLINES, USUAL, cases, compared, dampers_of, drive_all
 
+    if output is not None:
+        check_folder(output, ("car.html",), of_options())
     seen = read_inspection(inspection) if inspection is not None else None
     loaded = load_car(car_file)
     both = dampers.load(front), dampers.load(rear)
@@ -72,6 +75,7 @@ def car(
         write_text(json_file, json.dumps({**conditions, "compared": rows, "drives": entries}, indent=1) + "\n")
     if output is not None:
         output.mkdir(exist_ok=True)
+        mark_folder(output, of_options())
         write_text(output / "car.html", page(loaded, conditions, rows, entries, seen))
         if shown := picture(rows):
             write_bytes(output / "car.png", shown)
@@ -112,6 +116,8 @@ def car_sensitivity(
     from twintube.vehicle.full.sensitivity import Variant, sensitivity
     from twintube.vehicle.full.study import Case, dampers_of
 
+    if output is not None:
+        check_folder(output, ("sensitivity.html",), of_options())
     if oil_level >= 1.0:
         raise InputError(f"oil_level = {oil_level:g}: must be below 1 for a worn damper")
     variant = Variant(load_car(car_file), dampers.load(front), dampers.load(rear))
@@ -123,6 +129,7 @@ def car_sensitivity(
     typer.echo(text(result), nl=False)
     if output is not None:
         output.mkdir(exist_ok=True)
+        mark_folder(output, of_options())
         write_text(output / "sensitivity.html", page(result, conditions))
         write_bytes(output / "sensitivity.png", tornado(result))
         typer.echo(f"{output / 'sensitivity.html'}")

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from twintube.cli.base import app
+from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
 from twintube.dampers import load
 from twintube.files import write_text
 from twintube.vehicle.cars import axle, load_car
@@ -32,7 +33,9 @@ def demo(
     from twintube.demo.job import main_job, table
 
     loaded, vehicle = load(damper), load_car(car)
+    check_folder(output, ("summary.json",), of_options())
     result, pictures = main_job(loaded, vehicle, output, seconds=seconds, dt=step_ms * 1e-3, seed=seed)
+    mark_folder(output, of_options())
     typer.echo(
         f"{loaded.name} in the {axle(loaded)} corner of a {vehicle.title} (assumed); freed gas: {result['freed_gas']}"
     )
@@ -51,5 +54,6 @@ def sensitivity(
     from twintube.demo.sensitivity import page
 
     text = page(damper, car)
+    keep_other(output, text.encode())
     write_text(output, text)
     typer.echo(text)

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from twintube.cli.base import app
+from twintube.cli.outputs import keep_other
 from twintube.dampers import load
 from twintube.files import write_text
 
@@ -26,5 +27,6 @@ def explore(
     if output.is_dir():
         raise IsADirectoryError(f"{output}: is a folder, must be a file")
     text = page([load(file) for file in parameters or []], lambda said: typer.echo(said, err=True))
+    keep_other(output, text.encode())
     write_text(output, text)
     typer.echo(f"{output}: {len(text.encode()) // 1000} kB; open it in a browser")

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from twintube.cli.base import AS_PUBLISHED, app
+from twintube.cli.outputs import keep_other, refuse_other
 from twintube.dampers import Damper, load
 from twintube.dampers.freed_gas import acting
 from twintube.files import write_text
@@ -49,6 +50,10 @@ def fmu(
     The first build for Windows compiles the runtime too and takes a minute or two; later ones take seconds.
     """
     from twintube.fmu import BuildError, build_fmu
+    from twintube.fmu.archive import start_values
+    from twintube.fmu.assemble import target_file
+    from twintube.fmu.description import model_name
+    from twintube.fmu.table import variables
 
     began = time.monotonic()
 
@@ -60,7 +65,10 @@ def fmu(
     if platform and kind == "python":
         raise BuildError(f"--platform {platform[0]}: only for the native kind; the Python kind runs on linux64 and win64")
     chosen = start_state(load(parameters or damper or "SA8", as_published=published), oil_level, gas_lost)
-    built = build_fmu(chosen, output, kind, platform or tuple(PLATFORMS), progress)
+    target = target_file(output, model_name(chosen))
+    if target != output:
+        refuse_other(target, same=start_values(target) == {v.name: v.start for v in variables(chosen)})
+    built = build_fmu(chosen, target, kind, platform or tuple(PLATFORMS), progress)
     typer.echo(
         f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI 2.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"
@@ -80,5 +88,7 @@ def ssv(
     from twintube.fmu.ssv import to_ssv
 
     chosen = start_state(load(damper, as_published=published), oil_level, gas_lost)
-    write_text(output, to_ssv(chosen))
+    text = to_ssv(chosen)
+    keep_other(output, text.encode())
+    write_text(output, text)
     typer.echo(f"{output}: parameters of {printable(chosen.name)}, {printable(chosen.title)}")

@@ -9,6 +9,7 @@ from tqdm import tqdm
 
 from twintube import dampers
 from twintube.cli.base import app
+from twintube.cli.outputs import check_folder, mark_folder, of_options
 from twintube.files import write_text
 
 
@@ -42,6 +43,8 @@ def inspect(
     from twintube.report.inspection import Inspection, summary, terminal, write_report
     from twintube.vehicle.cars import load_car
 
+    if output is not None:
+        check_folder(output, ("report.html",), of_options())
     if scatter:
         check_count(scatter)
     wanted = tuple(dict.fromkeys(method(name).name for name in methods or METHODS))
@@ -70,4 +73,5 @@ def inspect(
     typer.echo(terminal(result))
     if output is not None:
         files = write_report(result, output)
+        mark_folder(output, of_options())
         typer.echo(f"{output}: {', '.join(file.name for file in files)}")

@@ -9,6 +9,7 @@ import typer
 from tqdm import tqdm
 
 from twintube.cli.base import app
+from twintube.cli.outputs import check_folder, mark_folder, named, of_options, refuse_other
 from twintube.engine.simulate import InputError
 from twintube.files import write_text
 from twintube.words import counted
@@ -47,6 +48,8 @@ def study(
     from twintube import studies
 
     loaded = studies.load(definition)
+    if not named():
+        refuse_other(output, same=studies.definition_of(output) == loaded.text)
     rows = studies.run(loaded, output, processes=processes, cluster=cluster)
     typer.echo(f"{output}: {rows} rows of {len(loaded)} cases, {loaded.title}")
 
@@ -74,9 +77,12 @@ def identify(
     if method not in METHODS:
         raise InputError(f"--method {method}: must be one of {', '.join(METHODS)}")
     read = load_dataset(dataset)
+    made_from = {"command": "identify", "dataset": str(dataset.resolve())}
+    check_folder(output, ("identification.json", "journal"), made_from)
     budget = QUICK if quick else PAPER
     journal = output / "journal"
     journal.mkdir(parents=True, exist_ok=True)
+    mark_folder(output, made_from)
     with tqdm(total=budget.generations, unit="generation", leave=False) as bar:
 
         def progress(title: str, error: float) -> None:
@@ -122,7 +128,9 @@ def reproduce(
     """
     from twintube.report.reproduce import reproduce as run
 
+    check_folder(output, ("reproduce.json",), of_options())
     report = run(output, figures=figure, quick=not paper_budget, processes=processes, report=typer.echo)
+    mark_folder(output, of_options())
     typer.echo(f"{report.page}: {len(report.pictures)} figures")
 
 
@@ -150,9 +158,11 @@ def diagnose(
     from twintube.report.engineering import in_words
 
     accepted = share_of(tolerance, RULES.most_tolerance, "--tolerance")
+    made_from = {"command": "diagnose", "dataset": str(dataset.resolve())}
+    check_folder(output, ("diagnosis.json",), made_from)
     with tqdm(bar_format="{elapsed}  {desc}", leave=False) as bar:
         result = run(dataset, lambda text: bar.set_description_str(in_words(text)), tolerance=accepted)
-    output.mkdir(parents=True, exist_ok=True)
+    mark_folder(output, made_from)
     extended = output / "extended.toml"
     if has_extension(result):
         write_text(extended, to_toml(result.extended))

@@ -13,6 +13,7 @@ from tqdm import tqdm
 
 from twintube import dampers
 from twintube.cli.base import AS_PUBLISHED, app
+from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
 from twintube.core.checks import VELOCITY
 from twintube.core.effects import Parameters
 from twintube.core.variables import Inputs, Outputs, fmi_name
@@ -27,6 +28,10 @@ if TYPE_CHECKING:
 
 SLOWEST, FASTEST = 0.001, VELOCITY["upper"]  # maximum velocity of a block [m/s]
 SMALLEST, LARGEST = 0.1, 500.0  # its amplitude [mm]
+FOR_FMU = Annotated[
+    bool, typer.Option("--for-fmu", help="Columns as the FMU names them, in SI units: for fmpy simulate --input-file.")
+]
+FMU_NAMES = {item.name: fmi_name(item) for item in fields(Outputs)}
 LONGEST = 30.0  # period [s] of a block: a million samples
 
 
@@ -65,6 +70,7 @@ def simulate(
         typer.Option("--gas-lost/--gas-present", help="Whether the gas preload is lost; present if nothing says it."),
     ] = None,
     published: AS_PUBLISHED = False,
+    for_fmu: FOR_FMU = False,
     output: Annotated[Path, typer.Option(help="CSV file for the result.")] = Path("simulation.csv"),
     plot: Annotated[
         Path | None, typer.Option(help="PNG file for a picture: stroke, force over stroke and velocity.")
@@ -107,8 +113,12 @@ def simulate(
     if motion.force is not None:
         head.append("measured_force [N]")
         columns.append(motion.force)
+    if for_fmu:
+        head = [FMU_NAMES.get(name, name) for name in (title.partition(" ")[0] for title in head)]
     lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-    write_text(output, "\n".join(lines) + "\n")
+    text = "\n".join(lines) + "\n"
+    keep_other(output, text.encode())
+    write_text(output, text)
     typer.echo(
         f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
         f"force from {result.force.min():.0f} to {result.force.max():.0f} N; freed gas: {acting(chosen)}"
@@ -153,18 +163,22 @@ def rig(
     recovery: Annotated[
         bool, typer.Option("--recovery", help="The plan that decides what becomes of gas that cavitation frees.")
     ] = False,
+    for_fmu: FOR_FMU = False,
 ) -> None:
     """Write the excitations of the paper's measurement plan (Table 3) for a damper."""
     from twintube.rig.plan import RECOVERY_LEVELS, REST, recovery_plan
     from twintube.vehicle.plan import plan
 
     chosen = dampers.load(damper)
+    check_folder(output, ("plan.json",), of_options())
+    mark_folder(output, of_options())
     listed = []
     wanted = recovery_plan(chosen) if recovery else plan(chosen, seed)
     for m in tqdm(list(wanted), unit="signal", leave=False):
         name = f"{m.number:02}_{re.sub(r'[^a-z0-9.]+', '_', m.name.lower()).strip('_')}.csv"
-        table = np.column_stack([m.signal.time, m.signal.stroke * 1e3, m.signal.velocity * 1e3])
-        lines = ["time [s],stroke [mm],velocity [mm/s]"] + [f"{t:.6g},{z:.6g},{v:.6g}" for t, z, v in table]
+        scale, head = (1.0, "time,stroke,velocity") if for_fmu else (1e3, "time [s],stroke [mm],velocity [mm/s]")
+        table = np.column_stack([m.signal.time, m.signal.stroke * scale, m.signal.velocity * scale])
+        lines = [head] + [f"{t:.9g},{z:.9g},{v:.9g}" for t, z, v in table]
         write_text(output / name, "\n".join(lines) + "\n")
         start, end = (float(m.signal.time[m.signal.marks[i]]) for i in (0, -1))
         listed.append({"number": m.number, "name": m.name, "measurement": m.kind, "file": name,

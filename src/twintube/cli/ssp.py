@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from twintube.cli.base import AS_PUBLISHED, app
+from twintube.cli.outputs import named, refuse_other
 from twintube.dampers import Damper, load
 from twintube.fmu.platforms import PLATFORMS
 
@@ -51,12 +52,14 @@ def ssp(
 
     A simulator that knows SSP runs it; road and driver are inputs of the car. The dampers are not preconditioned.
     """
-    from twintube.fmu.ssp import build_ssp
+    from twintube.fmu.ssp import build_ssp, described, members
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.maneuvers import checked_speed
     from twintube.vehicle.full.run import full_car
 
     whole = full_car(load_car(car_file), four(front, rear, worn, oil_level, published))
+    if not named():
+        refuse_other(output, same=members(output) == described(whole, checked_speed(speed)))
     built = build_ssp(whole, checked_speed(speed), output, platform or tuple(PLATFORMS), progress())
     typer.echo(
         f"{built}: {whole.name} with {front} and {rear}, {worn} at {oil_level:.0%} oil; {built.stat().st_size // 1024} kB"
@@ -78,8 +81,15 @@ def container(
 
     It needs the FMU Manipulation Toolbox, which also brings the container's libraries.
     """
-    from twintube.fmu.container import PLATFORMS, build_container
+    from twintube.fmu.archive import start_values
+    from twintube.fmu.assemble import XML, target_file
+    from twintube.fmu.container import NAME, PLATFORMS, build_container
+    from twintube.fmu.table import variables
 
     dampers = four(front, rear, worn, oil_level, published)
-    built = build_container(dampers, output, step_ms / 1e3, platform or PLATFORMS, progress())
+    target = target_file(output, NAME)
+    if target != output:
+        inside = [start_values(target, f"resources/{i:02}/{XML}") for i in range(len(dampers))]
+        refuse_other(target, same=inside == [{v.name: v.start for v in variables(damper)} for damper in dampers])
+    built = build_container(dampers, target, step_ms / 1e3, platform or PLATFORMS, progress())
     typer.echo(f"{built}: {front} and {rear}, {worn} at {oil_level:.0%} oil; {built.stat().st_size // 1024} kB")

@@ -13,7 +13,7 @@ from tqdm import tqdm
 from twintube.core import effects
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
-from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, SCALAR, WAYS, acting
+from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, SCALAR, WAYS, acting, as_published
 from twintube.demo.bands import SPEEDS, Rides, Setting, bands, everything
 from twintube.demo.moments import SPAN, Moment, moments
 from twintube.demo.ride import Ride, RideCase, ride
@@ -35,7 +35,8 @@ WIDTHS = (5, 7, 6, 13, 13, 7, 10, 6, 6, 10, 9)  # of the table's columns
 
 
 def strengths(damper: Damper) -> tuple[str, ...]:
-    """The FMU's names of the strengths of the damper's effects."""
+    """The FMU's names of the strengths of the damper's effects, the default for freed gas aside."""
+    damper = as_published(damper)
     table = {item.name: item for item in fields(effects.Parameters)}
     return tuple(fmi_name(table[name]) for name in effects.neutral(damper.parameters))
 
@@ -174,7 +175,7 @@ def summary(
         "damper": damper.name,
         "axle": axle(damper),
         "freed_gas": acting(damper),
-        "effects": list(effects.active(damper.parameters)),
+        "effects": list(effects.active(as_published(damper).parameters)),
         "car": {"name": car.name, "title": car.title, "band": car.band, "assumed": dict(car.assumed)},
         "assumed": dict(damper.assumed) | {"freed_gas": "; ".join(f"{c.name}: {c.says}" for c in WAYS.values())},
         "road": road_figures(rides.seconds * max(SPEEDS) / 3.6, seed),

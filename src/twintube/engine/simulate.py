@@ -91,7 +91,8 @@ def checked_time(damper: Damper, time: ArrayLike | None, size: int) -> Array:
         needing = effects.needing_time(damper.parameters)
         if needing:
             raise InputError(
-                f"a record without time, but {', '.join(needing)} of {damper.name} acts with time: give the times of the samples"
+                f"a record without time, but {', '.join(needing)} of {damper.name} acts with time: "
+                "give the times of the samples"
             )
         return np.zeros(size)
     t = np.array(time, dtype=float, order="C")

@@ -6,9 +6,11 @@ import zipfile
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 MODE = stat.S_IFREG | 0o644
 UNIX = 3  # the system that the mode belongs to
+XML = "modelDescription.xml"
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the first time that a zip file can hold
 
 
@@ -25,6 +27,17 @@ def build_date() -> str:
         return f"{datetime.fromtimestamp(int(text), UTC):%Y-%m-%dT%H:%M:%SZ}"
     except (ValueError, OverflowError, OSError):
         raise DateError(f"SOURCE_DATE_EPOCH = {text}: must be a whole number of seconds since 1970") from None
+
+
+def start_values(path: Path, description: str = XML) -> dict[str, float | None]:
+    """Start values of all variables of an FMU by name, None where one has none; empty where the file is no FMU."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            root = ET.fromstring(archive.read(description))
+        starts = {v.get("name", ""): v[0].get("start") for v in root.iterfind("ModelVariables/ScalarVariable")}
+        return {name: None if start is None else float(start) for name, start in starts.items()}
+    except (OSError, KeyError, IndexError, ValueError, zipfile.BadZipFile, ET.ParseError):
+        return {}
 
 
 def write(path: Path, content: Mapping[str, bytes]) -> None:

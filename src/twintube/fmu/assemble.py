@@ -19,7 +19,7 @@ from twintube.fmu.model import Model
 from twintube.fmu.platforms import PLATFORMS, Kind, PlatformError, known
 
 Progress = Callable[[str], None]
-XML = "modelDescription.xml"
+XML = archive.XML
 REFUSALS = (binaries.CompilerError, StaleTranslationError, PlatformError, licences.LicenceError, archive.DateError)
 
 

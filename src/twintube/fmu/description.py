@@ -9,6 +9,7 @@ from xml.etree import ElementTree as ET
 from twintube import __version__
 from twintube.core.units import DISPLAY, UNITS
 from twintube.dampers import Damper
+from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, own_values, way_of
 from twintube.fmu.equations import DAMPER
 from twintube.fmu.model import Model
 from twintube.fmu.table import Variable, variables
@@ -28,8 +29,19 @@ LONGEST = 48  # characters of an identifier: Simulink's names end at 63
 
 
 def model_name(damper: Damper) -> str:
-    """The model's name and identifier; also a file name."""
-    return identifier(PREFIX, damper.name)
+    """The model's name and identifier; also a file name. It tells the states of a damper apart.
+
+    An oil level below 1, a lost preload and another way of the freed gas than the default follow the damper's name.
+    """
+    p, way = damper.parameters, way_of(own_values(damper))
+    state = [damper.name]
+    if p.oil_level < 1.0:
+        state.append(f"oil_{100.0 * p.oil_level:g}")
+    if not p.gas_preload:
+        state.append("no_gas")
+    if way not in (None, DEFAULT):
+        state.append("as_published" if way == AS_PUBLISHED else f"gas_{way}")
+    return identifier(PREFIX, "_".join(state))
 
 
 def identifier(prefix: str, text: str) -> str:

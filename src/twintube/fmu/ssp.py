@@ -1,6 +1,7 @@
 """The whole car as an SSP 1.0 file: the car's FMU, four damper FMUs, their connections and parameters."""
 
 import tempfile
+import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -94,6 +95,20 @@ def parameters(car: FullCar, speed: float) -> dict[str, bytes]:
     return {f"resources/{name}.ssv": text.encode() for name, text in texts.items()}
 
 
+def described(car: FullCar, speed: float) -> dict[str, bytes]:
+    """The files by their path that say what is in the SSP: system and parameters."""
+    return {"SystemStructure.ssd": structure(car, speed), **parameters(car, speed)}
+
+
+def members(path: Path) -> dict[str, bytes]:
+    """The files of an SSP that `described` gives; empty where it is none."""
+    try:
+        with zipfile.ZipFile(path) as packed:
+            return {name: packed.read(name) for name in packed.namelist() if name.endswith((".ssd", ".ssv"))}
+    except (OSError, zipfile.BadZipFile):
+        return {}
+
+
 def build_ssp(
     car: FullCar,
     speed: float,
@@ -108,7 +123,7 @@ def build_ssp(
     target = Path(output)
     if target.is_dir() or target.suffix.lower() != ".ssp":
         raise BuildError(f"output = {target}: must be a file that ends with .ssp")
-    content = {"SystemStructure.ssd": structure(car, speed), **parameters(car, speed)}
+    content = described(car, speed)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         progress("the car")

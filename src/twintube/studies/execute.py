@@ -195,6 +195,16 @@ def schema(study: Study) -> pa.Schema:
     return pa.schema(columns, metadata=about)
 
 
+def definition_of(output: Path) -> str | None:
+    """The definition of the study that a file is the result of; None where it is none."""
+    try:
+        about = pq.read_schema(output).metadata or {}
+    except (OSError, pa.ArrowException):
+        return None
+    text: bytes | None = about.get(b"twintube.study")
+    return None if text is None else text.decode()
+
+
 def column(name: str, kind: pa.DataType, unit: str) -> pa.Field:
     """A column that carries its unit."""
     return pa.field(name, kind, metadata={"unit": unit})

@@ -201,7 +201,7 @@ def damper_of(damper: Damper, fit: Fit, names: Sequence[str], known: Mapping[str
             acting += [name] if own else []
     origin = {name: "added by diagnosis" for name in acting if name in effects.EFFECTS}
     origin |= {group: "recalibrated by diagnosis" for group in ("degradation", "foam", "cavitation") if RECALIBRATE in names}
-    changed = damper.with_(**changes) if changes else damper
+    changed = replace(damper.with_(**changes), name=f"{damper.name}-extended") if changes else damper
     return replace(changed, sources=dict(damper.sources) | origin)
 
 
