@@ -16,7 +16,7 @@ last = slice(block.marks[-2], block.marks[-1] + 1)
 figure, (over_stroke, over_velocity) = plt.subplots(1, 2, figsize=(9, 4), sharey=True)
 for oil_level, preload in ((1.0, 1), (0.8, 0), (0.6, 0), (0.5, 0), (0.4, 0), (0.3, 0)):
     worn = damper.with_(oil_level=oil_level, gas_preload=preload)
-    force = simulate(worn, block.stroke, block.velocity).force[last]
+    force = simulate(worn, block.stroke, block.velocity, block.time).force[last]
     label = "intact" if preload else f"{oil_level:.0%} oil"
     over_stroke.plot(1e3 * block.stroke[last], force, label=label, color=plt.cm.inferno(0.9 * (1 - oil_level)))
     over_velocity.plot(block.velocity[last], force, color=plt.cm.inferno(0.9 * (1 - oil_level)))

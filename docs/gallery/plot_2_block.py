@@ -13,7 +13,7 @@ from twintube import harmonic_block, load, simulate
 
 damper, block = load("SA8"), harmonic_block(velocity=1.048)
 worn = simulate(damper.with_(oil_level=0.6, gas_preload=0), block.stroke, block.velocity)
-intact = simulate(damper, block.stroke, block.velocity)
+intact = simulate(damper, block.stroke, block.velocity, block.time)
 
 measured = slice(block.marks[0], block.marks[-1] + 1)
 time = block.time[measured] - block.time[block.marks[0]]

@@ -1,6 +1,7 @@
 """The module computes the numbers of the native FMU, and its quarter car those of the package."""
 
 import ctypes
+from collections.abc import Sequence
 from dataclasses import astuple
 from pathlib import Path
 from typing import Any
@@ -86,17 +87,20 @@ class Native:
 
         return loop
 
-    def record(self, damper: Damper, time: Array, stroke: Array, velocity: Array) -> Array:
+    def record(
+        self, damper: Damper | None, time: Array, stroke: Array, velocity: Array, wanted: Sequence[int] = OUTPUTS
+    ) -> Array:
+        """The wanted outputs; without a damper, of the one that was built in."""
         self.slave.reset()
-        reals, integers = parameters(damper)
+        reals, integers = parameters(damper) if damper is not None else ({}, {})
         self.slave.setReal([*reals, 0], [*reals.values(), float(stroke[0])])
         self.slave.setInteger(list(integers), list(integers.values()))
         self.slave.setupExperiment(startTime=float(time[0]))
         self.slave.enterInitializationMode()
         self.slave.exitInitializationMode()
-        out = np.zeros((len(OUTPUTS), len(time)))
+        out = np.zeros((len(wanted), len(time)))
         signal = [np.array(values) for values in (time, stroke, velocity)]
-        assert self.loop(self.slave.component, *signal, np.array(OUTPUTS, np.uint32), out) <= 1
+        assert self.loop(self.slave.component, *signal, np.array(wanted, np.uint32), out) <= 1
         return out
 
 

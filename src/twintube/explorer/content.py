@@ -14,7 +14,7 @@ from twintube.core.checks import tube_limit
 from twintube.core.effects import EFFECTS, Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper, load, names
-from twintube.dampers.freed_gas import DEFAULT, WAYS, has_own
+from twintube.dampers.freed_gas import DEFAULT, WAYS, has_own, values_of
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM, scalar_factor
 from twintube.fmu.table import variables
 from twintube.rig.plan import BLOCKS_17, amplitude
@@ -76,7 +76,7 @@ def common() -> dict[str, Any]:
         "names": [v.name for v in table],
         "integers": [v.name for v in table if v.integer],
         "parameters": [v.name for v in table if v.causality == "parameter"],
-        "ways": {name: {"says": item.says, "parameters": named(item.parameters)} for name, item in WAYS.items()},
+        "ways": {name: {"says": item.says, "parameters": named(values_of(name))} for name, item in WAYS.items()},
         "freedGas": DEFAULT,
         "noFoam": named(NO_FOAM),
         "noCavitation": named(NO_CAVITATION),
