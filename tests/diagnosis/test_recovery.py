@@ -1,4 +1,4 @@
-"""What becomes of freed gas: long blocks with a rest tell the closures apart, and by more than the usual blocks do."""
+"""What becomes of freed gas: long blocks with a rest tell its ways apart, and by more than the usual blocks do."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +15,7 @@ V_RECOVERY, SECONDS = 1.08, 10.0  # [m/s], [s] of the long blocks: the recovery 
 
 
 def measured(kind: str, seed: int, recovery: bool) -> Trial:
-    """Records of SA8 with a closure hidden, down to 56 % oil: blocks, and the recovery records that tell most or none."""
+    """Records of SA8 with a way of the freed gas hidden, down to 56 % oil: blocks, and the recovery records that tell most or none."""
     hidden = trial(kind, seed, blocks=BLOCKS, recover=(V_RECOVERY,) if recovery else (), seconds=SECONDS)
 
     def kept(file: str, level: float) -> bool:
@@ -31,14 +31,14 @@ def measured(kind: str, seed: int, recovery: bool) -> Trial:
 
 
 def rival(answer: Diagnosis, kind: str) -> float:
-    """Held-out gain of the best other closure in the first round, relative to that of the hidden one."""
+    """Held-out gain of the best other way in the first round, relative to that of the hidden one."""
     gains = {t.effect: t.heldout_gain for t in answer.tried if t.round == 1 and t.effect in GAS}
     return max((gain for name, gain in gains.items() if name != kind), default=0.0) / gains[kind]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", GAS)
-def test_recovery_records_name_the_hidden_closure(kind: str, tmp_path: Path) -> None:
+def test_recovery_records_name_the_hidden_way(kind: str, tmp_path: Path) -> None:
     answer = diagnose(write(measured(kind, 701, True), tmp_path))
     assert (answer.verdict, [cause.effect for cause in answer.causes]) == ("cause", [kind])
     assert effects.active(answer.extended.parameters) == (kind,)
@@ -47,8 +47,8 @@ def test_recovery_records_name_the_hidden_closure(kind: str, tmp_path: Path) -> 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["oil_displacement", "gas_exhaustion"])
-def test_recovery_records_set_the_closures_further_apart_than_blocks(kind: str, tmp_path: Path) -> None:
-    """Where all other numbers of the damper are known, blocks alone name the closure too; a rival explains more of them."""
+def test_recovery_records_set_the_ways_further_apart_than_blocks(kind: str, tmp_path: Path) -> None:
+    """Where all other numbers of the damper are known, blocks alone name the way too; a rival explains more of them."""
     alone, together = (
         diagnose(write(measured(kind, 701, recovery), tmp_path / str(recovery))) for recovery in (False, True)
     )

@@ -11,8 +11,9 @@ from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from twintube.core.kernel import fill, prepare, step
-from twintube.core.variables import Derived, Flow, State, blank
+from twintube.core.effects import State
+from twintube.core.model import advance, set_up, start
+from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import load
 from twintube.demo.damper_fmu import DamperFmu, FmuError
 from twintube.engine.simulate import simulate
@@ -26,16 +27,16 @@ def motion(i: int, dt: float) -> tuple[float, float]:
 
 
 def in_process(name: str, steps: int, dt: float, **changes: Any) -> list[float]:
-    """The interpreted kernel stepped as the FMU steps it."""
+    """The interpreted equations stepped as the FMU steps it."""
     p = load(name).with_(**changes).parameters
     d, s, f = blank(Derived), blank(State), blank(Flow)
-    prepare(p, d)
-    fill(p, d, s, 0.0)
-    step(p, d, s, f, 0.0, 0.0, 0.0)
+    set_up(p, d)
+    start(p, d, s, 0.0)
+    advance(p, d, s, f, 0.0, 0.0, 0.0, 0.0)
     forces = []
     for i in range(steps):
         z, v = motion(i, dt)
-        step(p, d, s, f, z + v * dt, v, v)
+        advance(p, d, s, f, z + v * dt, v, v, dt)
         forces.append(s.F_fluid + s.F_friction + s.F_gas)
     return forces
 
@@ -63,7 +64,8 @@ def test_force_converges_to_the_kernel_with_the_communication_step(sa8_fmu: Path
     """Inputs held over the step: an error of first order against a finely sampled record."""
     seconds, fine = 0.6, 2e-5
     reference_motion = np.array([motion(i, fine) for i in range(round(seconds / fine) + 1)])
-    exact = simulate(load("SA8").with_(oil_level=0.8, gas_preload=0), reference_motion[:, 0], reference_motion[:, 1])
+    times = fine * np.arange(len(reference_motion))
+    exact = simulate(load("SA8").with_(oil_level=0.8, gas_preload=0), *reference_motion.T, times)
     errors = []
     for dt in (4e-3, 2e-3, 1e-3, 5e-4):
         with DamperFmu(sa8_fmu, oil_level=0.8, gas_preload=0) as damper:

@@ -23,7 +23,7 @@ from twintube.core.hooks import sources
 
 assert twintube.__file__.startswith(COPY), twintube.__file__
 (name,) = set(sources()) - set(OLD)
-plain = load("SA8")
+plain = load("SA8", as_published=True)
 damper = plain.with_(groove_share=0.5)
 assert active(damper.parameters) == (name,)
 """

@@ -27,7 +27,7 @@ def test_parameters_are_frozen_and_their_curves_too() -> None:
 
 def test_blocks_and_results_are_read_only() -> None:
     block = harmonic_block(1.048)
-    result = simulate(load("SA8"), block.stroke, block.velocity)
+    result = simulate(load("SA8"), block.stroke, block.velocity, block.time)
     for record in (block, result):
         arrays = arrays_of(record)
         assert len(arrays) >= 4
@@ -40,6 +40,6 @@ def test_blocks_and_results_are_read_only() -> None:
 
 def test_the_caller_s_own_arrays_stay_his() -> None:
     stroke, velocity = np.zeros(3), np.zeros(3)
-    result = simulate(load("SA8"), stroke, velocity)
+    result = simulate(load("SA8", as_published=True), stroke, velocity)
     stroke[0] = 1.0
     assert result.stroke[0] == 0.0

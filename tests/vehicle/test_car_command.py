@@ -46,7 +46,7 @@ def test_figures_page_and_table_of_an_inspection(tmp_path: Path) -> None:
 
 
 def test_the_ten_drives_of_table_3(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("twintube.vehicle.full.study.READINGS", (DEFAULT,))
+    monkeypatch.setattr("twintube.vehicle.full.study.VARIED", (DEFAULT,))
     file = tmp_path / "car.json"
     run = CliRunner().invoke(
         app,
