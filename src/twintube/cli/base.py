@@ -1,5 +1,6 @@
 """What all commands share: the application, and answers to bad input."""
 
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,7 +12,7 @@ from typer.models import CommandFunctionType
 
 from twintube import __version__
 from twintube.engine.simulate import InputError
-from twintube.errors import UserError
+from twintube.errors import InputWarning, UserError
 from twintube.extras import missing
 from twintube.words import printable
 
@@ -38,6 +39,25 @@ def answering() -> Iterator[None]:
         raise typer.Exit(2) from None
 
 
+@contextmanager
+def warning() -> Iterator[None]:
+    """Every warning about the input is one line on standard error, said once; others are shown as Python does."""
+    said: set[str] = set()
+
+    def show(message: Warning | str, category: type[Warning], *rest: Any, **options: Any) -> None:
+        if not issubclass(category, InputWarning):
+            usual(message, category, *rest, **options)
+        elif str(message) not in said:
+            said.add(str(message))
+            typer.echo(printable(f"warning: {message}"), err=True)
+
+    with warnings.catch_warnings():
+        usual = warnings.showwarning
+        warnings.simplefilter("always", InputWarning)
+        warnings.showwarning = show
+        yield
+
+
 def check_place(path: Path) -> None:
     """Raise InputError unless the folder of an output exists, or can be made in a folder that does."""
     folder = path.absolute().parent
@@ -53,7 +73,7 @@ class Command(TyperCommand):
 
     def invoke(self, ctx: Any) -> Any:
         """Run it."""
-        with answering():
+        with answering(), warning():
             for name in OUTPUTS:
                 if isinstance(path := ctx.params.get(name), Path):
                     check_place(path)
