@@ -11,6 +11,7 @@ from typer.core import TyperCommand
 from typer.models import CommandFunctionType
 
 from twintube import __version__
+from twintube.caches import lend
 from twintube.engine.simulate import InputError
 from twintube.errors import InputWarning, UserError
 from twintube.extras import missing
@@ -74,6 +75,7 @@ class Command(TyperCommand):
     def invoke(self, ctx: Any) -> Any:
         """Run it."""
         with answering(), warning():
+            lend()
             for name in OUTPUTS:
                 if isinstance(path := ctx.params.get(name), Path):
                     check_place(path)
