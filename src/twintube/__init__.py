@@ -49,3 +49,6 @@ if not TYPE_CHECKING:
             if name in names:
                 return getattr(import_module(home), name)
         raise AttributeError(f"module 'twintube' has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        return sorted(__all__)

@@ -31,6 +31,8 @@ def answering() -> Iterator[None]:
             raise
         typer.echo(f"error: {missing(error)}", err=True)
         raise typer.Exit(2) from None
+    except BrokenPipeError:  # the reader has what it wanted, as in `twintube dampers | head -1`: ended without a word
+        raise
     except OSError as error:
         place = f"{error.filename}: " if error.strerror and error.filename else ""
         typer.echo(printable(f"error: {place}{error.strerror or error}"), err=True)

@@ -34,11 +34,17 @@ def names() -> list[str]:
     return sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
-def load(damper: str | Path) -> Damper:
-    """A named damper (`"SA8"`) or a parameter file; raises ParameterError.
+def load(damper: str | Path | Damper) -> Damper:
+    """A named damper (`"SA8"`) or a parameter file; a damper is returned as it is. Raises ParameterError.
 
     Values that are possible but hardly meant, such as forces in kN that are said to be in N, are an InputWarning.
     """
+    if isinstance(damper, Damper):
+        return damper
+    if not isinstance(damper, (str, Path)):
+        raise ParameterError(
+            f"damper is a {type(damper).__name__}: must be a Damper, a name, or the path of a parameter file"
+        )
     content, text, file = read_named(damper, FOLDER, "damper")
     loaded = from_content(content, text, file)
     for doubt in doubts(loaded.parameters):
