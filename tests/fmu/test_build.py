@@ -28,9 +28,9 @@ LS = "{http://fmi-standard.org/fmi-ls-manifest}"
 
 
 @pytest.fixture
-def no_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def no_cache(monkeypatch: pytest.MonkeyPatch) -> None:
     """Everything is compiled."""
-    monkeypatch.setattr(library_cache, "folder", lambda: None)
+    monkeypatch.setattr(library_cache, "stored", lambda key: None)
 
 
 def files(fmu: Path) -> dict[str, bytes]:
