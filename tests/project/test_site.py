@@ -9,6 +9,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
@@ -21,6 +22,7 @@ import typer
 from tests.project.test_docs_examples import PAGES, ROOT, blocks
 from tests.project.test_traceability import tags as tags_of_files
 from twintube.cli import app
+from twintube.extras import extra_of
 
 DOCS = ROOT / "docs"
 GALLERY = sorted((DOCS / "gallery").glob("*.py"))
@@ -145,6 +147,17 @@ def modules_named() -> set[tuple[str, str]]:
 @pytest.mark.parametrize(("page", "name"), sorted(modules_named()))
 def test_modules_that_pages_name_exist(page: str, name: str) -> None:
     resolved(name)
+
+
+def test_the_extra_for_the_documentation_brings_what_modules_import() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    brought = re.findall(r"\w+", project["optional-dependencies"]["docs"][0])
+    for path in (ROOT / "src" / "twintube").rglob("*.py"):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            names = [item.name for item in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
+            for name in names:
+                assert extra_of(name) in (None, *brought), f"{path.name}: {name}"
 
 
 def test_the_interface_page_names_what_exists_and_is_documented() -> None:
