@@ -103,7 +103,7 @@ def test_twenty_points_and_zero_are_read(tmp_path: Path) -> None:
         ([[0, 35], *REBOUND], r"fv\.rebound: point 1 = \[0, 35 N\]: at velocity 0 the force must be 0 N"),
         ([[0, 0], [0, 0], *REBOUND], r"fv\.rebound: velocity 1 = 0 m/s must be above 0 m/s \(counted without \[0, 0\]\)"),
         ([[0, 0], [0.2, 500], [0.1, 900]], r"velocity 2 = 0\.1 m/s must be above .* \(counted without \[0, 0\]\)"),
-        ([[-0.05, -200], [0, 0], [0.05, 200]], r"fv\.rebound: velocity 1 = -0\.05 m/s must be above 0 m/s;"),
+        ([[-0.05, -200], [0, 0], [0.05, 200]], r"fv\.rebound: point 1 = \[-0\.05 m/s, -200 N\]: must not be negative"),
     ],
 )
 def test_other_points_at_rest_are_refused(tmp_path: Path, rebound: object, message: str) -> None:

@@ -46,12 +46,18 @@ def is_pair(row: Any) -> bool:
 
 
 def misplaced(branch: str, points: list[Point], unit: str) -> list[str]:
-    """Messages about a force at rest, and about the first velocity that no simulation reaches, which its unit explains."""
+    """Messages about a force at rest, a sign, and the first velocity that no simulation reaches, which its unit explains."""
     texts = []
     v, F = points[0]
     if v == 0.0 and F != 0.0:
         texts.append(
             f"fv.{branch}: point 1 = [0, {F:g} N]: at velocity 0 the force must be 0 N; such a point may be left out"
+        )
+    signed = next((number for number, (v, F) in enumerate(points, start=1) if v < 0.0 or F < 0.0), None)
+    if signed is not None:
+        v, F = points[signed - 1]
+        texts.append(
+            f"fv.{branch}: point {signed} = [{v:g} m/s, {F:g} N]: must not be negative, give both branches without sign"
         )
     for number, (v, _) in enumerate(points, start=1):
         if v > VELOCITY["upper"]:
