@@ -8,7 +8,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-import typer
+from command_table import known
 from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util import logging
@@ -19,11 +19,6 @@ from twintube.cli import app as cli
 
 EXPLORER = "explorer_page/explorer.html"
 LOG = logging.getLogger(__name__)
-
-
-def known() -> dict[str, Any]:
-    """The commands by name."""
-    return dict(sorted(typer.main.get_command(cli).commands.items()))  # type: ignore[attr-defined]
 
 
 def spelled(parameter: Any) -> str:

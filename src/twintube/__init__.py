@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from twintube.engine.simulate import InputError as InputError
     from twintube.engine.simulate import Simulation as Simulation
     from twintube.engine.simulate import simulate as simulate
+    from twintube.errors import InputWarning as InputWarning
     from twintube.fmu import BuildError as BuildError
     from twintube.fmu import build_fmu as build_fmu
     from twintube.identification import identify as identify
@@ -33,6 +34,7 @@ HOMES = {
     "twintube.dampers": ("Damper", "ParameterError", "load"),
     "twintube.diagnosis": ("diagnose",),
     "twintube.engine.simulate": ("InputError", "Simulation", "simulate"),
+    "twintube.errors": ("InputWarning",),
     "twintube.fmu": ("BuildError", "build_fmu"),
     "twintube.identification": ("identify",),
     "twintube.rig": ("Signal", "harmonic_block"),
@@ -49,3 +51,6 @@ if not TYPE_CHECKING:
             if name in names:
                 return getattr(import_module(home), name)
         raise AttributeError(f"module 'twintube' has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        return sorted(__all__)

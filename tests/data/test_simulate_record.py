@@ -30,7 +30,7 @@ def test_a_listed_record_needs_no_arguments(folder: Make, tmp_path: Path) -> Non
     arguments = ["simulate", "--record", str(path / "a.csv"), "--output", str(tmp_path / "out.csv")]
     run = RUNNER.invoke(app, [*arguments, "--plot", str(tmp_path / "out.png")])
     assert run.exit_code == 0, run.output
-    assert "as its dataset.toml says: SA7, 0.6 of the oil, gas lost" in run.output
+    assert "as its dataset.toml says: SA7, 60 % of the oil, gas lost" in run.output
     assert re.search(
         r"measured against simulated: 5\.0 N RMSE, \d\.\d% of the peak of \d+ N; .* mean is \+5\.0 N off", run.output
     )
@@ -40,7 +40,7 @@ def test_a_listed_record_needs_no_arguments(folder: Make, tmp_path: Path) -> Non
     assert (tmp_path / "out.csv").read_text(encoding="utf-8").splitlines()[0].endswith(",measured_force [N]")
     assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
     intact = RUNNER.invoke(app, [*arguments, "--oil-level", "1", "--gas-present"])
-    assert "SA7, 1 of the oil, gas present" in intact.output
+    assert "SA7, 100 % of the oil, gas present" in intact.output
 
 
 def test_what_it_needs_without_a_dataset(folder: Make) -> None:

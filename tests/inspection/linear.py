@@ -6,7 +6,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.dampers import Damper, load
-from twintube.dampers.toml import continued
+from twintube.dampers.curve import continued
 from twintube.inspection.plate import Plate
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.quarter_car import Car, static_load

@@ -9,6 +9,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
@@ -21,6 +22,7 @@ import typer
 from tests.project.test_docs_examples import PAGES, ROOT, blocks
 from tests.project.test_traceability import tags as tags_of_files
 from twintube.cli import app
+from twintube.extras import extra_of
 
 DOCS = ROOT / "docs"
 GALLERY = sorted((DOCS / "gallery").glob("*.py"))
@@ -54,13 +56,26 @@ def test_links_to_files_lead_somewhere() -> None:
             assert target in pages(), f"{page.name}: {target}"
 
 
-@pytest.fixture(scope="module")
-def tags() -> Any:
+def extension(name: str) -> Any:
+    """A module of the documentation that needs no Sphinx."""
     sys.path.insert(0, str(DOCS / "_ext"))
     try:
-        return importlib.import_module("tags")
+        return importlib.import_module(name)
     finally:
         sys.path.remove(str(DOCS / "_ext"))
+
+
+@pytest.fixture(scope="module")
+def tags() -> Any:
+    return extension("tags")
+
+
+def test_the_page_of_commands_has_the_table_of_the_program() -> None:
+    page = (DOCS / "commands.md").read_text(encoding="utf-8")
+    made = extension("command_table")
+    assert page == made.written(page), "run: python docs/_ext/command_table.py"
+    for name in made.known():
+        assert f"| `twintube {name} " in page, name
 
 
 def test_every_equation_is_on_the_page_of_the_model_and_leads_to_its_lines(tags: Any) -> None:
@@ -121,6 +136,28 @@ def resolved(name: str) -> Any:
             found = getattr(found, part)
         return found
     raise AssertionError(name)
+
+
+def modules_named() -> set[tuple[str, str]]:
+    """Dotted names of this package in the pages, with their page."""
+    named = re.compile(r"(?<![\w./-])twintube(?:\.[A-Za-z_]\w*)+")
+    return {(page.name, name) for page in PAGES for name in named.findall(page.read_text(encoding="utf-8"))}
+
+
+@pytest.mark.parametrize(("page", "name"), sorted(modules_named()))
+def test_modules_that_pages_name_exist(page: str, name: str) -> None:
+    resolved(name)
+
+
+def test_the_extra_for_the_documentation_brings_what_modules_import() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    brought = re.findall(r"\w+", project["optional-dependencies"]["docs"][0])
+    for path in (ROOT / "src" / "twintube").rglob("*.py"):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            names = [item.name for item in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
+            for name in names:
+                assert extra_of(name) in (None, *brought), f"{path.name}: {name}"
 
 
 def test_the_interface_page_names_what_exists_and_is_documented() -> None:

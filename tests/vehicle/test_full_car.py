@@ -8,7 +8,7 @@ import pytest
 
 from tests.vehicle import full_theory as theory
 from twintube.dampers import Damper, ParameterError, load
-from twintube.dampers.toml import continued
+from twintube.dampers.curve import continued
 from twintube.engine.simulate import InputError
 from twintube.vehicle import maneuvers as table3
 from twintube.vehicle.cars import FOLDER, load_car

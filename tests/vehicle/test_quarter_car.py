@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from twintube.dampers import Damper, ParameterError, load
-from twintube.dampers.toml import continued
+from twintube.dampers.curve import continued
 from twintube.demo.ride import Ride, RideCase, ride
 from twintube.fmu import build_fmu
 from twintube.vehicle import quarter_car

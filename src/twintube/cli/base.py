@@ -1,5 +1,6 @@
 """What all commands share: the application, and answers to bad input."""
 
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -11,8 +12,9 @@ from typer.core import TyperCommand
 from typer.models import CommandFunctionType
 
 from twintube import __version__
+from twintube.caches import lend
 from twintube.engine.simulate import InputError
-from twintube.errors import UserError
+from twintube.errors import InputWarning, UserError
 from twintube.extras import missing
 from twintube.words import printable
 
@@ -35,6 +37,8 @@ def answering() -> Iterator[None]:
             raise
         typer.echo(f"error: {missing(error)}", err=True)
         raise typer.Exit(2) from None
+    except BrokenPipeError:  # the reader has what it wanted, as in `twintube dampers | head -1`: ended without a word
+        raise
     except OSError as error:
         place = f"{error.filename}: " if error.strerror and error.filename else ""
         typer.echo(printable(f"error: {place}{error.strerror or error}"), err=True)
@@ -42,6 +46,25 @@ def answering() -> Iterator[None]:
     except UserError as error:
         typer.echo(printable(f"error: {error}"), err=True)
         raise typer.Exit(2) from None
+
+
+@contextmanager
+def warning() -> Iterator[None]:
+    """Every warning about the input is one line on standard error, said once; others are shown as Python does."""
+    said: set[str] = set()
+
+    def show(message: Warning | str, category: type[Warning], *rest: Any, **options: Any) -> None:
+        if not issubclass(category, InputWarning):
+            usual(message, category, *rest, **options)
+        elif str(message) not in said:
+            said.add(str(message))
+            typer.echo(printable(f"warning: {message}"), err=True)
+
+    with warnings.catch_warnings():
+        usual = warnings.showwarning
+        warnings.simplefilter("always", InputWarning)
+        warnings.showwarning = show
+        yield
 
 
 def check_place(path: Path) -> None:
@@ -60,7 +83,8 @@ class Command(TyperCommand):
     def invoke(self, ctx: Any) -> Any:
         """Run it."""
         RUNNING.set(ctx)
-        with answering():
+        with answering(), warning():
+            lend()
             for name in OUTPUTS:
                 if isinstance(path := ctx.params.get(name), Path):
                     check_place(path)

@@ -14,7 +14,6 @@ from tqdm import tqdm
 from twintube import dampers
 from twintube.cli.base import AS_PUBLISHED, app
 from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
-from twintube.core.checks import VELOCITY
 from twintube.core.effects import Parameters
 from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import ParameterError
@@ -26,13 +25,10 @@ from twintube.rig import signals
 if TYPE_CHECKING:
     from twintube.data.motion import Motion
 
-SLOWEST, FASTEST = 0.001, VELOCITY["upper"]  # maximum velocity of a block [m/s]
-SMALLEST, LARGEST = 0.1, 500.0  # its amplitude [mm]
 FOR_FMU = Annotated[
     bool, typer.Option("--for-fmu", help="Columns as the FMU names them, in SI units: for fmpy simulate --input-file.")
 ]
 FMU_NAMES = {item.name: fmi_name(item) for item in fields(Outputs)}
-LONGEST = 30.0  # period [s] of a block: a million samples
 
 
 @app.command("dampers", epilog="Example: twintube dampers SA8")
@@ -85,6 +81,8 @@ def simulate(
     from twintube.engine.simulate import simulate as run
     from twintube.engine.simulate import unit_of
 
+    if record is not None and not record.exists():
+        raise InputError(f"{record}: the file does not exist")
     entry = None if record is None else listed_record(record)
     if damper is None and entry is None:
         where = "" if record is None else f"no dataset.toml in the folder of {record} names it; "
@@ -98,7 +96,7 @@ def simulate(
         measured = entry[1]
         motion = Motion(measured.time, measured.stroke, measured.velocity, measured.force)
         usable = measured.usable
-        state = f"{level:.4g} of the oil, gas {'present' if preload else 'lost'}"
+        state = f"{100 * level:.4g} % of the oil, gas {'present' if preload else 'lost'}"
         typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}")
     else:
         motion = block_motion(velocity, amplitude_mm) if record is None else read_moved(record)
@@ -139,19 +137,8 @@ def simulate(
 def block_motion(velocity: float, amplitude_mm: float) -> "Motion":
     """A harmonic block with its preconditioning; raises InputError."""
     from twintube.data.motion import Motion
-    from twintube.rig.signals import harmonic_block
 
-    if not (SLOWEST <= velocity <= FASTEST and SMALLEST <= amplitude_mm <= LARGEST):
-        raise InputError(
-            f"velocity = {velocity:g} m/s, amplitude = {amplitude_mm:g} mm: "
-            f"must be from {SLOWEST:g} to {FASTEST:g} m/s, from {SMALLEST:g} to {LARGEST:g} mm"
-        )
-    period = 2 * math.pi * amplitude_mm * 1e-3 / velocity
-    if period > LONGEST:
-        raise InputError(
-            f"an oscillation of {amplitude_mm:g} mm at {velocity:g} m/s takes {period:.0f} s: at most {LONGEST:g} s"
-        )
-    signal = harmonic_block(velocity, amplitude_mm * 1e-3)
+    signal = signals.harmonic_block(velocity, amplitude_mm * 1e-3)
     return Motion(signal.time, signal.stroke, signal.velocity, None)
 
 

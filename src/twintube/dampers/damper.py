@@ -8,7 +8,9 @@ from typing import Any
 from twintube.core.checks import problems
 from twintube.core.effects import Parameters
 from twintube.core.variables import fmi_name
+from twintube.dampers.quantity import quantity
 from twintube.errors import UserError
+from twintube.words import shown
 
 MOST_MESSAGES = 20
 LONGEST_NAME = 60  # characters, of names that are compared
@@ -31,13 +33,24 @@ class Damper:
     measured_amplitude: float | None = None  # [m] of the harmonic measurements, where it is not 90 % of the maximum stroke
 
     def with_(self, **changes: Any) -> "Damper":
-        """The same damper with other parameters, e.g. `oil_level=0.4, gas_preload=0`; raises ParameterError."""
+        """The same damper with other parameters, e.g. `oil_level=0.4, gas_preload=0`; raises ParameterError.
+
+        Values are SI numbers or quantities such as `"60 %"` or `"29.8 mm"`.
+        """
         known = {item.name: item for item in fields(Parameters)}
         for name, value in changes.items():
             if name not in known:
                 raise ParameterError(f"{self.name}: unknown parameter {name}{suggestion(name, known)}")
-            if known[name].metadata["integer"] and not float(value).is_integer():
-                raise ParameterError(f"{self.name}: {fmi_name(known[name])} = {value:g}: must be an integer")
+            if known[name].metadata["size"] > 1:
+                continue
+            try:
+                changes[name] = number = quantity(value, known[name].metadata["unit"]) if isinstance(value, str) else value
+                whole = float(number).is_integer()
+            except (TypeError, ValueError) as error:
+                reason = error if isinstance(value, str) else f"{shown(value)} is not a number"
+                raise ParameterError(f"{self.name}: {fmi_name(known[name])}: {reason}") from error
+            if known[name].metadata["integer"] and not whole:
+                raise ParameterError(f"{self.name}: {fmi_name(known[name])} = {number:g}: must be an integer")
         changed = replace(self.parameters, **changes)
         refuse(self.name, explained(problems(changed), changed))
         return replace(self, parameters=changed)

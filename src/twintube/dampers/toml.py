@@ -1,6 +1,7 @@
 """Parameter sets in TOML: read, check, write. A named set is a file in this folder."""
 
 import re
+import warnings
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -11,16 +12,17 @@ import tomlkit
 from twintube.core import effects
 from twintube.core.checks import outside, problems
 from twintube.core.effects import Parameters
-from twintube.core.variables import FV_POINTS, fmi_name
+from twintube.core.variables import fmi_name
 from twintube.dampers import freed_gas
+from twintube.dampers.curve import BRANCHES, as_listed, given, read_curve
 from twintube.dampers.damper import Damper, ParameterError, explained, refuse, suggestion
+from twintube.dampers.doubts import doubts
 from twintube.dampers.quantity import quantity
+from twintube.errors import InputWarning
 from twintube.reading import ReadError, read_toml
 from twintube.words import listed, short, shown
 
 FOLDER = Path(__file__).parent
-BRANCHES = {"rebound": ("v_re", "F_re"), "compression": ("v_co", "F_co")}
-CURVE_UNITS = {"velocity": "m/s", "force": "N"}
 FEW_UNKNOWN = 5  # keys that are named
 FEW_MISSING = 5  # parameters; whoever lacks more began without a complete file
 LONGEST_TEXT = 200  # characters of a name or title
@@ -33,14 +35,24 @@ def names() -> list[str]:
     return sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
-def load(damper: str | Path, *, as_published: bool = False) -> Damper:
-    """A named damper (`"SA8"`) or a parameter file; raises ParameterError.
+def load(damper: str | Path | Damper, *, as_published: bool = False) -> Damper:
+    """A named damper (`"SA8"`) or a parameter file; a damper is returned as it is. Raises ParameterError.
 
     Gas that cavitation frees dissolves again (`freed_gas.DEFAULT`) where the parameter set says nothing else.
     `as_published` leaves that out: the paper's equations alone, in which it stays gas.
+
+    Values that are possible but hardly meant, such as forces in kN that are said to be in N, are an InputWarning.
     """
+    if isinstance(damper, Damper):
+        return freed_gas.as_published(damper) if as_published else damper
+    if not isinstance(damper, (str, Path)):
+        raise ParameterError(
+            f"damper is a {type(damper).__name__}: must be a Damper, a name, or the path of a parameter file"
+        )
     content, text, file = read_named(damper, FOLDER, "damper")
     loaded = from_content(content, text, file)
+    for doubt in doubts(loaded.parameters):
+        warnings.warn(f"{file}: {located(text, doubt)}", InputWarning, stacklevel=2)
     return freed_gas.as_published(loaded) if as_published else loaded
 
 
@@ -87,13 +99,14 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     messages += wrong_tables(content, text, {*known, "sources", "assumed"} - {""})
     messages += unknown_keys(content, text, known)
     messages += absent(missing)
-    messages += read_curve(as_table(content.get("fv", {})), values)
+    curve = as_table(content.get("fv", {}))
+    messages += [located(text, message) for message in read_curve(curve, values)]
     messages += read_freed_gas(content, text, values)
     name, title = (read_text(content, key, text, messages) for key in ("name", "title"))
     sources, assumed = (read_texts(content, key, text, messages) for key in ("sources", "assumed"))
     refuse(file, messages)
     p = Parameters(**values)
-    refuse(file, [located(text, message) for message in explained(problems(p), p)])
+    refuse(file, [located(text, as_listed(message, curve)) for message in explained(problems(p), p)])
     levels, amplitude = read_measured(content, text, p, messages)
     refuse(file, messages)
     return Damper(
@@ -194,51 +207,6 @@ def read_measured(
     except ValueError as error:
         messages.append(f"{line_of(text, '', 'measured_amplitude')}measured_amplitude: {error}")
     return tuple(volume / p.V_oil for volume in volumes), amplitude
-
-
-def read_curve(table: dict[str, Any], values: dict[str, Any]) -> list[str]:
-    """Put the F-v curve into `values`; messages about what is wrong with it."""
-    messages: list[str] = []
-    try:
-        v_unit, F_unit = (scale(table.get(f"{name}_unit", unit), unit) for name, unit in CURVE_UNITS.items())
-    except ValueError as error:
-        return [f"fv: {error}"]
-    for branch, (v_name, F_name) in BRANCHES.items():
-        rows = table.get(branch)
-        if rows is None:
-            messages.append(f"fv.{branch} is missing")
-        elif not isinstance(rows, list) or not all(
-            isinstance(row, list) and len(row) == 2 and all(type(x) in (int, float) for x in row) for row in rows
-        ):
-            messages.append(f"fv.{branch}: must be a list of [velocity, force] pairs of numbers")
-        elif not 2 <= len(rows) <= FV_POINTS:
-            messages.append(f"fv.{branch}: {len(rows)} points, must be from 2 to {FV_POINTS}")
-        else:
-            points = continued([(v * v_unit, F * F_unit) for v, F in rows])
-            values[v_name] = [v for v, _ in points]
-            values[F_name] = [F for _, F in points]
-    return messages
-
-
-def scale(unit: Any, si: str) -> float:
-    """What one `unit` is in the SI unit `si`; raises ValueError."""
-    if not isinstance(unit, str):
-        raise ValueError(f"{shown(unit)} is not a unit like {si!r}")
-    return quantity(f"1 {unit}", si)
-
-
-def continued(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """The points of a branch, filled up to FV_POINTS along its last segment: the same curve."""
-    points = list(points)
-    step = (points[-1][0] - points[-2][0], points[-1][1] - points[-2][1])
-    while len(points) < FV_POINTS:
-        points.append((points[-1][0] + step[0], points[-1][1] + step[1]))
-    return points
-
-
-def given(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """The fewest first points of a branch of which the others are the continuation."""
-    return next((points[:n] for n in range(2, len(points)) if continued(points[:n]) == points), points)
 
 
 def wrong_tables(content: dict[str, Any], text: str, tables: set[str]) -> list[str]:

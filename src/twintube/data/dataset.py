@@ -12,6 +12,7 @@ from twintube.data.manifest import Manifest, read_manifest
 from twintube.data.quality import no_preconditioning
 from twintube.data.raw import read_all
 from twintube.data.record import Record, read_record
+from twintube.engine.simulate import InputError
 from twintube.reading import ReadError, read_toml
 from twintube.rig.signals import PRECONDITIONING, V_PRECONDITIONING
 from twintube.words import listed, printable
@@ -80,6 +81,8 @@ def listed_record(path: Path) -> tuple[Damper, Record] | None:
 
 def read_dataset(path: str | Path, force_factor: int, only: Path | None = None) -> Dataset:
     """The dataset with its forces times `force_factor`; with `only`, the record of this file alone."""
+    if not isinstance(path, (str, Path)):
+        raise InputError(f"path is a {type(path).__name__}: must be that of a folder with {FILE}, or of this file")
     folder = Path(path)
     toml = folder / FILE if folder.is_dir() or folder.suffix != ".toml" else folder
     notes = Notes(toml.name)

@@ -1,51 +1,20 @@
-"""Where compiled code is kept between runs: in a folder of this user alone, every file with its digest beside it.
+"""Compiled code kept between runs: in a folder of this user alone, every file with its digest beside it.
 
 Machine code that is read from disk is executed, so a file that is damaged, or that nobody vouches for, is deleted and
 compiled anew.
 """
 
-import atexit
 import hashlib
-import os
-import shutil
-import tempfile
 from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import platformdirs
-
+from twintube.caches import cache_folder
 from twintube.files import write_text
 
 VOUCHED = ".sha256"
-
-
-def private(folder: Path) -> bool:
-    """Whether a folder can be written and belongs to this user, who alone may change it; made where it is missing."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-        if os.name == "posix":
-            about = folder.stat(follow_symlinks=False)
-            if about.st_uid != os.getuid():
-                return False
-            if about.st_mode & 0o022:
-                folder.chmod(0o700)
-        with tempfile.TemporaryFile(dir=folder):
-            return True
-    except OSError:
-        return False
-
-
-def cache_folder() -> Path:
-    """The user's cache, or where it cannot be written a temporary folder of this process, removed at its end."""
-    folder = Path(platformdirs.user_cache_dir("twintube")) / "kernel"
-    if private(folder):
-        return folder
-    temporary = Path(tempfile.mkdtemp(prefix="twintube_"))
-    atexit.register(shutil.rmtree, temporary, ignore_errors=True)
-    return temporary
 
 
 def digest(path: Path) -> str:
@@ -79,7 +48,7 @@ class CodeCache:
     @classmethod
     def open(cls, name: str, text: str) -> "CodeCache":
         """The module's file with exactly `text`, and no compiled file that does not have its digest next to it."""
-        path = cache_folder() / f"{name}.py"
+        path = cache_folder("kernel") / f"{name}.py"
         if digest(path) != hashlib.sha256(text.encode()).hexdigest():
             write_text(path, text)
         cache = cls(path)

@@ -1,7 +1,8 @@
 """The kernel driven over records: stroke and velocity in, forces and volumes out."""
 
 from dataclasses import dataclass, fields
-from typing import Any
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +12,7 @@ from twintube.core import effects, model
 from twintube.core.checks import VELOCITY, bad_input, problems
 from twintube.core.frame import stroke_limit
 from twintube.core.variables import Derived, Flow, Outputs, blank
-from twintube.dampers import Damper
+from twintube.dampers import Damper, load
 from twintube.dampers.damper import refuse
 from twintube.engine import compiled, loops
 from twintube.errors import UserError
@@ -19,6 +20,23 @@ from twintube.errors import UserError
 
 class InputError(UserError, ValueError):
     """A record that cannot be simulated; the message names the quantity, the sample, the value and the range."""
+
+
+@runtime_checkable
+class Motion(Protocol):
+    """What holds a whole motion, such as a signal of the rig."""
+
+    @property
+    def time(self) -> Array:
+        """(n,) [s]."""
+
+    @property
+    def stroke(self) -> Array:
+        """(n,) [m]."""
+
+    @property
+    def velocity(self) -> Array:
+        """(n,) [m/s]."""
 
 
 @dataclass(frozen=True)
@@ -128,13 +146,18 @@ def finished(done: int, z: Array) -> None:
 
 
 def simulate(
-    damper: Damper, stroke: ArrayLike, velocity: ArrayLike, time: ArrayLike | None = None, *, interpreted: bool = False
+    damper: Damper | str | Path,
+    stroke: ArrayLike | Motion,
+    velocity: ArrayLike | None = None,
+    time: ArrayLike | None = None,
+    *,
+    interpreted: bool = False,
 ) -> Simulation:
     """Simulate a record from rest at its first sample.
 
     Args:
-        damper: parameters and condition (oil level, gas preload).
-        stroke: (n,) [m], positive in rebound, 0 in the middle position.
+        damper: parameters and condition (oil level, gas preload), or the name or file of a parameter set.
+        stroke: (n,) [m], positive in rebound, 0 in the middle position; or a signal, which has velocity and time too.
         velocity: (n,) [m/s], positive in rebound; between two samples it changes evenly.
         time: (n,) [s], not falling; needed only where the damper has an effect that acts with time.
         interpreted: run the kernel in plain Python instead of numba; the result is the same to the last bit.
@@ -144,7 +167,13 @@ def simulate(
         ParameterError: the parameters are not admissible.
 
     """
-    records, t, z, v = started(damper, stroke, velocity, time)
+    damper = load(damper)
+    if isinstance(stroke, Motion):
+        records, t, z, v = started(damper, stroke.stroke, stroke.velocity, stroke.time)
+    elif velocity is None:
+        raise InputError("velocity is missing: simulate takes stroke, velocity and time, or a signal that has all three")
+    else:
+        records, t, z, v = started(damper, stroke, velocity, time)
     out = np.empty((len(z), len(loops.COLUMNS)))
     if interpreted:
         p, d, s, f = records

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from twintube.core.checks import problems
-from twintube.dampers import Damper
+from twintube.dampers import Damper, load
 from twintube.errors import UserError
 from twintube.files import replacing
 from twintube.fmu import archive, binaries, description, documentation, licences, python_kind, related, sources, terminals
@@ -99,7 +99,7 @@ def target_file(output: Path | str | None, name: str) -> Path:
 
 
 def build_fmu(
-    damper: Damper,
+    damper: Damper | str | Path,
     output: Path | str | None = None,
     kind: Kind = "native",
     platforms: Sequence[str] = tuple(PLATFORMS),
@@ -107,10 +107,12 @@ def build_fmu(
 ) -> Path:
     """Build and validate the FMU of a damper; `output` is a file or a folder, by default the current one.
 
-    `platforms` are those that a native FMU gets libraries for. `progress` is called with a few words before each step. The
-    environment variable SOURCE_DATE_EPOCH fixes the date; all other bytes follow from damper, kind and platforms. Nothing
-    is left behind if it fails. Raises BuildError, and OSError where the output cannot be written.
+    `damper` may be the name or the file of a parameter set. `platforms` are those that a native FMU gets libraries for.
+    `progress` is called with a few words before each step. The environment variable SOURCE_DATE_EPOCH fixes the date; all
+    other bytes follow from damper, kind and platforms. Nothing is left behind if it fails. Raises BuildError,
+    ParameterError, and OSError where the output cannot be written.
     """
+    damper = load(damper)
     target = target_file(output, model_name(damper))
     inadmissible = problems(damper.parameters)
     if inadmissible:

@@ -12,6 +12,7 @@ from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
+from twintube.caches import cache_folder, writable
 from twintube.fmu import library_cache
 from twintube.fmu.platforms import PLATFORMS
 from twintube.fmu.sources import COMPILED
@@ -19,6 +20,8 @@ from twintube.fmu.sources import COMPILED
 # No fused multiply-add: every platform computes equal operations in equal order.
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-shared", "-s")
 SLOW = 15  # [s] after which a word is due
+LONGEST = 900  # [s] of one compilation: five times what all platforms take one after another, with their runtimes
+CACHES = ("ZIG_GLOBAL_CACHE_DIR", "ZIG_LOCAL_CACHE_DIR")
 PAGE = 14  # bits of the alignment of a part of a universal file
 MACHINES = {"x86_64-macos.11.0": (0x01000007, 3), "aarch64-macos.11.0": (0x0100000C, 0)}
 
@@ -50,14 +53,28 @@ def target_flags(target: str, flags: Sequence[str], file: str) -> tuple[str, ...
     return ("-fPIC",)
 
 
+def compiler_environment() -> dict[str, str]:
+    """The environment with folders for what the compiler keeps: ours, but where the user names some that can be written."""
+    ours = str(cache_folder("zig"))
+    named = {name: os.path.abspath(folder) for name in CACHES if (folder := os.environ.get(name))}
+    return {**os.environ, **{name: ours for name in CACHES}, **{k: v for k, v in named.items() if writable(Path(v))}}
+
+
 def compiled(source: Path, target: str, output: Path, flags: Sequence[str] = FLAGS) -> None:
     """Compile a source file for a target; raises CompilerError."""
     require_compiler()
     command = [sys.executable, "-m", "ziglang", "cc", "-target", target, *flags, *target_flags(target, flags, output.name)]
-    done = subprocess.run(
-        [*command, f"-I{headers()}", str(source), "-o", str(output), "-lm"],
-        capture_output=True, text=True, check=False, cwd=output.parent,
-    )  # fmt: skip
+    command += [f"-I{headers()}", str(source), "-o", str(output), "-lm"]
+    environment = compiler_environment()
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, check=False, cwd=output.parent, env=environment, timeout=LONGEST
+        )
+    except subprocess.TimeoutExpired:
+        raise CompilerError(
+            f"{target}: the compiler did not end within {LONGEST} s; delete its cache {environment[CACHES[0]]}, "
+            f"or name another folder by {CACHES[0]}"
+        ) from None
     if done.returncode != 0 or not output.exists():
         raise CompilerError(f"{target}: {done.stderr.strip() or 'the compiler wrote no library'}")
 

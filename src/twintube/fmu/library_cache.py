@@ -5,26 +5,21 @@ A library goes into FMUs that others execute, so a damaged file is deleted and c
 
 from pathlib import Path
 
-import platformdirs
-
-from twintube.engine.code_cache import VOUCHED, private, vouch, vouched
+from twintube.caches import cache_folder
+from twintube.engine.code_cache import VOUCHED, vouch, vouched
 from twintube.files import write_bytes
 
 KEPT = 400  # libraries of about 50 kB; the oldest are deleted beyond
 
 
-def folder() -> Path | None:
-    """The user's cache of libraries; None where it is not private or cannot be written."""
-    path = Path(platformdirs.user_cache_dir("twintube")) / "libraries"
-    return path if private(path) else None
+def folder() -> Path:
+    """Where libraries are kept."""
+    return cache_folder("libraries")
 
 
 def stored(key: str) -> bytes | None:
     """The library of a key; None where it is missing or damaged."""
-    cache = folder()
-    if cache is None:
-        return None
-    path = cache / key
+    path = folder() / key
     if vouched(path):
         return path.read_bytes()
     path.unlink(missing_ok=True)
@@ -32,10 +27,8 @@ def stored(key: str) -> bytes | None:
 
 
 def store(key: str, data: bytes) -> None:
-    """Keep a library; without a private folder, or with a full disk, nothing happens."""
+    """Keep a library; with a full disk nothing happens."""
     cache = folder()
-    if cache is None:
-        return
     try:
         write_bytes(cache / key, data)
         vouch(cache / key)

@@ -11,7 +11,7 @@ from twintube.arrays import Array
 from twintube.core.kernel import fluid_force, stribeck
 from twintube.core.variables import FV_POINTS
 from twintube.dampers import Damper
-from twintube.dampers.toml import continued
+from twintube.dampers.curve import continued
 from twintube.engine.simulate import InputError
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.strokes import direction, turns

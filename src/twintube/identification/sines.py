@@ -16,7 +16,7 @@ from twintube.arrays import Array
 from twintube.core import effects
 from twintube.core.kernel import stribeck
 from twintube.dampers import Damper
-from twintube.dampers.toml import continued
+from twintube.dampers.curve import continued
 from twintube.engine.simulate import InputError
 from twintube.fitting.averaging import averaged
 from twintube.fitting.harmonic import Harmonic

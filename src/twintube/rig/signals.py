@@ -7,6 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array, freeze_arrays
+from twintube.core.checks import VELOCITY, outside
+from twintube.engine.simulate import InputError
+from twintube.words import shown
 
 OSCILLATIONS = 19
 PRECONDITIONING = 6
@@ -16,6 +19,9 @@ AMPLITUDE = 0.045  # [m]: given for SA7, SA8; for the others Figure 14 (assumed)
 # Maximum velocities of the blocks [m/s]. The paper names 0.05, 0.08, 0.5, 1 and 1.572; the rest is assumed: the usual test
 # velocities of a damper bench. 1.572 belongs to them, so that "0.5" is 0.524 and "1" is 1.048.
 BLOCKS = (0.05, 0.131, 0.262, 0.393, 0.524, 0.786, 1.048, 1.572)
+LEAST_VELOCITY = 0.001  # [m/s] of an oscillation
+LEAST_AMPLITUDE, MOST_AMPLITUDE = 1e-4, 0.5  # [m]
+LONGEST = 30.0  # [s] of an oscillation: a million samples in a block
 SLOWEST, ONE_METRE, FASTEST = BLOCKS[0], BLOCKS[-2], BLOCKS[-1]  # the paper's "0.05 m/s", "1 m/s" and "1.6 m/s"
 
 # Where the first oscillation of a block begins, as a share of a cycle from the middle into rebound; the paper does not say.
@@ -82,6 +88,23 @@ def joined(segments: list[tuple[Array, Array, Array]], pauses: list[float]) -> t
     return time, np.concatenate([segment[1] for segment in segments]), np.concatenate([segment[2] for segment in segments])
 
 
+def check_block(velocity: float, amplitude: float, dt: float, start: str) -> None:
+    """Raise InputError for a block that no bench drives, or that would have millions of samples."""
+    if not LEAST_VELOCITY <= velocity <= VELOCITY["upper"]:
+        raise InputError(outside("velocity", velocity, LEAST_VELOCITY, VELOCITY["upper"], "m/s"))
+    if not LEAST_AMPLITUDE <= amplitude <= MOST_AMPLITUDE:
+        raise InputError(outside("amplitude", amplitude, LEAST_AMPLITUDE, MOST_AMPLITUDE, "m"))
+    period = 2 * np.pi * amplitude / velocity
+    if period > LONGEST:
+        raise InputError(
+            f"an oscillation of {amplitude * 1e3:g} mm at {velocity:g} m/s takes {period:.0f} s: at most {LONGEST:g} s"
+        )
+    if not 0.0 < dt <= LONGEST:
+        raise InputError(f"dt = {dt:g} s: must be above 0 and at most {LONGEST:g} s")
+    if start not in STARTS:
+        raise InputError(f"start = {shown(start)}: must be one of {', '.join(STARTS)}")
+
+
 @lru_cache(maxsize=64)
 def harmonic_block(
     velocity: float,
@@ -96,7 +119,11 @@ def harmonic_block(
     Between the two the damper rests for one step of `rest` [s], by default `dt`: the paper's model does not change at
     rest, but effects such as the decay of foam depend on its length. `start` is one of STARTS. A rig cannot jump to full
     velocity, so a block that starts in the middle begins with a run-up. `position` [m] is the middle of all strokes.
+
+    `velocity` is from 0.001 to 20 m/s, `amplitude` [m] from 0.1 to 500 mm, and an oscillation takes at most 30 s; raises
+    InputError.
     """
+    check_block(velocity, amplitude, dt, start)
     pause, slow, phase = rest if rest > 0.0 else dt, max(dt, 2e-3), STARTS[start]
     conditioning = oscillations(V_PRECONDITIONING, amplitude, PRECONDITIONING, slow, phase)
     block = oscillations(velocity, amplitude, OSCILLATIONS, dt, phase)
