@@ -5,8 +5,9 @@ from pathlib import Path
 
 from twintube.data.binary import check_package, is_binary, read_binary
 from twintube.data.findings import UnreadableError
-from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, Format, Raw, read_text
+from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, Format, Raw
 from twintube.data.read_binary import READERS
+from twintube.data.text import read_text
 from twintube.reading import ReadError, check_regular
 
 Outcome = Raw | UnreadableError | OSError

@@ -1,0 +1,179 @@
+"""Text records, CSV and the like: columns by name, unconverted and unjudged."""
+
+import codecs
+import csv
+import io
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import islice, pairwise
+from pathlib import Path
+from typing import Any
+
+from twintube.data.blocks import Row, chosen, is_numbers, without_blank
+from twintube.data.findings import UnreadableError
+from twintube.data.formats import DEFAULT_ENCODING, MOST_COLUMNS, TEXT, Format, Raw
+from twintube.data.lvm import MAGIC, completed, layout_of, names_of, segment
+from twintube.data.units import NUMBER, units_row
+from twintube.words import listed, shown
+
+LOOK = 400  # rows in which the table must begin
+DELIMITERS = {";": "';'", "\t": "'\\t'", ",": "','"}
+WHITE = " \t\r\n\f\v"  # parts cells; no-break and thin spaces part thousands
+BLANKS = re.compile(f"[{WHITE}]+")
+UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)  # how a text in UTF-16 begins
+
+
+def read_text(path: Path, form: Format) -> Raw:
+    """CSV and other text; the header is the first row after `skip_rows` unless `columns` is a list or `block` is given.
+
+    Raises UnreadableError with the row, and OSError.
+    """
+    text = decoded(path, form.encoding)
+    if text.startswith(MAGIC) and not form.skip_rows:
+        return read_lvm(text, form)
+    delimiter = form.delimiter or TEXT[path.suffix.lower()]
+    if form.delimiter is None and delimiter == "whitespace" and tabbed(text, form):
+        delimiter = "\t"
+    if delimiter == form.decimal:
+        raise UnreadableError(
+            f"delimiter and decimal are both {delimiter!r}: set `delimiter`, often ';' where decimal is ','"
+        )
+    rows = split_text(text, delimiter, form.skip_rows)
+    table, blank, odd = without_blank(rows)
+    return said_blank(columns_of(chosen(table, odd, form.block), form, delimiter), blank)
+
+
+def said_blank(raw: Raw, blank: Sequence[Row]) -> Raw:
+    """With the blank rows between the others."""
+    if not blank:
+        return raw
+    between = [row for row in blank if raw.rows and raw.rows[0] < row[0] < raw.rows[-1]]
+    return replace(raw, blank=[number for number, _ in between], spaced=any(len(cells) > 1 for _, cells in between))
+
+
+def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
+    """The columns of one table; raises UnreadableError."""
+    first, names = table[0]
+    if isinstance(form.columns, list):
+        headers = form.columns
+        named = form.block is not None and not is_numbers(names)
+    else:
+        headers, named = [cell.strip() for cell in names], True
+        check_header(table[0], delimiter)
+    body = table[1:] if named else table
+    if len(headers) > MOST_COLUMNS:
+        raise UnreadableError(f"{len(headers)} columns, at most {MOST_COLUMNS} are read", first)
+    for header, count in Counter(headers).items():
+        if header and count > 1:
+            raise UnreadableError(f"two columns are named {shown(header)}", first)
+    units = units_row(body[0][1]) if body and named else None
+    if units is not None:
+        body = body[1:]
+    width = len(headers)
+    rows = [cells for _, cells in body]
+    widths = set(map(len, rows)) or {width}
+    if widths != {width}:
+        for number, cells in body:
+            if len(cells) > width and any(cell.strip() for cell in cells[width:]):
+                raise UnreadableError(wrong_width(len(cells), width, names, delimiter), number)
+        # Missing cells are reported as empty ones.
+        rows = [cells if len(cells) == width else (cells + [""] * width)[:width] for cells in rows]
+    columns: dict[str, Any] = {header: [cells[i] for cells in rows] for i, header in enumerate(headers) if header}
+    if headers is form.columns:
+        return Raw(columns, [number for number, _ in body], "row")
+    carried = {header: unit for header, unit in zip(headers, units or [], strict=False) if header and unit}
+    without = [header for header in headers[max(widths) :] if header]
+    return Raw(columns, [number for number, _ in body], "row", carried, without=without)
+
+
+def read_lvm(text: str, form: Format) -> Raw:
+    """A file that LabVIEW wrote, as its head says; raises UnreadableError."""
+    layout = layout_of(islice(io.StringIO(text, newline=""), LOOK))
+    table, blank, _ = without_blank(split_text(text, layout.delimiter, 0))
+    found = segment(table, form.block)
+    named = [(found.table[0][0], names_of(found, layout)), *found.table[1:]]
+    raw = columns_of(named, replace(form, block=form.block or 1), layout.delimiter)
+    return said_blank(completed(raw, found, layout), blank)
+
+
+def decoded(path: Path, encoding: str) -> str:
+    """The file's text without a byte order mark, which is followed where it says UTF-16; raises UnreadableError."""
+    data = path.read_bytes()
+    if encoding == DEFAULT_ENCODING and data.startswith(UTF_16):
+        encoding = "utf-16"
+    try:
+        return data.decode(encoding).removeprefix("\ufeff")
+    except UnicodeDecodeError as error:
+        row = error.object[: error.start].count(b"\n") + 1
+        raise UnreadableError(f"not a text in {encoding} ({error.reason}); set `encoding`", row) from error
+    except UnicodeError as error:
+        raise UnreadableError(f"not a text in {encoding} ({error}); set `encoding`") from error
+
+
+def tabbed(text: str, form: Format) -> bool:
+    """Whether tabs part the cells, which may hold spaces: as many in a row of numbers as in `columns`, or in the row above.
+
+    One more there is a name without cells.
+    """
+    lines = islice(io.StringIO(text, newline=""), form.skip_rows, form.skip_rows + LOOK)
+    rows = [line.rstrip().split("\t") for line in lines if line.strip()]
+    if isinstance(form.columns, list):
+        return any(len(row) == len(form.columns) > 1 and is_numbers(row) for row in rows)
+    return any(
+        1 < len(row) <= len(above) <= len(row) + 1 and is_numbers(row) and not is_numbers(above)
+        for above, row in pairwise(rows)
+    )
+
+
+def split_text(text: str, delimiter: str, skipped: int) -> list[tuple[int, list[str]]]:
+    """Rows with their number in the file, without `skipped` at the top and empty ones at the end; raises UnreadableError."""
+    lines = io.StringIO(text, newline="")
+    for _ in range(skipped):
+        if not lines.readline():
+            raise UnreadableError(f"skip_rows = {skipped}: the file has fewer rows")
+    try:
+        if delimiter == "whitespace":
+            table = [
+                (number, line.split() if line.isascii() else BLANKS.split(line.strip(WHITE)))
+                for number, line in enumerate(lines, start=skipped + 1)
+            ]
+        else:
+            reader = csv.reader(lines, delimiter=delimiter, skipinitialspace=True)
+            table = [(reader.line_num + skipped, cells) for cells in reader]
+    except csv.Error as error:
+        raise UnreadableError(f"not a readable text table ({error})") from error
+    while table and not any(cell.strip() for cell in table[-1][1]):
+        table.pop()
+    if not table:
+        raise UnreadableError("the file is empty")
+    return table
+
+
+def check_header(row: tuple[int, list[str]], delimiter: str) -> None:
+    """Raise UnreadableError where the header holds numbers, or all names in a single cell."""
+    number, cells = row
+    if all(NUMBER.fullmatch(cell) for cell in cells):
+        text = listed(cells, 4)
+        raise UnreadableError(f"numbers ({text}) where the header must be: set `columns`, the headers as a list", number)
+    if len(cells) == 1 and (other := other_delimiter(cells[0], delimiter)):
+        raise UnreadableError(f"a header of one column {shown(cells[0])}: {other}", number)
+
+
+def wrong_width(cells: int, width: int, header: list[str], delimiter: str) -> str:
+    """The message about a row with more cells than there are columns."""
+    named = "1 column is" if width == 1 else f"{width} columns are"
+    other = other_delimiter(delimiter.join(header), delimiter)
+    hint = other if other else "is ',' both the delimiter and the decimal sign?" if delimiter == "," else ""
+    return f"{cells} cells where {named} named{'; ' + hint if hint else ''}"
+
+
+def other_delimiter(line: str, delimiter: str) -> str:
+    """What to set where the line is rather split by another delimiter; empty where nothing says so."""
+    counts = {sign: line.count(sign) for sign in DELIMITERS if sign != delimiter}
+    sign = max(counts, key=lambda sign: counts[sign])
+    if not counts[sign]:
+        return ""
+    decimal = " and, where numbers are written 1,5, decimal = ','" if sign != "," else ""
+    return f"set delimiter = {DELIMITERS[sign]}{decimal}"
