@@ -52,9 +52,7 @@ def layout_of(lines: Iterable[str]) -> Layout:
     written = said.get("Separator", "Tab").strip(",").lower()
     delimiter, decimal = SEPARATORS.get(written, written or ","), said.get("Decimal_Separator") or "."
     if len(decimal) != 1 or delimiter == decimal:
-        raise UnreadableError(
-            f"its head gives {shown(delimiter)} as separator and {shown(decimal)} as decimal sign"
-        )
+        raise UnreadableError(f"its head gives {shown(delimiter)} as separator and {shown(decimal)} as decimal sign")
     return Layout(delimiter, decimal, said.get("X_Columns", "One").strip(",").lower())
 
 

@@ -32,10 +32,13 @@ def read_motion(path: Path) -> tuple[Array, Array, Array]:
     return motion.time, motion.stroke, motion.velocity
 
 
-def read_moved(path: Path) -> Motion:
-    """The motion in a file, and its force where there is one. Raises InputError with file, row and column, and OSError."""
+def read_moved(path: Path, block: int | None = None) -> Motion:
+    """The motion in a file, or in a block of it, and its force where there is one.
+
+    Raises InputError with file, row and column, and OSError.
+    """
     notes = Notes(path.name)
-    form = Format()
+    form = Format(block=block)
     try:
         table = convert(read_raw(path, form), form, notes, NEEDED)
     except UnreadableError as error:

@@ -6,7 +6,7 @@ import io
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from typing import Any
 from twintube.data.blocks import Row, chosen, is_numbers, without_blank
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import DEFAULT_ENCODING, MOST_COLUMNS, TEXT, Format, Raw
-from twintube.data.lvm import MAGIC, completed, layout_of, names_of, segment
+from twintube.data.lvm import MAGIC, Layout, completed, layout_of, names_of, segment
 from twintube.data.units import NUMBER, units_row
 from twintube.words import listed, shown
 
@@ -25,14 +25,48 @@ BLANKS = re.compile(f"[{WHITE}]+")
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)  # how a text in UTF-16 begins
 
 
-def read_text(path: Path, form: Format) -> Raw:
-    """CSV and other text; the header is the first row after `skip_rows` unless `columns` is a list or `block` is given.
+@dataclass(frozen=True)
+class Rows:
+    """A text cut into cells."""
 
-    Raises UnreadableError with the row, and OSError.
-    """
+    table: list[Row]  # those that hold something
+    blank: list[Row]
+    odd: list[int]  # places in the table that do not begin like a number
+    delimiter: str
+    layout: Layout | None  # of a file that LabVIEW wrote
+
+
+class TextReader:
+    """Reads text files; one whose blocks are read one after the other is cut into cells once."""
+
+    def __init__(self) -> None:
+        self.last: tuple[tuple[Any, ...], Rows] | None = None
+
+    def read(self, path: Path, form: Format) -> Raw:
+        """CSV and other text; the header is the first row after `skip_rows` unless `columns` is a list or `block` is given.
+
+        Raises UnreadableError with the row, and OSError.
+        """
+        columns = len(form.columns) if isinstance(form.columns, list) else None
+        key = path, form.delimiter, form.decimal, form.encoding, form.skip_rows, columns
+        rows = self.last[1] if self.last is not None and self.last[0] == key else rows_of(path, form)
+        self.last = None if form.block is None else (key, rows)
+        raw = (
+            columns_of(chosen(rows.table, rows.odd, form.block), form, rows.delimiter)
+            if rows.layout is None
+            else (read_lvm(rows, rows.layout, form))
+        )
+        between = [row for row in rows.blank if raw.rows and raw.rows[0] < row[0] < raw.rows[-1]]
+        spaced = any(len(cells) > 1 for _, cells in between)
+        return replace(raw, blank=[number for number, _ in between], spaced=spaced) if between else raw
+
+
+def rows_of(path: Path, form: Format) -> Rows:
+    """The rows of a file; raises UnreadableError and OSError."""
     text = decoded(path, form.encoding)
     if text.startswith(MAGIC) and not form.skip_rows:
-        return read_lvm(text, form)
+        layout = layout_of(islice(io.StringIO(text, newline=""), LOOK))
+        return Rows(*without_blank(split_text(text, layout.delimiter, 0)), layout.delimiter, layout)
     delimiter = form.delimiter or TEXT[path.suffix.lower()]
     if form.delimiter is None and delimiter == "whitespace" and tabbed(text, form):
         delimiter = "\t"
@@ -40,17 +74,7 @@ def read_text(path: Path, form: Format) -> Raw:
         raise UnreadableError(
             f"delimiter and decimal are both {delimiter!r}: set `delimiter`, often ';' where decimal is ','"
         )
-    rows = split_text(text, delimiter, form.skip_rows)
-    table, blank, odd = without_blank(rows)
-    return said_blank(columns_of(chosen(table, odd, form.block), form, delimiter), blank)
-
-
-def said_blank(raw: Raw, blank: Sequence[Row]) -> Raw:
-    """With the blank rows between the others."""
-    if not blank:
-        return raw
-    between = [row for row in blank if raw.rows and raw.rows[0] < row[0] < raw.rows[-1]]
-    return replace(raw, blank=[number for number, _ in between], spaced=any(len(cells) > 1 for _, cells in between))
+    return Rows(*without_blank(split_text(text, delimiter, form.skip_rows)), delimiter, None)
 
 
 def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
@@ -88,14 +112,11 @@ def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
     return Raw(columns, [number for number, _ in body], "row", carried, without=without)
 
 
-def read_lvm(text: str, form: Format) -> Raw:
-    """A file that LabVIEW wrote, as its head says; raises UnreadableError."""
-    layout = layout_of(islice(io.StringIO(text, newline=""), LOOK))
-    table, blank, _ = without_blank(split_text(text, layout.delimiter, 0))
-    found = segment(table, form.block)
+def read_lvm(rows: Rows, layout: Layout, form: Format) -> Raw:
+    """A segment of a file that LabVIEW wrote; raises UnreadableError."""
+    found = segment(rows.table, form.block)
     named = [(found.table[0][0], names_of(found, layout)), *found.table[1:]]
-    raw = columns_of(named, replace(form, block=form.block or 1), layout.delimiter)
-    return said_blank(completed(raw, found, layout), blank)
+    return completed(columns_of(named, replace(form, block=form.block or 1), rows.delimiter), found, layout)
 
 
 def decoded(path: Path, encoding: str) -> str:
