@@ -37,6 +37,7 @@ class Layout:
 class Segment:
     """One measurement in the file."""
 
+    row: int  # where it begins in the file
     head: dict[str, list[str]]
     table: list[Row]  # names, then samples
 
@@ -56,23 +57,30 @@ def layout_of(lines: Iterable[str]) -> Layout:
     return Layout(delimiter, decimal, said.get("X_Columns", "One").strip(",").lower())
 
 
-def segment(table: Sequence[Row], block: int | None) -> Segment:
-    """The segment of this number, from 1, or the only one; raises UnreadableError."""
+def segments(table: Sequence[Row]) -> list[Segment]:
+    """The segments; raises UnreadableError where there is none."""
     rows = plain_rows(table)
     ends = [i for i, (_, cells) in enumerate(rows) if cells[0] == END]
     ends = ends[1:] or ends  # the first ends the head of the file; some programs write no other
-    starts = [head_of(rows, end) for end in ends]
     if not ends:
         raise UnreadableError(f"a file of LabVIEW without {END}")
-    if len(ends) < (block or 1) or (block is None and len(ends) > 1):
-        raise UnreadableError(which([rows[i][0] for i in starts], block))
-    at = (block or 1) - 1
-    last = starts[at + 1] if at + 1 < len(starts) else len(rows)
-    samples = rows[ends[at] + 1 : last]
-    if len(samples) < 2:
-        raise UnreadableError("no samples behind its head", rows[ends[at]][0])
-    head = {cells[0].strip(): [cell.strip() for cell in cells[1:]] for _, cells in rows[starts[at] : ends[at]]}
-    return Segment(head, samples)
+    starts = [head_of(rows, end) for end in ends]
+    found = []
+    for start, end, last in zip(starts, ends, [*starts[1:], len(rows)], strict=True):
+        head = {cells[0].strip(): [cell.strip() for cell in cells[1:]] for _, cells in rows[start:end]}
+        found.append(Segment(rows[start][0], head, rows[end + 1 : last]))
+    return found
+
+
+def segment(table: Sequence[Row], block: int | None) -> Segment:
+    """The segment of this number, from 1, or the only one; raises UnreadableError."""
+    found = segments(table)
+    if len(found) < (block or 1) or (block is None and len(found) > 1):
+        raise UnreadableError(which([part.row for part in found], block))
+    part = found[(block or 1) - 1]
+    if len(part.table) < 2:
+        raise UnreadableError("no samples behind its head", part.row)
+    return part
 
 
 def plain_rows(table: Sequence[Row]) -> list[Row]:

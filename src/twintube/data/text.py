@@ -20,8 +20,7 @@ from twintube.words import listed, shown
 
 LOOK = 400  # rows in which the table must begin
 DELIMITERS = {";": "';'", "\t": "'\\t'", ",": "','"}
-WHITE = " \t\r\n\f\v"  # parts cells; no-break and thin spaces part thousands
-BLANKS = re.compile(f"[{WHITE}]+")
+BLANKS = re.compile(r"[ \t\r\n\f\v]+")
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)  # how a text in UTF-16 begins
 
 
@@ -59,6 +58,12 @@ class TextReader:
         between = [row for row in rows.blank if raw.rows and raw.rows[0] < row[0] < raw.rows[-1]]
         spaced = any(len(cells) > 1 for _, cells in between)
         return replace(raw, blank=[number for number, _ in between], spaced=spaced) if between else raw
+
+
+def is_lvm(path: Path) -> bool:
+    """Whether LabVIEW wrote the file."""
+    with path.open("rb") as file:
+        return file.read(len(MAGIC) + 3).removeprefix(codecs.BOM_UTF8).startswith(MAGIC.encode("ascii"))
 
 
 def rows_of(path: Path, form: Format) -> Rows:
@@ -148,6 +153,11 @@ def tabbed(text: str, form: Format) -> bool:
     )
 
 
+def split_white(line: str) -> list[str]:
+    """The cells between spaces and tabs; no-break and thin spaces part thousands."""
+    return line.split() if line.isascii() else [cell for cell in BLANKS.split(line) if cell]
+
+
 def split_text(text: str, delimiter: str, skipped: int) -> list[tuple[int, list[str]]]:
     """Rows with their number in the file, without `skipped` at the top and empty ones at the end; raises UnreadableError."""
     lines = io.StringIO(text, newline="")
@@ -156,10 +166,7 @@ def split_text(text: str, delimiter: str, skipped: int) -> list[tuple[int, list[
             raise UnreadableError(f"skip_rows = {skipped}: the file has fewer rows")
     try:
         if delimiter == "whitespace":
-            table = [
-                (number, line.split() if line.isascii() else BLANKS.split(line.strip(WHITE)))
-                for number, line in enumerate(lines, start=skipped + 1)
-            ]
+            table = [(number, split_white(line)) for number, line in enumerate(lines, start=skipped + 1)]
         else:
             reader = csv.reader(lines, delimiter=delimiter, skipinitialspace=True)
             table = [(reader.line_num + skipped, cells) for cells in reader]
