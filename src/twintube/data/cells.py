@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from twintube.arrays import Array
 from twintube.data.findings import Notes, more
+from twintube.data.formats import EMPTY
 from twintube.data.grouping import one_space, parted, ungrouped
 from twintube.words import shown
-
-EMPTY = "the cell is empty"
 
 
 def cells(values: Any, header: str, rows: NDArray[np.int64], decimal: str, notes: Notes, empty: str = EMPTY) -> Array:

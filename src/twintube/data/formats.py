@@ -19,6 +19,7 @@ ENCODINGS = re.compile(
     r"utf-(8|8-sig|16|32)(-le|-be)?|ascii|cp\d+|iso8859-\d+|mac-\w+|koi8-\w|big5|gbk?\d*|shift_jis|euc_\w+"
 )
 DEFAULT_ENCODING = "utf-8-sig"
+EMPTY = "the cell is empty"
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Raw:
     without: Sequence[str] = ()  # the last names, where no row has cells under them
     blank: Sequence[int] = ()  # rows that were skipped because they hold nothing
     spaced: bool = False  # whether some of the blank rows hold separators, and so may be samples that were lost
-    nothing: str = "the cell is empty"  # what a cell without a value means
+    nothing: str = EMPTY  # what a cell without a value means
 
 
 def known_encoding(name: str) -> bool:

@@ -6,7 +6,7 @@ from twintube.data.blocks import starts_of
 from twintube.data.column_names import assigned
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import DEFAULT_ENCODING, TEXT, Format, Raw
-from twintube.data.lvm import segments
+from twintube.data.lvm import X, segments
 from twintube.data.sniff import LINE_END, MOST_ROWS, sniff, sniffed
 from twintube.data.sniff_values import Sniffed, judge
 from twintube.data.text import TextReader, decoded, is_lvm, rows_of
@@ -27,10 +27,11 @@ def sniff_records(path: Path) -> list[Sniffed]:
     try:
         rows = rows_of(path, form)
         starts = [rows.table[i][0] for i in starts_of(rows.table, rows.odd)]
-        text = decoded(path, form.encoding) if len(starts) > 1 else ""
+        lines = LINE_END.split(decoded(path, form.encoding)) if len(starts) > 1 else []
     except UnreadableError:  # the checks of the new dataset say why
         return [whole]
-    lines = LINE_END.split(text)
+    if not lines:
+        return [whole]
     ways = [form.delimiter or TEXT[path.suffix.lower()]], [form.decimal]
     found = []
     for number, (start, end) in enumerate(zip(starts, [*starts[1:], len(lines)], strict=True), start=1):
@@ -65,9 +66,9 @@ def of_lvm(raw: Raw) -> Sniffed:
     """What the names and units of a segment tell."""
     result = Sniffed({})
     names = list(raw.columns)
-    columns = assigned(
-        [(name, unit_of(raw.units.get(name, "")) or raw.units.get(name, "")) for name in names], result.doubts
-    )
+    units = [raw.units.get(name, "") for name in names]
+    pairs = [("time" if name == X else name, unit_of(unit) or unit) for name, unit in zip(names, units, strict=True)]
+    columns = assigned(pairs, result.doubts)
     result.facts.append("columns in the file: " + ", ".join(names))
     result.reading["columns"] = {name: names[i] for name, (i, _) in columns.items()}
     judge(columns, [list(row) for row in zip(*raw.columns.values(), strict=True)], raw.decimal, result)
