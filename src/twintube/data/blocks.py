@@ -6,6 +6,7 @@ what stands before the names belongs to it, too.
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from twintube.data.findings import UnreadableError
 from twintube.data.units import units_row
@@ -22,14 +23,23 @@ def odd_rows(rows: Sequence[Row]) -> list[int]:
     return [i for i, (_, cells) in enumerate(rows) if not cells or cells[0][:1] not in FIRST]
 
 
-def without_blank(rows: list[Row]) -> tuple[list[Row], list[Row], list[int]]:
-    """The rows that hold something, the others, and the places of odd ones among the former."""
+@dataclass(frozen=True)
+class Rows:
+    """The rows of a text that hold something, and the others."""
+
+    table: list[Row]
+    blank: list[Row]
+    starts: list[int]  # places in the table where blocks begin
+
+
+def ruled(rows: list[Row]) -> Rows:
+    """Blank rows and blocks told apart."""
     odd = odd_rows(rows)
     blank = {i for i in odd if not filled(rows[i][1])}
     if not blank:
-        return rows, [], odd
+        return Rows(rows, [], starts_of(rows, odd))
     table = [row for i, row in enumerate(rows) if i not in blank]
-    return table, [rows[i] for i in sorted(blank)], odd_rows(table)
+    return Rows(table, [rows[i] for i in sorted(blank)], starts_of(table, odd_rows(table)))
 
 
 def starts_of(table: Sequence[Row], odd: Sequence[int]) -> list[int]:
@@ -67,9 +77,9 @@ def filled(cells: Sequence[str]) -> list[str]:
     return [text for cell in cells if (text := cell.strip())]
 
 
-def chosen(table: list[Row], odd: Sequence[int], block: int | None) -> list[Row]:
+def chosen(rows: Rows, block: int | None) -> list[Row]:
     """The rows of the block, counted from 1, from its names on; all rows where there is one. Raises UnreadableError."""
-    starts = starts_of(table, odd)
+    table, starts = rows.table, rows.starts
     if block is None and len(starts) < 2:
         return table
     if block is None or block > len(starts):

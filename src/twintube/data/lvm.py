@@ -57,7 +57,7 @@ def layout_of(lines: Iterable[str]) -> Layout:
     return Layout(delimiter, decimal, said.get("X_Columns", "One").strip(",").lower())
 
 
-def segments(table: Sequence[Row]) -> list[Segment]:
+def segments_of(table: Sequence[Row]) -> list[Segment]:
     """The segments; raises UnreadableError where there is none."""
     rows = plain_rows(table)
     ends = [i for i, (_, cells) in enumerate(rows) if cells[0] == END]
@@ -72,9 +72,8 @@ def segments(table: Sequence[Row]) -> list[Segment]:
     return found
 
 
-def segment(table: Sequence[Row], block: int | None) -> Segment:
+def segment(found: Sequence[Segment], block: int | None) -> Segment:
     """The segment of this number, from 1, or the only one; raises UnreadableError."""
-    found = segments(table)
     if len(found) < (block or 1) or (block is None and len(found) > 1):
         raise UnreadableError(which([part.row for part in found], block))
     part = found[(block or 1) - 1]
@@ -121,7 +120,7 @@ def completed(raw: Raw, found: Segment, layout: Layout) -> Raw:
     if layout.x_columns == "no":
         columns = {name: columns[name] for name in channels}
         if made := clock(found.head, len(raw.rows), layout.decimal):
-            columns[X] = made
+            columns = {X: made} | columns
     for name in times[1:]:
         cells = columns.pop(name)
         if cells != columns[X]:

@@ -28,6 +28,7 @@ DEEPEST = 3  # tables within tables of a JSON file
 HDF5 = b"\x89HDF"
 NUMERIC = re.compile(r"\s*[+-]?[0-9](?!/)")  # how a number or a date begins, and not the unit 1/min
 QUANTITIES = ("time", "stroke", "force", "velocity", "temperature")
+ELEMENT = re.compile(r"(.+)\[([0-9]{1,4})\]")  # of several channels of one name
 Request = dict[str, Any]  # wanted: names in the file, or None; sheet, group: a name or None; skip_rows: before the header
 
 
@@ -260,16 +261,18 @@ def mdf(path: str, request: Request) -> Columns:
     columns = Columns()
     with MDF(path) as file:
         masters = {file.groups[group].channels[i].name for group, i in file.masters_db.items()}
-        titles = [str(g.channel_group.acq_name or g.channel_group.comment or "")[:60] for g in file.groups]
+        titles = [str(getattr(g.channel_group, "acq_name", "") or g.channel_group.comment or "")[:60] for g in file.groups]
         only = chosen_group(request["group"], titles)
         names = request["wanted"] or [name for name in file.channels_db if name.split(" [")[0] in QUANTITIES]
         signals, groups = {}, {}
         for name in dict.fromkeys(names):
-            if name in masters or name not in file.channels_db:
+            parts = ELEMENT.fullmatch(name)
+            base, which = (parts[1], int(parts[2])) if parts and name not in file.channels_db else (name, None)
+            if base in masters or base not in file.channels_db:
                 continue
-            group, index = place_of(name, file.channels_db[name], only, titles)
+            group, index = place_of(base, which, file.channels_db[base], only, titles)
             columns.expect(name, file.groups[group].channel_group.cycles_nr)
-            signals[name] = file.get(name, group=group, index=index, ignore_invalidation_bits=True)
+            signals[name] = file.get(base, group=group, index=index, ignore_invalidation_bits=True)
             groups[name] = f"group {group} {titles[group]!r}" if titles[group] else f"group {group}"
     signals = {name: signal for name, signal in signals.items() if signal.samples.dtype.kind in "fiu"}
     if not signals:
@@ -288,7 +291,7 @@ def mdf(path: str, request: Request) -> Columns:
         columns.values[name] = signal.samples
         if signal.invalidation_bits is not None and np.any(signal.invalidation_bits):
             columns.empty[name] = np.asarray(signal.invalidation_bits, dtype=bool)
-            columns.nothing = "the sample is marked as invalid in the file (start_s and end_s cut a record)"
+            columns.nothing = "the sample is marked as invalid in the file; start_s and end_s cut a record"
         if signal.unit:
             columns.units[name] = str(signal.unit)[:60]
     for name in masters | {"time"}:
@@ -308,8 +311,10 @@ def chosen_group(wanted: Any, titles: list[str]) -> int | None:
     return found[0]
 
 
-def place_of(name: str, places: Sequence[tuple[int, int]], only: int | None, titles: list[str]) -> tuple[int, int]:
-    """Group and index of a channel; raises UnreadableError where there is none, or several."""
+def place_of(
+    name: str, which: int | None, places: Sequence[tuple[int, int]], only: int | None, titles: list[str]
+) -> tuple[int, int]:
+    """Group and index of a channel, or of the one numbered `which` in its group; raises UnreadableError."""
     own = [place for place in places if only in (None, place[0])]
     groups = sorted({group for group, _ in own or places})
     if not own:
@@ -318,9 +323,12 @@ def place_of(name: str, places: Sequence[tuple[int, int]], only: int | None, tit
         raise UnreadableError(
             f"channel {name!r} is in the groups {listed_groups(groups, titles)}: set group, name or number"
         )
-    if len(own) > 1:
-        raise UnreadableError(f"channel {name!r} is there {len(own)} times in group {listed_groups(groups, titles)}")
-    return own[0]
+    if (which is None and len(own) > 1) or (which is not None and which >= len(own)):
+        raise UnreadableError(
+            f"channel {name!r} is there {len(own)} times in group {listed_groups(groups, titles)}: "
+            f"name one of them in `columns`, {name}[0] to {name}[{len(own) - 1}]"
+        )
+    return own[which or 0]
 
 
 def listed_groups(groups: Sequence[int], titles: list[str]) -> str:

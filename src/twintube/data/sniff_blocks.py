@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from twintube.data.blocks import starts_of
 from twintube.data.column_names import assigned
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import DEFAULT_ENCODING, TEXT, Format, Raw
-from twintube.data.lvm import X, segments
+from twintube.data.keys import MOST_RECORDS
+from twintube.data.lvm import X
 from twintube.data.sniff import LINE_END, MOST_ROWS, sniff, sniffed
 from twintube.data.sniff_values import Sniffed, judge
-from twintube.data.text import TextReader, decoded, is_lvm, rows_of
+from twintube.data.text import TextReader, cut_text, decoded, is_lvm
 from twintube.data.units import unit_of
 from twintube.engine.simulate import InputError
 
@@ -25,9 +25,9 @@ def sniff_records(path: Path) -> list[Sniffed]:
         encoding=whole.reading.get("encoding", DEFAULT_ENCODING),
     )
     try:
-        rows = rows_of(path, form)
-        starts = [rows.table[i][0] for i in starts_of(rows.table, rows.odd)]
-        lines = LINE_END.split(decoded(path, form.encoding)) if len(starts) > 1 else []
+        rows = cut_text(path, form).rows
+        starts = [rows.table[i][0] for i in rows.starts]
+        lines = LINE_END.split(decoded(path, form.encoding)) if 1 < len(starts) <= MOST_RECORDS else []
     except UnreadableError:  # the checks of the new dataset say why
         return [whole]
     if not lines:
@@ -50,7 +50,7 @@ def sniff_records(path: Path) -> list[Sniffed]:
 def sniff_lvm(path: Path) -> list[Sniffed]:
     """The segments of a file that LabVIEW wrote; raises InputError."""
     try:
-        count = len(segments(rows_of(path, Format()).table))
+        count = min(len(cut_text(path, Format()).segments), MOST_RECORDS)
         reader = TextReader()
         raws = [reader.read(path, Format(block=number)) for number in range(1, count + 1)]
     except UnreadableError as error:

@@ -174,7 +174,7 @@ def missing(
             continue
         refused = next((header for header in raw.refused if quantity_of(header) == name), None)
         if refused is not None:
-            notes.error(f"holds {raw.refused[refused]}, must hold numbers", refused)
+            notes.error(f"no column {EXAMPLES[name]!r}, it holds {raw.refused[refused]}, must hold numbers", refused)
             continue
         there = listed(map(printable, raw.columns)) or "nothing"
         hint = suggestion(name, [split_header(text)[0] for text in raw.columns])

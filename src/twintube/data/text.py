@@ -4,17 +4,19 @@ import codecs
 import csv
 import io
 import re
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice, pairwise
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
-from twintube.data.blocks import Row, chosen, is_numbers, without_blank
+from twintube.data.blocks import Row, Rows, chosen, is_numbers, ruled
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import DEFAULT_ENCODING, MOST_COLUMNS, TEXT, Format, Raw
-from twintube.data.lvm import MAGIC, Layout, completed, layout_of, names_of, segment
+from twintube.data.lvm import MAGIC, Layout, Segment, completed, layout_of, names_of, segment, segments_of
 from twintube.data.units import NUMBER, units_row
 from twintube.words import listed, shown
 
@@ -25,39 +27,40 @@ UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)  # how a text in UTF-16 begi
 
 
 @dataclass(frozen=True)
-class Rows:
+class Cut:
     """A text cut into cells."""
 
-    table: list[Row]  # those that hold something
-    blank: list[Row]
-    odd: list[int]  # places in the table that do not begin like a number
+    rows: Rows
     delimiter: str
-    layout: Layout | None  # of a file that LabVIEW wrote
+    layout: Layout | None = None  # of a file that LabVIEW wrote
+    segments: list[Segment] = field(default_factory=list)  # of such a file
 
 
 class TextReader:
     """Reads text files; one whose blocks are read one after the other is cut into cells once."""
 
     def __init__(self) -> None:
-        self.last: tuple[tuple[Any, ...], Rows] | None = None
+        self.last: tuple[tuple[Any, ...], Cut] | None = None
 
     def read(self, path: Path, form: Format) -> Raw:
         """CSV and other text; the header is the first row after `skip_rows` unless `columns` is a list or `block` is given.
 
         Raises UnreadableError with the row, and OSError.
         """
-        columns = len(form.columns) if isinstance(form.columns, list) else None
-        key = path, form.delimiter, form.decimal, form.encoding, form.skip_rows, columns
-        rows = self.last[1] if self.last is not None and self.last[0] == key else rows_of(path, form)
-        self.last = None if form.block is None else (key, rows)
-        raw = (
-            columns_of(chosen(rows.table, rows.odd, form.block), form, rows.delimiter)
-            if rows.layout is None
-            else (read_lvm(rows, rows.layout, form))
-        )
-        between = [row for row in rows.blank if raw.rows and raw.rows[0] < row[0] < raw.rows[-1]]
-        spaced = any(len(cells) > 1 for _, cells in between)
-        return replace(raw, blank=[number for number, _ in between], spaced=spaced) if between else raw
+        width = len(form.columns) if isinstance(form.columns, list) else None
+        key = path, form.delimiter, form.decimal, form.encoding, form.skip_rows, width
+        cut = self.last[1] if self.last is not None and self.last[0] == key else cut_text(path, form)
+        self.last = None if form.block is None else (key, cut)
+        if cut.layout is not None:
+            raw = read_lvm(segment(cut.segments, form.block), cut.layout, form)
+        else:
+            raw = columns_of(chosen(cut.rows, form.block), form, cut.delimiter)
+        blank = cut.rows.blank
+        if not blank or not raw.rows:
+            return raw
+        first, last = (bisect_left(blank, raw.rows[i], key=itemgetter(0)) for i in (0, -1))
+        between = blank[first:last]
+        return replace(raw, blank=[number for number, _ in between], spaced=any(len(cells) > 1 for _, cells in between))
 
 
 def is_lvm(path: Path) -> bool:
@@ -66,12 +69,13 @@ def is_lvm(path: Path) -> bool:
         return file.read(len(MAGIC) + 3).removeprefix(codecs.BOM_UTF8).startswith(MAGIC.encode("ascii"))
 
 
-def rows_of(path: Path, form: Format) -> Rows:
+def cut_text(path: Path, form: Format) -> Cut:
     """The rows of a file; raises UnreadableError and OSError."""
     text = decoded(path, form.encoding)
     if text.startswith(MAGIC) and not form.skip_rows:
         layout = layout_of(islice(io.StringIO(text, newline=""), LOOK))
-        return Rows(*without_blank(split_text(text, layout.delimiter, 0)), layout.delimiter, layout)
+        rows = ruled(split_text(text, layout.delimiter, 0))
+        return Cut(rows, layout.delimiter, layout, segments_of(rows.table))
     delimiter = form.delimiter or TEXT[path.suffix.lower()]
     if form.delimiter is None and delimiter == "whitespace" and tabbed(text, form):
         delimiter = "\t"
@@ -79,7 +83,7 @@ def rows_of(path: Path, form: Format) -> Rows:
         raise UnreadableError(
             f"delimiter and decimal are both {delimiter!r}: set `delimiter`, often ';' where decimal is ','"
         )
-    return Rows(*without_blank(split_text(text, delimiter, form.skip_rows)), delimiter, None)
+    return Cut(ruled(split_text(text, delimiter, form.skip_rows)), delimiter)
 
 
 def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
@@ -117,11 +121,10 @@ def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
     return Raw(columns, [number for number, _ in body], "row", carried, without=without)
 
 
-def read_lvm(rows: Rows, layout: Layout, form: Format) -> Raw:
+def read_lvm(found: Segment, layout: Layout, form: Format) -> Raw:
     """A segment of a file that LabVIEW wrote; raises UnreadableError."""
-    found = segment(rows.table, form.block)
     named = [(found.table[0][0], names_of(found, layout)), *found.table[1:]]
-    return completed(columns_of(named, replace(form, block=form.block or 1), rows.delimiter), found, layout)
+    return completed(columns_of(named, replace(form, block=form.block or 1), layout.delimiter), found, layout)
 
 
 def decoded(path: Path, encoding: str) -> str:
