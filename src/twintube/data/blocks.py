@@ -45,7 +45,7 @@ def ruled(rows: list[Row]) -> Rows:
 def starts_of(table: Sequence[Row], odd: Sequence[int]) -> list[int]:
     """The places in the table where blocks begin: rows of names, or the first row where it holds numbers already."""
     starts = [i for i in odd if is_header(table, i)]
-    if (not starts or starts[0] > 0) and is_numbers(table[0][1]):
+    if (not starts or starts[0] > 0) and are_numbers(table[:FEWEST_ROWS]):
         starts.insert(0, 0)
     return starts
 
@@ -57,7 +57,12 @@ def is_header(table: Sequence[Row], i: int) -> bool:
         return False
     first = i + 2 if i + 1 < len(table) and units_row(table[i + 1][1]) is not None else i + 1
     body = table[first : first + FEWEST_ROWS]
-    return len(body) == FEWEST_ROWS and all(is_numbers(cells) and len(filled(cells)) <= len(names) for _, cells in body)
+    return are_numbers(body) and all(len(filled(cells)) <= len(names) for _, cells in body)
+
+
+def are_numbers(rows: Sequence[Row]) -> bool:
+    """Whether these are rows of numbers, and enough for a record."""
+    return len(rows) == FEWEST_ROWS and all(is_numbers(cells) for _, cells in rows)
 
 
 def are_names(texts: Sequence[str]) -> bool:

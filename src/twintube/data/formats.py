@@ -6,6 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 TEXT = {
     ".csv": ",", ".txt": "whitespace", ".dat": "whitespace", ".asc": "whitespace", ".prn": "whitespace",
     ".out": "whitespace", ".tsv": "\t", ".tab": "\t", ".lvm": "\t",
@@ -53,7 +56,7 @@ class Raw:
     """Columns as they stand in the file."""
 
     columns: dict[str, Any]  # sequences of one length
-    rows: Sequence[int]  # number of each sample in the file
+    rows: Sequence[int] | NDArray[np.int64]  # number of each sample in the file
     counted: Literal["row", "sample"] = "sample"
     units: dict[str, str] = field(default_factory=dict)  # where the format carries them besides the names
     refused: dict[str, str] = field(default_factory=dict)  # columns that do not hold numbers, and what they hold

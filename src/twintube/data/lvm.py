@@ -14,7 +14,7 @@ from twintube.data.column_names import fits
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import Raw
 from twintube.data.table import UNITS, quantity_of
-from twintube.data.units import unit_of
+from twintube.data.units import split_header, unit_of
 from twintube.words import shown
 
 MAGIC = "LabVIEW Measurement"
@@ -126,7 +126,8 @@ def completed(raw: Raw, found: Segment, layout: Layout) -> Raw:
         if cells != columns[X]:
             raise UnreadableError(f"{name!r} has other times than {X!r}; nothing is resampled here")
     labels = found.head.get("Y_Unit_Label", [])
-    units = {name: unit for name, unit in zip(channels, labels, strict=False) if unit}
+    said = dict(zip(channels, labels, strict=False))
+    units = {name: unit for name in channels if (unit := said.get(name) or split_header(name)[1])}
     if X in columns and found.head.get("X_Dimension", ["Time"])[0] in ("Time", ""):
         units[X] = (found.head.get("X_Unit_Label") or [""])[0] or "s"
     raw.columns, raw.units, raw.decimal, raw.without, raw.meant = columns, units, layout.decimal, (), meant(columns, units)

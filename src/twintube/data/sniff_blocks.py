@@ -1,5 +1,6 @@
 """The records of a text file for a new dataset.toml: one, or one for each of its blocks."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from twintube.data.column_names import assigned
@@ -8,6 +9,7 @@ from twintube.data.formats import DEFAULT_ENCODING, TEXT, Format, Raw
 from twintube.data.keys import MOST_RECORDS
 from twintube.data.lvm import X
 from twintube.data.sniff import LINE_END, MOST_ROWS, sniff, sniffed
+from twintube.data.sniff import decoded as beginning
 from twintube.data.sniff_values import Sniffed, judge
 from twintube.data.text import TextReader, cut_text, decoded, is_lvm
 from twintube.data.units import unit_of
@@ -50,12 +52,17 @@ def sniff_records(path: Path) -> list[Sniffed]:
 def sniff_lvm(path: Path) -> list[Sniffed]:
     """The segments of a file that LabVIEW wrote; raises InputError."""
     try:
-        count = min(len(cut_text(path, Format()).segments), MOST_RECORDS)
+        form = Format(encoding=beginning(path)[1])
+        count = min(len(cut_text(path, form).segments), MOST_RECORDS)
         reader = TextReader()
-        raws = [reader.read(path, Format(block=number)) for number in range(1, count + 1)]
+        raws = [reader.read(path, replace(form, block=number)) for number in range(1, count + 1)]
     except UnreadableError as error:
         raise InputError(f"{path}: {error}") from error
     found = [of_lvm(raw) for raw in raws]
+    if form.encoding != DEFAULT_ENCODING:
+        for guess in found:
+            guess.reading["encoding"] = form.encoding
+            guess.doubts.append(f"encoding: the file is not UTF-8, {form.encoding} is assumed")
     if count > 1:
         for number, guess in enumerate(found, start=1):
             guess.reading["block"] = number

@@ -13,6 +13,8 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from twintube.data.blocks import Row, Rows, chosen, is_numbers, ruled
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import DEFAULT_ENCODING, MOST_COLUMNS, TEXT, Format, Raw
@@ -56,7 +58,7 @@ class TextReader:
         else:
             raw = columns_of(chosen(cut.rows, form.block), form, cut.delimiter)
         blank = cut.rows.blank
-        if not blank or not raw.rows:
+        if not blank or not len(raw.rows):
             return raw
         first, last = (bisect_left(blank, raw.rows[i], key=itemgetter(0)) for i in (0, -1))
         between = blank[first:last]
@@ -114,11 +116,12 @@ def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
         # Missing cells are reported as empty ones.
         rows = [cells if len(cells) == width else (cells + [""] * width)[:width] for cells in rows]
     columns: dict[str, Any] = {header: [cells[i] for cells in rows] for i, header in enumerate(headers) if header}
+    numbers = np.array([number for number, _ in body], dtype=np.int64)
     if headers is form.columns:
-        return Raw(columns, [number for number, _ in body], "row")
+        return Raw(columns, numbers, "row")
     carried = {header: unit for header, unit in zip(headers, units or [], strict=False) if header and unit}
     without = [header for header in headers[max(widths) :] if header]
-    return Raw(columns, [number for number, _ in body], "row", carried, without=without)
+    return Raw(columns, numbers, "row", carried, without=without)
 
 
 def read_lvm(found: Segment, layout: Layout, form: Format) -> Raw:
