@@ -135,6 +135,8 @@ def test_labview_segments_and_doubts(folder: Make, tmp_path: Path) -> None:
     assert "Delta_X = 0.002, 0.004: must be one number for all channels" in said(path)
     path = folder({"a.lvm": lvm("Multi").replace("0.004\t", "0.0041\t", 1)})
     assert "'X_Value 2' has other times than 'X_Value'; nothing is resampled here" in said(path)
+    path = folder({"a.lvm": lvm("One")[:300]})
+    assert "a.lvm: row 12: the head of a segment has no ***End_of_Header***" in said(path)
     path = folder({"a.lvm": lvm("One").replace("1.998\t", "1.998\tx", 1)})
     assert "a.lvm: row 1020, column 'stroke [mm]': 'x" in said(path)
 
@@ -198,6 +200,16 @@ def test_each_block_is_a_record(folder: Make, tmp_path: Path, name: str) -> None
     assert "names 3 records of this file" in run.stderr
     run = RUNNER.invoke(app, ["simulate", "--record", str(new / file), "--block", "3", "--output", str(tmp_path / "o.csv")])
     assert run.exit_code == 0, run.output
+
+
+def test_one_block_under_a_head(folder: Make, tmp_path: Path) -> None:
+    file, top, head, names, units, sep = MACHINES["mts"]
+    text = top + machine(head, names, units, (1.0,), sep)
+    columns = 'columns = {"time [s]" = "Running Time", "stroke [mm]" = "Axial Displacement", "force [N]" = "Axial Load"}\n'
+    path = folder({file: text}, HEAD + columns)
+    assert "row 1 is not that of the names, which is row 4: set block = 1" in said(path)
+    is_good(single(folder({}, toml=HEAD + columns + RECORD.format(file) + "block = 1\n")))
+    is_good(single(new_dataset(tmp_path, text, file)))
 
 
 def test_an_error_in_the_last_row_of_a_block_is_not_cut_off(folder: Make) -> None:

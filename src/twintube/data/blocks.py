@@ -53,11 +53,14 @@ def starts_of(table: Sequence[Row], odd: Sequence[int]) -> list[int]:
 def is_header(table: Sequence[Row], i: int) -> bool:
     """Whether row `i` holds names, a row of units under them or not, and no more numbers than names under each other."""
     names = filled(table[i][1])
-    if not are_names(names) or (i > 0 and units_row(names) is not None and are_names(filled(table[i - 1][1]))):
+    if i + 1 >= len(table) or not are_names(names):
         return False
-    first = i + 2 if i + 1 < len(table) and units_row(table[i + 1][1]) is not None else i + 1
+    below = table[i + 1][1]
+    first = i + 1 if is_numbers(below) else i + 2 if units_row(below) is not None else len(table)
     body = table[first : first + FEWEST_ROWS]
-    return are_numbers(body) and all(len(filled(cells)) <= len(names) for _, cells in body)
+    if not are_numbers(body) or any(len(filled(cells)) > len(names) for _, cells in body):
+        return False
+    return not (i > 0 and units_row(names) is not None and are_names(filled(table[i - 1][1])))  # the units of the row above
 
 
 def are_numbers(rows: Sequence[Row]) -> bool:
@@ -86,6 +89,9 @@ def chosen(rows: Rows, block: int | None) -> list[Row]:
     """The rows of the block, counted from 1, from its names on; all rows where there is one. Raises UnreadableError."""
     table, starts = rows.table, rows.starts
     if block is None and len(starts) < 2:
+        if starts and starts[0] > 0 and len(filled(table[0][1])) < len(filled(table[starts[0] + 1][1])):
+            head, names = table[0][0], table[starts[0]][0]
+            raise UnreadableError(f"row {head} is not that of the names, which is row {names}: set block = 1")
         return table
     if block is None or block > len(starts):
         raise UnreadableError(which([table[i][0] for i in starts], block))

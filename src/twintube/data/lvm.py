@@ -64,6 +64,8 @@ def segments_of(table: Sequence[Row]) -> list[Segment]:
     ends = ends[1:] or ends  # the first ends the head of the file; some programs write no other
     if not ends:
         raise UnreadableError(f"a file of LabVIEW without {END}")
+    if rows[ends[-1] + 1 : ends[-1] + 2] and rows[ends[-1] + 1][1][0].strip() == "Channels":
+        raise UnreadableError(f"the head of a segment has no {END}", rows[ends[-1] + 1][0])
     starts = [head_of(rows, end) for end in ends]
     found = []
     for start, end, last in zip(starts, ends, [*starts[1:], len(rows)], strict=True):

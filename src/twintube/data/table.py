@@ -178,7 +178,13 @@ def missing(
             continue
         there = listed(map(printable, raw.columns)) or "nothing"
         hint = suggestion(name, [split_header(text)[0] for text in raw.columns])
-        rate = "; without times set sample_rate_Hz" if name == "time" and not hint else ""
+        rate = (
+            "; without times set sample_rate_Hz"
+            if name == "time" and not hint
+            else "; name it by `columns`"
+            if raw.meant
+            else ""
+        )
         notes.error(f"no column {EXAMPLES[name]!r} among {there}{hint}{rate}", name)
 
 
