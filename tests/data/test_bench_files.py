@@ -124,6 +124,19 @@ def test_labview(folder: Make, tmp_path: Path, x: str, sep: str, d: str) -> None
     is_good(single(new_dataset(tmp_path, text, "a.lvm")))
 
 
+def test_a_file_that_no_dataset_names(tmp_path: Path) -> None:
+    (tmp_path / "a.lvm").write_text(lvm("No"))
+    (tmp_path / "b.csv").write_text(",".join(plain()) + "\n" + body(*plain().values()))
+    for name in ("a.lvm", "b.csv"):
+        run = RUNNER.invoke(
+            app, ["simulate", "SA8", "--record", str(tmp_path / name), "--output", str(tmp_path / f"{name}.csv")]
+        )
+        assert run.exit_code == 0, run.output
+        assert ("stroke [mm] from 'Weg'" in run.output) == (name == "a.lvm")
+    first, second = (np.loadtxt(tmp_path / f"{name}.csv", delimiter=",", skiprows=1) for name in ("a.lvm", "b.csv"))
+    np.testing.assert_allclose(first, second, rtol=1e-5, atol=1e-3)
+
+
 def test_labview_segments_and_doubts(folder: Make, tmp_path: Path) -> None:
     path = folder({"a.lvm": lvm("One", segments=3)})
     assert "the file has 3 blocks, which begin in rows 12, 1523, 3034: set block" in said(path)

@@ -99,6 +99,8 @@ def simulate(
         typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}")
     else:
         motion = block_motion(velocity, amplitude_mm) if record is None else read_moved(record, block)
+        for finding in motion.findings:
+            typer.echo(str(finding))
         usable = np.ones(len(motion.time), dtype=bool)
     time = motion.time
     result = run(chosen, motion.stroke, motion.velocity, time)

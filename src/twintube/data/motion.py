@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.data.findings import Notes, UnreadableError
+from twintube.data.findings import Finding, Notes, UnreadableError
 from twintube.data.formats import Format
 from twintube.data.raw import read_raw
 from twintube.data.table import convert
@@ -24,6 +24,7 @@ class Motion:
     stroke: Array
     velocity: Array
     force: Array | None  # as in the file, whose sign nobody stated
+    findings: tuple[Finding, ...] = ()  # warnings and remarks on how the file was read
 
 
 def read_motion(path: Path) -> tuple[Array, Array, Array]:
@@ -56,4 +57,5 @@ def read_moved(path: Path, block: int | None = None) -> Motion:
         raise InputError(f"{path.name}: {text}" + (f"; and {rest} more" if rest > 0 else ""))
     time, stroke = table.columns["time"], table.columns["stroke"]
     velocity = table.columns.get("velocity")
-    return Motion(time, stroke, np.gradient(stroke, time) if velocity is None else velocity, table.columns.get("force"))
+    velocity = np.gradient(stroke, time) if velocity is None else velocity
+    return Motion(time, stroke, velocity, table.columns.get("force"), tuple(notes.findings))
