@@ -13,7 +13,8 @@ from twintube.data.units import units_row
 
 Row = tuple[int, list[str]]  # its number in the file, and its cells
 FEWEST_ROWS = 3  # of numbers: what a record needs; a smaller table in a head is none
-FIRST = frozenset("0123456789+-.")  # how nearly all rows of numbers begin
+DIGITS = frozenset("0123456789")
+FIRST = DIGITS | frozenset("+-.")  # how nearly all rows of numbers begin
 NUMERIC = re.compile(r"\s*[+-]?[.,]?[0-9]|\s*[+-]?(nan|inf)", re.IGNORECASE)
 NAMED = 8  # blocks whose rows a message names
 
@@ -44,7 +45,8 @@ def ruled(rows: list[Row]) -> Rows:
 
 def starts_of(table: Sequence[Row], odd: Sequence[int]) -> list[int]:
     """The places in the table where blocks begin: rows of names, or the first row where it holds numbers already."""
-    starts = [i for i in odd if is_header(table, i)]
+    texts = (i for i in odd if not any(cell[:1] in DIGITS for cell in table[i][1]))
+    starts = [i for i in texts if is_header(table, i)]
     if (not starts or starts[0] > 0) and are_numbers(table[:FEWEST_ROWS]):
         starts.insert(0, 0)
     return starts
@@ -52,13 +54,13 @@ def starts_of(table: Sequence[Row], odd: Sequence[int]) -> list[int]:
 
 def is_header(table: Sequence[Row], i: int) -> bool:
     """Whether row `i` holds names, a row of units under them or not, and no more numbers than names under each other."""
-    names = filled(table[i][1])
-    if i + 1 >= len(table) or not are_names(names):
+    first = next((k for k in (i + 1, i + 2) if k < len(table) and is_numbers(table[k][1])), 0)
+    if not first or (first == i + 2 and units_row(table[i + 1][1]) is None):
         return False
-    below = table[i + 1][1]
-    first = i + 1 if is_numbers(below) else i + 2 if units_row(below) is not None else len(table)
-    body = table[first : first + FEWEST_ROWS]
-    if not are_numbers(body) or any(len(filled(cells)) > len(names) for _, cells in body):
+    names, body = filled(table[i][1]), table[first : first + FEWEST_ROWS]
+    if not are_names(names) or not are_numbers(body):
+        return False
+    if any(len(filled(cells)) > len(names) for _, cells in body):
         return False
     return not (i > 0 and units_row(names) is not None and are_names(filled(table[i - 1][1])))  # the units of the row above
 
