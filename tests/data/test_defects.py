@@ -214,7 +214,7 @@ def test_two_defects_of_one_record_are_both_reported(folder: Make) -> None:
         ("time [s],stroke [mm],stroke [mm],force [N]\n0,1,1,1\n", 1, "two columns are named 'stroke [mm]'"),
         ("time [s],stroke [mm],force [N]\n0,1,1\n1,1,1,1\n", 3, "4 cells where 3 columns are named"),
         ("time [s],stroke [mm],force [N]\n0,1,1\n1,1\n2,2,2", 3, "the cell is empty"),
-        ("time [s],stroke [mm],force [N]\n0,1,1\n\n2,2,2", 3, "the cell is empty"),
+        ("time [s],stroke [mm],force [N]\n0,1,1\n,,1\n2,2,2", 3, "the cell is empty"),
         ("time [s],stroke [mm],force [N]\n", None, "0 samples, at least 2 are needed"),
     ],
 )

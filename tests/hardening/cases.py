@@ -88,6 +88,12 @@ CSV_FILES = {
     "mixed decimals": dataset("time [s];stroke [mm];force [N]\n0,0;1,5;1,5\n0.1;2,5;1,5\n", "'0.1' holds a point",
                               "delimiter = ';'\ndecimal = ','"),
     "delimiter is the decimal": dataset(CSV, "delimiter and decimal are both ','", "decimal = ','"),
+    "20,000 blocks": record((CSV[:31] + "0,1,2\n1,2,3\n2,3,4\n") * 20_000, "the file has 20000 blocks"),
+    "50,000 segments": record("LabVIEW Measurement\n" + "Channels\t2\n***End_of_Header***\nX_Value\tA\n" * 50_000, "49999 blocks", "a.lvm"),
+    "a head of LabVIEW alone": record("LabVIEW Measurement\n" * 50_000, "a file of LabVIEW without", "a.lvm"),
+    "200,000 rows of texts": record("a,b\n" + "x,y\n" * 200_000, "no column 'time [s]'"),
+    "500,000 blank rows": record("\n" * 250_000 + CSV[:31] + ",,\n" * 250_000, "0 samples, at least 2 are needed"),
+    "full-width digits": record(CSV.replace("0.002,1,", "0.002,\uff11,"), "is not a finite number"),
     "skip all rows": dataset(CSV, "skip_rows = 90000: the file has fewer rows", "skip_rows = 90000"),
 }  # fmt: skip
 

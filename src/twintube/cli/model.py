@@ -56,6 +56,9 @@ def simulate(
             "preload, columns and signs come from there; else it needs 'time [s]' and 'stroke [mm]'."
         ),
     ] = None,
+    block: Annotated[
+        int | None, typer.Option(min=1, help="Of a text file with several tables: the number of the one, from 1.")
+    ] = None,
     velocity: Annotated[float, typer.Option(help="Without a record: maximum velocity [m/s] of a harmonic block.")] = 1.048,
     amplitude_mm: Annotated[float, typer.Option(help="Without a record: amplitude of the block [mm].")] = 45.0,
     oil_level: Annotated[
@@ -83,7 +86,7 @@ def simulate(
 
     if record is not None and not record.exists():
         raise InputError(f"{record}: the file does not exist")
-    entry = None if record is None else listed_record(record)
+    entry = None if record is None else listed_record(record, block)
     if damper is None and entry is None:
         where = "" if record is None else f"no dataset.toml in the folder of {record} names it; "
         raise InputError(f"{where}name a damper, e.g. twintube simulate SA8")
@@ -99,7 +102,9 @@ def simulate(
         state = f"{100 * level:.4g} % of the oil, gas {'present' if preload else 'lost'}"
         typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}")
     else:
-        motion = block_motion(velocity, amplitude_mm) if record is None else read_moved(record)
+        motion = block_motion(velocity, amplitude_mm) if record is None else read_moved(record, block)
+        for finding in motion.findings:
+            typer.echo(str(finding))
         usable = np.ones(len(motion.time), dtype=bool)
     time = motion.time
     result = run(chosen, motion.stroke, motion.velocity, time)

@@ -5,8 +5,8 @@
     read_motion     time, stroke and velocity of a single record, for a simulation
     report          findings as text
 
-Reading: manifest.py (dataset.toml), raw.py (any file), formats.py (CSV, text), binary.py and its child read_binary.py
-(Parquet, MATLAB, MDF), table.py (units). Judging: checks.py.
+Reading: manifest.py (dataset.toml), raw.py (any file), text.py (CSV, text), blocks.py (several tables in a text), lvm.py
+(LabVIEW), binary.py and its child read_binary.py (Parquet, MATLAB, MDF), table.py (units). Judging: checks.py.
 """
 
 from twintube.data.dataset import Dataset, LoadedDataset, check_dataset, listed_record, load_dataset

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from twintube.data.findings import UnreadableError
-from twintube.data.formats import Format, Raw
+from twintube.data.formats import EMPTY, Format, Raw
 from twintube.data.read_binary import READERS, is_hdf5
 from twintube.extras import extra_of
 
@@ -57,7 +58,7 @@ def read_binary(files: Sequence[tuple[Path, Format]]) -> Iterator[Raw | Unreadab
             ended = child(folder, [(i, *files[i]) for i in waiting])
             while waiting and (folder / f"{waiting[0]}.json").is_file():
                 i = waiting.pop(0)
-                yield answer(folder, i)
+                yield answer(folder, i, request(files[i][1])["wanted"])
             if waiting:
                 yield UnreadableError(f"the file is damaged: {ended}")
                 waiting.pop(0)
@@ -92,11 +93,11 @@ def request(form: Format) -> dict[str, Any]:
     """What dataset.toml says about the file; `wanted` are the names that it asks for, None where it does not say."""
     names = [channel.column for channel in form.channels.values() if channel.column is not None]
     wanted = [*form.columns.values(), *names] if isinstance(form.columns, dict) else None
-    return {"wanted": wanted, "sheet": form.sheet, "skip_rows": form.skip_rows}
+    return {"wanted": wanted, "sheet": form.sheet, "group": form.group, "skip_rows": form.skip_rows}
 
 
-def answer(folder: Path, number: int) -> Raw | UnreadableError:
-    """What the child read from a file."""
+def answer(folder: Path, number: int, wanted: list[str] | None) -> Raw | UnreadableError:
+    """What the child read from a file, which has as many samples as the longest of the `wanted` columns."""
     said = json.loads((folder / f"{number}.json").read_text(encoding="utf-8"))
     if "error" in said:
         return UnreadableError(said["error"])
@@ -112,7 +113,7 @@ def answer(folder: Path, number: int) -> Raw | UnreadableError:
             # A list shows which cells hold nothing; a NaN of an array is a value of the file.
             columns[name] = [None if e else v for v, e in zip(values, empty, strict=True)] if np.any(empty) else values
     file.unlink()
-    longest = max((len(values) for values in columns.values()), default=0)
-    first = said["first_row"]
-    rows = range(longest) if first is None else range(first, first + longest)
-    return Raw(columns, rows, "sample" if first is None else "row", said["units"], said["refused"])
+    longest = max((len(values) for name, values in columns.items() if wanted is None or name in wanted), default=0)
+    rows = said["rows"]
+    raw = Raw(columns, range(longest), "sample", said["units"], said["refused"], nothing=said["nothing"] or EMPTY)
+    return raw if rows is None else replace(raw, rows=rows, counted="row", blank=said["blank"])

@@ -1,6 +1,7 @@
 """Dataset folders: `dataset.toml` and the records it names."""
 
 import hashlib
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -63,24 +64,28 @@ def check_dataset(path: str | Path, *, force_factor: int = 1) -> Dataset:
     return read_dataset(path, force_factor)
 
 
-def listed_record(path: Path) -> tuple[Damper, Record] | None:
+def listed_record(path: Path, block: int | None = None) -> tuple[Damper, Record] | None:
     """The damper and the record of a file that the dataset.toml of its folder names; None where there is no such name.
 
-    Raises DataError where dataset.toml or this record has an error; the other records are not read.
+    Of several records of the file it is that of the `block`. Raises DataError where dataset.toml or this record has an
+    error, InputError where it is not one; the other records are not read.
     """
     toml = path.parent / FILE
     if not toml.is_file() or path.name == FILE:
         return None
-    dataset = read_dataset(toml, 1, path)
+    dataset = read_dataset(toml, 1, path, block)
     if not dataset.errors and not dataset.records:
         return None
     if dataset.errors or dataset.damper is None:
         raise DataError(dataset.title, dataset.findings)
+    if len(dataset.records) > 1:
+        there = listed([record.file for record in dataset.records], 5)
+        raise InputError(f"{toml} names {len(dataset.records)} records of this file: {there}; choose by --block")
     return dataset.damper, dataset.records[0]
 
 
-def read_dataset(path: str | Path, force_factor: int, only: Path | None = None) -> Dataset:
-    """The dataset with its forces times `force_factor`; with `only`, the record of this file alone."""
+def read_dataset(path: str | Path, force_factor: int, only: Path | None = None, block: int | None = None) -> Dataset:
+    """The dataset with its forces times `force_factor`; with `only`, the records of this file, or of this block of it."""
     if not isinstance(path, (str, Path)):
         raise InputError(f"path is a {type(path).__name__}: must be that of a folder with {FILE}, or of this file")
     folder = Path(path)
@@ -97,10 +102,13 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None) 
         named = [
             entry for entry in manifest.entries if entry.file and (toml.parent / entry.file).resolve() == only.resolve()
         ]
+        if block is not None:
+            named = [entry for entry in named if entry.form.block == block]
         manifest = replace(manifest, entries=named)
         if not named:
             return Dataset(title, None, [], [])
     check_settings(manifest, notes)
+    check_places(manifest, toml.parent, notes)
     damper = damper_of(manifest, toml.parent, notes)
     records: list[Record] = []
     findings: list[Finding] = []
@@ -108,7 +116,7 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None) 
     entries = [replace(entry, force_sign=force_factor * entry.force_sign) for entry in manifest.entries]
     outcomes = read_all([(toml.parent / entry.file, entry.form) for entry in entries if entry.file])
     for entry in entries:
-        own = Notes(entry.file)
+        own = Notes(entry.label)
         record = read_record(entry, next(outcomes) if entry.file else None, damper, notes, own)
         findings += own.findings
         if record is not None:
@@ -126,11 +134,20 @@ def check_settings(manifest: Manifest, notes: Notes) -> None:
     """A warning that names the settings where the records are of several."""
     groups: dict[str | None, list[str]] = {}
     for entry in manifest.entries:
-        groups.setdefault(entry.setting, []).append(entry.file)
+        groups.setdefault(entry.setting, []).append(entry.label)
     if len(groups) > 1:
         named = [f"{printable(key or 'none given')} ({listed(files, 5)})" for key, files in groups.items()]
         line = next(entry.line for entry in manifest.entries if entry.setting is not None)
         notes.warning(f"records of several settings, no single damper: {', '.join(named)}", "setting", line)
+
+
+def check_places(manifest: Manifest, folder: Path, notes: Notes) -> None:
+    """A remark that names the files outside of the dataset's folder: whoever copies it does not have them."""
+    home = os.path.abspath(folder)
+    outside = [e for e in manifest.entries if e.file and not Path(os.path.abspath(folder / e.file)).is_relative_to(home)]
+    if outside:
+        files = listed(dict.fromkeys(entry.file for entry in outside), 5)
+        notes.remark(f"outside of the dataset's folder: {files}; a copy of the folder is without", "file", outside[0].line)
 
 
 def check_preconditioning(records: Sequence[Record], notes: Notes) -> None:

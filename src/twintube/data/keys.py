@@ -1,6 +1,7 @@
 """The keys of `dataset.toml`: which there are, and what their values must be."""
 
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -20,12 +21,14 @@ LARGEST_VOLUME = 100_000.0  # oil [mL]
 MOST_PRESSURE = 10e6  # gauge pressure of the gas [Pa]
 SLOWEST_RATE, FASTEST_RATE = 2.0, 100e3  # samples per second: the limits of the time step
 MOST_WINDOWS = 1000
+MOST_GROUPS = 65_535  # of an MDF file, whose format counts them in 16 bits
 # How to read the files: at the top for all records, or in a record.
-READING = ("columns", "channels", "sample_rate_Hz", "delimiter", "decimal", "encoding", "skip_rows", "sheet", "force_sign",
+READING = ("columns", "channels", "sample_rate_Hz", "delimiter", "decimal", "encoding", "skip_rows", "sheet", "group",
+           "force_sign",
            "stroke_sign", "stroke_offset")  # fmt: skip
 TOP = ("title", "damper", "record", *READING)
 OIL = ("oil_level", "oil_volume_mL")
-RECORD = ("file", "measurement", *OIL, "gas_preload", "gas_pressure", "setting", "temperature_degC",
+RECORD = ("file", "block", "measurement", *OIL, "gas_preload", "gas_pressure", "setting", "temperature_degC",
           "start_temperature_degC", "start_s", "end_s", "exclude", "split", *READING)  # fmt: skip
 
 
@@ -72,8 +75,8 @@ def text(value: Any, most: int = LONGEST_TEXT) -> bool:
 
 
 def good_path(value: Any) -> bool:
-    """A path that systems take."""
-    return text(value, LONGEST_PATH)
+    """A path of a file that systems take; `a.csv/` is that of a folder."""
+    return text(value, LONGEST_PATH) and re.search(r"[/\\]\.{0,2}$", value) is None
 
 
 def good_delimiter(value: Any) -> bool:
@@ -84,7 +87,11 @@ def good_delimiter(value: Any) -> bool:
 RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "title": (text, f"a text of one line and at most {LONGEST_TEXT} characters"),
     "damper": (good_path, "the name of a damper or of a parameter file"),
-    "file": (good_path, f"the name of a file, at most {LONGEST_PATH} characters"),
+    "file": (good_path, f"the name of a file, not of a folder, at most {LONGEST_PATH} characters"),
+    "block": (
+        lambda x: type(x) is int and 1 <= x <= MOST_RECORDS,
+        f"an integer from 1 to {MOST_RECORDS}, the number of a table in a text file",
+    ),
     "measurement": (lambda x: isinstance(x, str) and x in MEASUREMENTS, f"one of {', '.join(MEASUREMENTS)}"),
     "oil_level": (lambda x: number(x) and 0 <= x <= 1, "a number from 0 to 1, the share of the intact oil volume"),
     "oil_volume_mL": (lambda x: number(x) and 0 <= x <= LARGEST_VOLUME, f"a number from 0 to {LARGEST_VOLUME:g}"),
@@ -107,6 +114,10 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
         f"a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}",
     ),
     "sheet": (text, "the name of a sheet of a workbook"),
+    "group": (
+        lambda x: text(x) or (type(x) is int and 0 <= x <= MOST_GROUPS),
+        f"the name of a channel group of an MDF file, or its number from 0 to {MOST_GROUPS}",
+    ),
     "delimiter": (good_delimiter, "one character or 'whitespace'"),
     "decimal": (lambda x: isinstance(x, str) and x in (".", ","), "'.' or ','"),
     "encoding": (lambda x: isinstance(x, str) and known_encoding(x), "a text encoding like 'utf-8' or 'latin-1'"),

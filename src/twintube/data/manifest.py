@@ -1,6 +1,7 @@
 """What `dataset.toml` says, checked key by key."""
 
 import re
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -26,6 +27,7 @@ class Entry:
     line: int | None
     complete: bool  # no error in its keys
     file: str
+    label: str  # the file and, where it holds several records, what tells this one from the others
     measurement: str
     oil_level: float | None
     oil_volume: float | None  # [m3]
@@ -73,16 +75,29 @@ def read_manifest(content: dict[str, Any], toml: str, title: str, notes: Notes) 
     shared = {key: top[key] for key in READING if key in top}
     sections = record_sections(toml)
     entries: list[Entry] = []
-    files: set[str] = set()
+    seen: set[tuple[Any, ...]] = set()
     for number, table in enumerate(records, start=1):
         section = sections[number - 1] if number <= len(sections) else Section(None, [])
         entries.append(entry(table, number, section, shared, notes))
-        file = entries[-1].file
-        if file and file in files:
+        file, form = entries[-1].file, entries[-1].form
+        part = file, form.block, form.sheet, form.group
+        if file and part in seen:
             notes.error(f"{entries[-1].where}file = {shown(file)} is named by a record before", "file", entries[-1].line)
             entries[-1] = replace(entries[-1], file="", complete=False)
-        files.add(file)
-    return Manifest(top.get("title", title), top.get("damper", ""), line("damper"), entries)
+        seen.add(part)
+    return Manifest(top.get("title", title), top.get("damper", ""), line("damper"), labelled(entries))
+
+
+def labelled(entries: list[Entry]) -> list[Entry]:
+    """With a label of its own for each record of a file that holds several."""
+    records = Counter(entry.file for entry in entries)
+    return [replace(e, label=f"{e.file}, {part_of(e.form)}") if records[e.file] > 1 and e.file else e for e in entries]
+
+
+def part_of(form: Format) -> str:
+    """What of a file a record is, in words."""
+    parts = {"block": form.block, "sheet": form.sheet, "group": form.group}
+    return ", ".join(f"{key} {value}" for key, value in parts.items() if value is not None) or "the whole"
 
 
 def valid(
@@ -147,6 +162,7 @@ def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[s
         line=line(""),
         complete=len(notes.findings) == before,
         file=good.get("file", ""),
+        label=good.get("file", ""),
         measurement=good.get("measurement", ""),
         oil_level=None if "oil_level" not in good else float(good["oil_level"]),
         oil_volume=None if volume is None else volume * 1e-6,
@@ -174,6 +190,8 @@ def form_of(reading: dict[str, Any]) -> Format:
         encoding=reading.get("encoding", DEFAULT_ENCODING),
         skip_rows=reading.get("skip_rows", 0),
         sheet=reading.get("sheet"),
+        block=reading.get("block"),
+        group=reading.get("group"),
         sample_rate=reading.get("sample_rate_Hz"),
         channels=read_channels(reading.get("channels", {})),
     )

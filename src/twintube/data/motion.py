@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from twintube.arrays import Array
-from twintube.data.findings import Notes, UnreadableError
+from twintube.data.findings import Finding, Notes, UnreadableError
 from twintube.data.formats import Format
 from twintube.data.raw import read_raw
 from twintube.data.table import convert
@@ -24,6 +24,7 @@ class Motion:
     stroke: Array
     velocity: Array
     force: Array | None  # as in the file, whose sign nobody stated
+    findings: tuple[Finding, ...] = ()  # warnings and remarks on how the file was read
 
 
 def read_motion(path: Path) -> tuple[Array, Array, Array]:
@@ -32,10 +33,13 @@ def read_motion(path: Path) -> tuple[Array, Array, Array]:
     return motion.time, motion.stroke, motion.velocity
 
 
-def read_moved(path: Path) -> Motion:
-    """The motion in a file, and its force where there is one. Raises InputError with file, row and column, and OSError."""
+def read_moved(path: Path, block: int | None = None) -> Motion:
+    """The motion in a file, or in a block of it, and its force where there is one.
+
+    Raises InputError with file, row and column, and OSError.
+    """
     notes = Notes(path.name)
-    form = Format()
+    form = Format(block=block)
     try:
         table = convert(read_raw(path, form), form, notes, NEEDED)
     except UnreadableError as error:
@@ -53,4 +57,5 @@ def read_moved(path: Path) -> Motion:
         raise InputError(f"{path.name}: {text}" + (f"; and {rest} more" if rest > 0 else ""))
     time, stroke = table.columns["time"], table.columns["stroke"]
     velocity = table.columns.get("velocity")
-    return Motion(time, stroke, np.gradient(stroke, time) if velocity is None else velocity, table.columns.get("force"))
+    velocity = np.gradient(stroke, time) if velocity is None else velocity
+    return Motion(time, stroke, velocity, table.columns.get("force"), tuple(notes.findings))

@@ -5,8 +5,9 @@ from pathlib import Path
 
 from twintube.data.binary import check_package, is_binary, read_binary
 from twintube.data.findings import UnreadableError
-from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, Format, Raw, read_text
+from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, Format, Raw
 from twintube.data.read_binary import READERS
+from twintube.data.text import TextReader
 from twintube.reading import ReadError, check_regular
 
 Outcome = Raw | UnreadableError | OSError
@@ -24,19 +25,20 @@ def read_all(files: Sequence[tuple[Path, Format]]) -> Iterator[Outcome]:
     """The columns of each file or why there are none, in their order; one child reads all binary ones."""
     refused = [refusal(path, form) for path, form in files]
     binary = read_binary([file for file, no in zip(files, refused, strict=True) if no is None and is_binary(file[0])])
+    reader = TextReader()
     for (path, form), no in zip(files, refused, strict=True):
         if no is not None:
             yield no
         elif is_binary(path):
             yield next(binary)
         else:
-            yield text_outcome(path, form)
+            yield text_outcome(reader, path, form)
 
 
-def text_outcome(path: Path, form: Format) -> Outcome:
-    """As `read_text`, the errors returned."""
+def text_outcome(reader: TextReader, path: Path, form: Format) -> Outcome:
+    """What the reader gives, the errors returned."""
     try:
-        return read_text(path, form)
+        return reader.read(path, form)
     except (UnreadableError, OSError) as error:
         return error
     except MemoryError:
@@ -49,6 +51,8 @@ def refusal(path: Path, form: Format) -> UnreadableError | OSError | None:
     try:
         if ending not in TEXT and ending not in READERS:
             raise UnreadableError(f"unknown format {ending!r}, must be one of {', '.join([*TEXT, *READERS])}")
+        if is_binary(path) and form.block is not None:
+            raise UnreadableError(f"block = {form.block}: is for several tables in a text file, not for {ending}")
         if is_binary(path) and isinstance(form.columns, list):
             raise UnreadableError(
                 "columns: a list is for text files without header, here it must be a table: header = name in the file"

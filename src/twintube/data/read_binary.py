@@ -12,7 +12,7 @@ import os
 import re
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +28,8 @@ DEEPEST = 3  # tables within tables of a JSON file
 HDF5 = b"\x89HDF"
 NUMERIC = re.compile(r"\s*[+-]?[0-9](?!/)")  # how a number or a date begins, and not the unit 1/min
 QUANTITIES = ("time", "stroke", "force", "velocity", "temperature")
-Request = dict[str, Any]  # wanted: names in the file, or None; sheet: a name or None; skip_rows: before the header
+ELEMENT = re.compile(r"(.+)\[([0-9]{1,4})\]")  # of several channels of one name
+Request = dict[str, Any]  # wanted: names in the file, or None; sheet, group: a name or None; skip_rows: before the header
 
 
 class UnreadableError(ValueError):
@@ -43,7 +44,9 @@ class Columns:
         self.empty: dict[str, np.ndarray[Any, Any]] = {}  # where a cell holds nothing
         self.units: dict[str, str] = {}
         self.refused: dict[str, str] = {}  # columns that hold no numbers, and what they hold
-        self.first_row: int | None = None  # of the samples in a workbook
+        self.rows: list[int] | None = None  # of the samples in a workbook
+        self.blank: list[int] = []  # rows between them that hold nothing
+        self.nothing = ""  # what a cell without a value means, where it is not just empty
         self.count = 0
 
     def expect(self, name: str, count: int) -> None:
@@ -55,6 +58,11 @@ class Columns:
         self.count += count
         if self.count > MOST_VALUES:
             raise UnreadableError(f"more than {MOST_VALUES} values up to column {name!r}")
+
+    def refuse(self, name: str, what: str) -> None:
+        """Note what a variable is that is no column of numbers."""
+        self.expect(name, 0)
+        self.refused[name] = what
 
     def put(self, name: str, cells: list[Any]) -> None:
         """Add a column of numbers, of texts (times, numbers with a comma), or of both; None is an empty cell."""
@@ -110,46 +118,137 @@ def matlab(path: str, _: Request) -> Columns:
     else:
         from scipy.io import loadmat, whosmat
 
-        declared = sum(math.prod(shape) for _, shape, _ in whosmat(path))  # a compressed file may be small
+        try:
+            declared = sum(math.prod(shape) for _, shape, _ in whosmat(path))  # a compressed file may be small
+        except TypeError:  # of an object nothing is declared; the memory of this process is limited
+            declared = 0
         if declared > MOST_VALUES:
             raise UnreadableError(f"declares {declared} values, at most {MOST_VALUES} are read")
         for name, item in loadmat(path, struct_as_record=False).items():
-            if not name.startswith("__"):
+            if hasattr(item, "dtype") and item.dtype.names and "s2" in item.dtype.names:  # an object, with its name inside
+                columns.refuse(text_of(item["s0"]) or name, an_object(text_of(item["s2"])))
+            elif not name.startswith("__"):
                 flatten(name, item, columns)
     return columns
 
 
-def hdf_item(name: str, item: Any, columns: Columns) -> None:
-    """Put an HDF5 dataset into `columns`, if its declared size allows."""
-    if name.startswith("#refs#") or not hasattr(item, "dtype") or item.dtype.kind not in "fiu":
+def text_of(value: Any) -> str:
+    """What an object's part says, which the library gives as bytes or text within arrays."""
+    while isinstance(value, np.ndarray) and value.size:
+        value = value.flat[0]
+    return value.decode("ascii", "replace") if isinstance(value, bytes) else str(value)
+
+
+def an_object(kind: str) -> str:
+    """What a variable is that only MATLAB reads."""
+    return f"an object of class {kind}, which only MATLAB reads (save its Time and Data, or its columns, as arrays)"
+
+
+def hdf_item(name: str, item: Any, columns: Columns, depth: int = 0) -> None:
+    """Put an HDF5 dataset, or a group that a cell refers to, into `columns`, if its declared size allows."""
+    too_deep(name, depth)
+    if name.startswith(("#refs#", "#subsystem#")):
+        return
+    if not hasattr(item, "dtype"):
+        for key in item if depth else ():  # other groups are visited one by one
+            hdf_item(f"{name}.{key}", item[key], columns, depth + 1)
         return
     if item.external or item.is_virtual:
         raise UnreadableError(f"{name!r} has its values in another file")
-    if item.size and (item.ndim == 1 or (item.ndim == 2 and min(item.shape) <= MOST_WIDE)):
-        if item.size > MOST_VALUES:
-            raise UnreadableError(f"{name!r} declares {item.size} values, at most {MOST_VALUES} are read")
+    kind = text_of(item.attrs.get("MATLAB_class", b""))
+    shape = [count for count in reversed(item.shape) if count > 1]
+    if "MATLAB_object_decode" in item.attrs:
+        columns.refuse(name, an_object(kind))
+    elif "MATLAB_empty" in item.attrs or not item.size:
+        columns.refuse(name, "an empty array")
+    elif "ref" in (item.dtype.metadata or {}):
+        references(name, item, kind, columns, depth)
+    elif item.dtype.kind not in "fiu" or kind == "char":
+        columns.refuse(name, "complex numbers" if item.dtype.names else "text")
+    elif len(shape) > 2 or (len(shape) == 2 and min(shape) > MOST_WIDE):
+        columns.refuse(name, f"an array of {sizes(shape)}")
+    elif item.size > MOST_VALUES:
+        raise UnreadableError(f"{name!r} declares {item.size} values, at most {MOST_VALUES} are read")
+    else:
         flatten(name, item[()], columns)
 
 
+def references(name: str, item: Any, kind: str, columns: Columns, depth: int) -> None:
+    """Put the cells of a cell array into `columns`, or one field of all elements of a struct array."""
+    if item.size > MOST_WIDE:
+        columns.refuse(name, f"{item.size} cells, at most {MOST_WIDE} are read")
+        return
+    parent, _, field = name.rpartition(".")
+    of_cells = kind == "cell" or depth or not parent
+    own = [f"{name}[{i}]" if of_cells else f"{parent}[{i}].{field}" for i in range(item.size)]
+    if item.size == 1:
+        own = [name]
+    else:
+        columns.refuse(name, f"{item.size} cells ({own[0]} to {own[-1]})")
+    for called, reference in zip(own, item[()].flat, strict=True):
+        hdf_item(called, item.file[reference], columns, depth + 1)
+
+
+def too_deep(name: str, depth: int) -> None:
+    """Raise UnreadableError where structs and cells are within each other without end."""
+    if depth > 8:
+        raise UnreadableError(f"{name[:60]!r}: structs within structs, more than 8")
+
+
+def sizes(shape: Sequence[int]) -> str:
+    """The size of an array in words."""
+    return " x ".join(map(str, shape))
+
+
 def flatten(name: str, item: Any, columns: Columns, depth: int = 0) -> None:
-    """Put a MATLAB variable into `columns`: a matrix column by column, a struct field by field."""
-    if not hasattr(item, "dtype"):
+    """Put a MATLAB variable into `columns`: a matrix by columns, a struct by fields, a cell array by cells."""
+    too_deep(name, depth)
+    if not isinstance(item, np.ndarray):
+        columns.refuse(name, "a sparse matrix" if hasattr(item, "toarray") else type(item).__name__)
         return
-    if item.dtype == object and item.size == 1 and hasattr(np.asarray(item).flat[0], "_fieldnames"):
-        struct = np.asarray(item).flat[0]
-        if depth > 8:
-            raise UnreadableError(f"{name[:60]!r}: structs within structs, more than 8")
-        for key in struct._fieldnames:
-            flatten(f"{name}.{key}", getattr(struct, key), columns, depth + 1)
+    if hasattr(item, "classname"):
+        columns.refuse(name, an_object(str(item.classname)))
+    elif item.dtype == object:
+        elements(name, list(item.flat), columns, depth)
+    else:
+        numbers(name, np.asarray(item), columns)
+
+
+def elements(name: str, parts: list[Any], columns: Columns, depth: int) -> None:
+    """Put the elements of a struct array or the cells of a cell array into `columns`; a single one under the name itself."""
+    structs = bool(parts) and all(hasattr(part, "_fieldnames") for part in parts)
+    what = f"a struct array of {len(parts)} elements" if structs else f"a cell array of {len(parts)} cells"
+    if len(parts) > MOST_WIDE:
+        columns.refuse(name, f"{what}, at most {MOST_WIDE} are read")
         return
-    values = np.asarray(item)
-    if values.dtype.kind not in "fiu" or values.ndim not in {1, 2} or min(values.shape) == 0:
-        return
-    if values.ndim == 1 or min(values.shape) == 1:
+    if len(parts) != 1:
+        columns.refuse(name, what + (f" ({name}[0] to {name}[{len(parts) - 1}])" if parts else ""))
+    for i, part in enumerate(parts):
+        own = name if len(parts) == 1 else f"{name}[{i}]"
+        if hasattr(part, "_fieldnames"):
+            for key in part._fieldnames:
+                flatten(f"{own}.{key}", getattr(part, key), columns, depth + 1)
+        else:
+            flatten(own, part, columns, depth + 1)
+
+
+def numbers(name: str, values: np.ndarray[Any, Any], columns: Columns) -> None:
+    """Put an array into `columns`: one of one row or column as it is (1 x 1 x N, too), a matrix column by column."""
+    shape = [count for count in values.shape if count > 1]
+    if values.dtype.kind not in "fiu":
+        kinds = {"c": "complex numbers", "U": "text", "S": "text"}
+        columns.refuse(name, kinds.get(values.dtype.kind, f"values of the kind {values.dtype}"[:60]))
+    elif not values.size:
+        columns.refuse(name, "an empty array")
+    elif len(shape) > 2 or (len(shape) == 2 and min(shape) > MOST_WIDE):
+        columns.refuse(name, f"an array of {sizes(values.shape)}")
+    elif len(shape) < 2:
         columns.expect(name, values.size)
         columns.values[name] = values.ravel()
-    elif min(values.shape) <= MOST_WIDE:
-        table = values if values.shape[0] >= values.shape[1] else values.T
+    else:
+        matrix = values.reshape(shape)
+        table = matrix if shape[0] >= shape[1] else matrix.T
+        columns.refuse(name, f"a matrix of {table.shape[1]} columns ({name}[0] to {name}[{table.shape[1] - 1}])")
         for i in range(table.shape[1]):
             columns.expect(f"{name}[{i}]", len(table))
             columns.values[f"{name}[{i}]"] = table[:, i]
@@ -162,13 +261,19 @@ def mdf(path: str, request: Request) -> Columns:
     columns = Columns()
     with MDF(path) as file:
         masters = {file.groups[group].channels[i].name for group, i in file.masters_db.items()}
+        titles = [str(getattr(g.channel_group, "acq_name", "") or g.channel_group.comment or "")[:60] for g in file.groups]
+        only = chosen_group(request["group"], titles)
         names = request["wanted"] or [name for name in file.channels_db if name.split(" [")[0] in QUANTITIES]
-        signals = {}
+        signals, groups = {}, {}
         for name in dict.fromkeys(names):
-            if name in file.channels_db and name not in masters:
-                group = file.groups[file.channels_db[name][0][0]]
-                columns.expect(name, group.channel_group.cycles_nr)
-                signals[name] = file.get(name)
+            parts = ELEMENT.fullmatch(name)
+            base, which = (parts[1], int(parts[2])) if parts and name not in file.channels_db else (name, None)
+            if base in masters or base not in file.channels_db:
+                continue
+            group, index = place_of(base, which, file.channels_db[base], only, titles)
+            columns.expect(name, file.groups[group].channel_group.cycles_nr)
+            signals[name] = file.get(base, group=group, index=index, ignore_invalidation_bits=True)
+            groups[name] = f"group {group} {titles[group]!r}" if titles[group] else f"group {group}"
     signals = {name: signal for name, signal in signals.items() if signal.samples.dtype.kind in "fiu"}
     if not signals:
         return columns
@@ -177,18 +282,59 @@ def mdf(path: str, request: Request) -> Columns:
     for name, signal in signals.items():
         if not np.array_equal(signal.timestamps, time):
             raise UnreadableError(
-                f"channel {name!r} is not sampled at the times of channel {first!r}; nothing is resampled here"
+                f"channel {name!r} is not sampled at the times of channel {first!r}; nothing is resampled here "
+                f"(they are in {groups[name]} and {groups[first]}; where one group holds all, set group)"
             )
         if signal.samples.ndim != 1:
             columns.refused[name] = f"an array of {signal.samples.ndim} dimensions"
             continue
         columns.values[name] = signal.samples
+        if signal.invalidation_bits is not None and np.any(signal.invalidation_bits):
+            columns.empty[name] = np.asarray(signal.invalidation_bits, dtype=bool)
+            columns.nothing = "the sample is marked as invalid in the file; start_s and end_s cut a record"
         if signal.unit:
             columns.units[name] = str(signal.unit)[:60]
     for name in masters | {"time"}:
         columns.values[name] = time
         columns.units[name] = "s"
     return columns
+
+
+def chosen_group(wanted: Any, titles: list[str]) -> int | None:
+    """The number of the channel group that dataset.toml names; None where it names none. Raises UnreadableError."""
+    if wanted is None:
+        return None
+    found = [i for i, title in enumerate(titles) if wanted in (i, title)]
+    if len(found) != 1:
+        why = "several channel groups of this name" if found else "no such channel group"
+        raise UnreadableError(f"group = {wanted!r}: {why} among {listed_groups(range(len(titles)), titles)}")
+    return found[0]
+
+
+def place_of(
+    name: str, which: int | None, places: Sequence[tuple[int, int]], only: int | None, titles: list[str]
+) -> tuple[int, int]:
+    """Group and index of a channel, or of the one numbered `which` in its group; raises UnreadableError."""
+    own = [place for place in places if only in (None, place[0])]
+    groups = sorted({group for group, _ in own or places})
+    if not own:
+        raise UnreadableError(f"channel {name!r} is not in group {only} but in {listed_groups(groups, titles)}")
+    if len(groups) > 1:
+        raise UnreadableError(
+            f"channel {name!r} is in the groups {listed_groups(groups, titles)}: set group, name or number"
+        )
+    if (which is None and len(own) > 1) or (which is not None and which >= len(own)):
+        raise UnreadableError(
+            f"channel {name!r} is there {len(own)} times in group {listed_groups(groups, titles)}: "
+            f"name one of them in `columns`, {name}[0] to {name}[{len(own) - 1}]"
+        )
+    return own[which or 0]
+
+
+def listed_groups(groups: Sequence[int], titles: list[str]) -> str:
+    """Channel groups by number and name."""
+    named = [f"{i} {titles[i]!r}" if titles[i] else str(i) for i in groups[:20]]
+    return ", ".join(named) + (f" and {len(groups) - 20} more" if len(groups) > 20 else "")
 
 
 def workbook(path: str, request: Request) -> Columns:
@@ -212,14 +358,16 @@ def workbook(path: str, request: Request) -> Columns:
         if header and headers.count(header) > 1:
             raise UnreadableError(f"row {skipped + 1}: two columns are named {header[:60]!r}")
     columns = Columns()
-    body = rows[skipped + 1 :]
-    if len(body) > 1 and all(cell is None or (isinstance(cell, str) and not NUMERIC.match(cell)) for cell in body[0]):
-        columns.units = {h: c.strip("[]() ") for h, c in zip(headers, body[0], strict=True) if h and c is not None}
+    numbered = list(enumerate(rows))[skipped + 1 :]
+    body = [(number, row) for number, row in numbered if any(cell is not None for cell in row)]
+    if len(body) > 1 and all(cell is None or (isinstance(cell, str) and not NUMERIC.match(cell)) for cell in body[0][1]):
+        columns.units = {h: c.strip("[]() ") for h, c in zip(headers, body[0][1], strict=True) if h and c is not None}
         body = body[1:]
-    columns.first_row = len(rows) - len(body) + 1
+    columns.rows = [number + 1 for number, _ in body]
+    columns.blank = [i + 1 for i, row in numbered if body and i > body[0][0] and all(cell is None for cell in row)]
     for i, header in enumerate(headers):
         if header:
-            columns.put(header, [row[i] for row in body])
+            columns.put(header, [row[i] for _, row in body])
     return columns
 
 
@@ -303,7 +451,8 @@ def read(path: str, request: Request, target: Path) -> dict[str, Any]:
     except Exception as error:  # the libraries raise nearly everything on a damaged file
         return {"error": f"not a readable {ending} file ({type(error).__name__}: {str(error)[:500]})"}
     return {
-        "names": list(columns.values), "units": columns.units, "refused": columns.refused, "first_row": columns.first_row,
+        "names": list(columns.values), "units": columns.units, "refused": columns.refused, "rows": columns.rows,
+        "blank": columns.blank, "nothing": columns.nothing,
     }  # fmt: skip
 
 

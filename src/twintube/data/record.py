@@ -27,8 +27,8 @@ ALL.flags.writeable = False
 class Record:
     """One measurement; all arrays (n,), SI units but temperatures in degC; stroke and force positive in rebound."""
 
-    name: str  # the file without its ending
-    file: str
+    name: str  # the file without its ending and, where it holds several records, what of it this one is
+    file: str  # as dataset.toml names it, with the same addition
     measurement: str  # quasi-static, harmonic or stochastic
     oil_level: float  # share of the intact oil volume
     gas_preload: bool
@@ -89,8 +89,8 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
     elif computed(c["time"], c["stroke"], velocity):
         source = GIVEN
     return Record(
-        name=Path(entry.file).stem,
-        file=entry.file,
+        name=Path(entry.file).stem + entry.label.removeprefix(entry.file),
+        file=entry.label,
         measurement=entry.measurement,
         oil_level=level,
         gas_preload=entry.gas_preload,

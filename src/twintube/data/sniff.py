@@ -7,14 +7,15 @@ is said in words, for the comments of a new dataset.toml.
 import csv
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
 from twintube.data.column_names import assigned
 from twintube.data.formats import TEXT
-from twintube.data.sniff_values import NUMBER, Sniffed, judge, velocity_apart
+from twintube.data.sniff_values import GROUPED, NUMBER, Sniffed, judge, velocity_apart
+from twintube.data.text import split_white
 from twintube.data.units import name_and_unit
 from twintube.engine.simulate import InputError
 
@@ -24,6 +25,9 @@ MOST_ROWS = 100_000
 LONGEST = 20_000  # characters of a row
 DELIMITERS = (";", "\t", ",", "|", "whitespace")  # in this order where two serve alike
 EVEN = 0.8  # of the rows must have the usual number of cells
+PLAIN_FIRST = 0.999  # of a score: of two ways that serve alike the one without thousands separators
+LINE_END = re.compile(r"\r\n|\r|\n")
+BLANK = re.compile(r"[\s,;|]*")
 
 
 @dataclass(frozen=True)
@@ -41,12 +45,21 @@ class Shape:
 def sniff(path: Path) -> Sniffed:
     """What the first rows of a text file tell; raises InputError where they hold no table of numbers, and OSError."""
     text, encoding = decoded(path)
-    lines = [line.rstrip("\r") for line in text.split("\n")]
+    lines = LINE_END.split(text)
     if len(text) > MOST_BYTES // 4 and path.stat().st_size > MOST_BYTES:
         lines.pop()  # cut within a row
+    return sniffed(path, lines, encoding)
+
+
+def sniffed(
+    path: Path, lines: Sequence[str], encoding: str, delimiters: Sequence[str] = DELIMITERS, decimals: Iterable[str] = NUMBER
+) -> Sniffed:
+    """What the first lines tell, cut in one of these ways; raises InputError."""
     if max(map(len, lines[:LOOK]), default=0) > LONGEST:
         raise InputError(f"{path}: a row of more than {LONGEST} characters, so not a table of channels")
-    shapes = [shape(lines[:LOOK], delimiter, decimal) for delimiter in DELIMITERS for decimal in NUMBER]
+    numbers = [i for i, line in enumerate(lines[: 2 * LOOK]) if not BLANK.fullmatch(line)][:LOOK]
+    looked = [lines[i] for i in numbers]
+    shapes = [shape(looked, delimiter, decimal) for delimiter in delimiters for decimal in decimals]
     best = max(shapes, key=lambda s: s.score)
     if best.score <= 0.0:
         raise InputError(f"{path}: no table of at least two columns of numbers in its first {LOOK} rows")
@@ -59,8 +72,9 @@ def sniff(path: Path) -> Sniffed:
     if encoding != "utf-8-sig":
         result.reading["encoding"] = encoding
         result.doubts.append(f"encoding: the file is not UTF-8, {encoding} is assumed")
-    columns = named(best, result)
-    body = [row for row in cut(lines[best.first : best.first + MOST_ROWS], best.delimiter, best.decimal) if row]
+    columns = named(best, numbers, result)
+    first = numbers[best.first]
+    body = [row for row in cut(lines[first : first + MOST_ROWS], best.delimiter) if row]
     if "velocity" in columns and BY_ORDER in result.doubts:
         columns = velocity_apart(columns, body, best.decimal)
     judge(columns, body, best.decimal, result)
@@ -81,10 +95,10 @@ def decoded(path: Path) -> tuple[str, str]:
         return data.decode("cp1252", errors="replace"), "cp1252"
 
 
-def cut(lines: Sequence[str], delimiter: str, decimal: str) -> list[list[str]]:
+def cut(lines: Sequence[str], delimiter: str) -> list[list[str]]:
     """The cells of each line, without empty ones at its end."""
     if delimiter == "whitespace":
-        rows = [line.split() for line in lines]
+        rows = [split_white(line) for line in lines]
     else:
         try:
             rows = [next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), []) for line in lines]
@@ -99,7 +113,7 @@ def cut(lines: Sequence[str], delimiter: str, decimal: str) -> list[list[str]]:
 
 def shape(lines: Sequence[str], delimiter: str, decimal: str) -> Shape:
     """How well a delimiter and a decimal sign turn the lines into numbers; a score of 0 where they do not."""
-    rows = cut(lines, delimiter, decimal)
+    rows = cut(lines, delimiter)
     if delimiter == decimal and not any('"' in line for line in lines):
         return Shape(delimiter, decimal, rows, 0, 0, 0.0)
     kinds = [(len(row), sum(bool(NUMBER[decimal].match(cell)) for cell in row)) for row in rows]
@@ -112,6 +126,8 @@ def shape(lines: Sequence[str], delimiter: str, decimal: str) -> Shape:
     # Empty cells cut the run of like rows; they are the matter of the checks on reading.
     while first > 0 and kinds[first - 1][1] >= 2 and numeric(rows[first - 1], decimal):
         first -= 1
+    if any(GROUPED.search(cell) for row in rows[first:] for cell in row):
+        score *= PLAIN_FIRST
     return Shape(delimiter, decimal, rows, first, width, score)
 
 
@@ -131,15 +147,18 @@ def numeric(row: Sequence[str], decimal: str) -> bool:
     return all(NUMBER[decimal].match(cell) for cell in row if cell)
 
 
-def named(best: Shape, result: Sniffed) -> dict[str, tuple[int, str]]:
-    """By quantity: the number of its column and its unit ("" if not known); fills `columns` and `skip_rows`."""
+def named(best: Shape, numbers: Sequence[int], result: Sniffed) -> dict[str, tuple[int, str]]:
+    """By quantity: the number of its column and its unit ("" if not known); fills `columns` and `skip_rows`.
+
+    `numbers` are those of the rows in the file, from 0.
+    """
     width = best.width
     above = [i for i in range(best.first) if best.rows[i]]
     headers, at, units = header_rows(best, above, width)
     if headers is None:
         result.doubts.append(BY_ORDER)
         order = [*EXPECTED, *[""] * width][:width]
-        result.reading |= {"columns": order} | ({"skip_rows": best.first} if best.first else {})
+        result.reading |= {"columns": order} | ({"skip_rows": numbers[best.first]} if best.first else {})
         return {name_and_unit(text)[0]: (i, name_and_unit(text)[1]) for i, text in enumerate(order) if text}
     pairs = [name_and_unit(cell) for cell in headers]
     if units is not None:
@@ -148,11 +167,12 @@ def named(best: Shape, result: Sniffed) -> dict[str, tuple[int, str]]:
         ]
     columns = assigned(pairs, result.doubts)
     result.facts.append("columns in the file: " + ", ".join(headers))
-    simple = units is None and at == best.first - 1 and len(set(headers)) == len(headers) == len(best.rows[at]) == width
+    own_row = units is None and at == best.first - 1 and len(best.rows[at]) in (width, width + 1)
+    simple = own_row and len(set(headers)) == len(headers) == width
     if simple and at:
-        result.reading["skip_rows"] = at
+        result.reading["skip_rows"] = numbers[at]
     elif not simple:
-        result.reading["skip_rows"] = best.first
+        result.reading["skip_rows"] = numbers[best.first]
     result.reading["columns"] = (
         {name: headers[i] for name, (i, _) in columns.items()} if simple else [headers[i] for i in range(len(headers))]
     )
@@ -170,8 +190,8 @@ def header_rows(best: Shape, above: list[int], width: int) -> tuple[list[str] | 
         cells = best.rows[i]
         if best.delimiter == "whitespace" and len(cells) > width:
             cells = re.split(r"\s+(?![\[(])", " ".join(cells))  # `Time [s]` is a single name
-        if len(cells) in (width, width - 1) and len(cells) > 1 and not numeric(cells, best.decimal):
-            rows.append((i, cells))
+        if len(cells) in (width, width - 1, width + 1) and len(cells) > 1 and not numeric(cells, best.decimal):
+            rows.append((i, cells[:width]))  # one more is a name without cells, like a comment
     if not rows:
         return None, 0, None
     units = rows[0][1]

@@ -8,14 +8,22 @@ from typing import Any
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.data.grouping import SPACES
 from twintube.data.stamps import is_stamp, seconds
 from twintube.data.table import UNITS, in_si
 
 ALIKE = 0.15  # spread of the turning points of a harmonic record over their mean
 SLOW = 5e-3  # [m/s] up to which a record is quasi-static; the paper's ramps have 1 mm/s
+PART = rf"(?<=\d)[ '’{SPACES}](?=\d{{3}}(?!\d))"  # between thousands
+GROUPED = re.compile(PART, re.ASCII)
+DIGITS = rf"(\d+|[1-9]\d{{0,2}}({PART}\d{{3}})+"
+EXPONENT = r"([eE][+-]?\d+)?$"
 NUMBER = {
-    ".": re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?$"),
-    ",": re.compile(r"[+-]?((\d+|[1-9]\d{0,2}(\.\d{3})+)(,\d*)?|,\d+)([eE][+-]?\d+)?$"),  # 2.189 is a thousand
+    # 1,234 may be a decimal number, 1,234.5 and 1,234,567 not; with the other decimal sign 2.189 is a thousand.
+    ".": re.compile(
+        rf"[+-]?({DIGITS})(\.\d*)?|\.\d+|[1-9]\d{{0,2}}((,\d{{3}})+\.\d*|(,\d{{3}}){{2,}})){EXPONENT}", re.ASCII
+    ),
+    ",": re.compile(rf"[+-]?({DIGITS}|[1-9]\d{{0,2}}(\.\d{{3}})+)(,\d*)?|,\d+){EXPONENT}", re.ASCII),
 }
 
 
@@ -84,10 +92,8 @@ def write_columns(columns: dict[str, tuple[int, str]], headers: dict[str, str], 
 def column(body: list[list[str]], i: int, decimal: str) -> Array:
     """The numbers of a column, NaN where a cell is not one."""
     cells = [row[i] if i < len(row) else "" for row in body]
-    point = "" if decimal == "," else "."
-    numbers = [
-        float(cell.replace(".", point).replace(",", ".")) if NUMBER[decimal].match(cell) else np.nan for cell in cells
-    ]
+    parts = str.maketrans(dict.fromkeys([" ", "'", "’", *SPACES, "." if decimal == "," else ","], None))
+    numbers = [cell.translate(parts).replace(",", ".") if NUMBER[decimal].match(cell) else "nan" for cell in cells]
     return np.array(numbers, dtype=float)
 
 

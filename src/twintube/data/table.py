@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pint
@@ -12,9 +11,10 @@ from numpy.typing import NDArray
 from twintube.arrays import Array
 from twintube.dampers.damper import suggestion
 from twintube.dampers.quantity import parsed, quantity, registry
+from twintube.data.cells import cells
 from twintube.data.findings import Notes, more
 from twintube.data.formats import Channel, Format, Raw
-from twintube.data.grouping import ungrouped
+from twintube.data.inferred import say_inferred
 from twintube.data.stamps import is_stamp, seconds
 from twintube.data.units import split_header, unit_of
 from twintube.words import listed, printable, shown
@@ -98,6 +98,7 @@ def convert(
     notes.counted = raw.counted
     before = len(notes.findings)
     sources = chosen(raw, form, notes)
+    say_inferred(raw, form, {source.header: source.column for source in sources.values()}, notes)
     rows = np.asarray(raw.rows, dtype=np.int64)
     columns: dict[str, Array] = {}
     headers = {name: source.header for name, source in sources.items()}
@@ -144,7 +145,8 @@ def column(raw: Raw, name: str, source: Source, form: Format, kept: NDArray[np.i
             return stamped(values, source.header, rows, notes)
         channel = form.channels.get(name, AS_STATED)
         carried, stated = raw.units.get(source.column, ""), split_header(source.header)[1]
-        numbers = scaled(cells(values, source.header, rows, form.decimal, notes), name, stated or carried, channel)
+        read = cells(values, source.header, rows, raw.decimal or form.decimal, notes, raw.nothing)
+        numbers = scaled(read, name, stated or carried, channel)
         if channel.gain is None and carried and stated and not equal_units(name, carried, stated):
             notes.error(f"the file gives {shown(source.column)} in {printable(carried)}, not in {stated}", source.header)
     except ValueError as error:
@@ -172,11 +174,17 @@ def missing(
             continue
         refused = next((header for header in raw.refused if quantity_of(header) == name), None)
         if refused is not None:
-            notes.error(f"holds {raw.refused[refused]}, must hold numbers", refused)
+            notes.error(f"no column {EXAMPLES[name]!r}, it holds {raw.refused[refused]}, must hold numbers", refused)
             continue
         there = listed(map(printable, raw.columns)) or "nothing"
         hint = suggestion(name, [split_header(text)[0] for text in raw.columns])
-        rate = "; without times set sample_rate_Hz" if name == "time" and not hint else ""
+        rate = (
+            "; without times set sample_rate_Hz"
+            if name == "time" and not hint
+            else "; name it by `columns`"
+            if raw.meant
+            else ""
+        )
         notes.error(f"no column {EXAMPLES[name]!r} among {there}{hint}{rate}", name)
 
 
@@ -186,6 +194,7 @@ def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, Source]:
         pairs = list(form.columns.items())
     else:
         carried = {name: f"{name} [{unit}]" for name, unit in raw.units.items() if not split_header(name)[1]}
+        carried |= raw.meant
         pairs = [(carried.get(name, name), name) for name in raw.columns]
     named = {name: channel.column for name, channel in form.channels.items() if channel.column is not None}
     pairs = [pair for pair in pairs if quantity_of(pair[0]) not in named and pair[1] not in named.values()]
@@ -218,62 +227,3 @@ def equal_units(name: str, unit: str, other: str) -> bool:
         return bool(np.allclose(in_si(probe, name, unit), in_si(probe, name, other), rtol=1e-9, atol=0.0))
     except ValueError:
         return False
-
-
-def cells(values: Any, header: str, rows: NDArray[np.int64], decimal: str, notes: Notes) -> Array:
-    """Floats (n,) of a column; a finding on the cells that are not numbers."""
-    written = any(isinstance(cell, str) for cell in values[:1])
-    try:
-        numbers = np.asarray(plain(values, header, rows, decimal, notes) if written else values, dtype=float)
-    except (ValueError, TypeError, OverflowError):
-        numbers = np.array([number(cell, decimal) for cell in values], dtype=float)
-    bad = np.flatnonzero(~np.isfinite(numbers))
-    if len(bad):
-        row = int(rows[min(bad[0], len(rows) - 1)])
-        cell = numbers[bad[0]] if isinstance(values, np.ndarray) else values[bad[0]]
-        notes.error(
-            wrong_cell(cell, decimal) + more(len(bad), int(rows[min(bad[-1], len(rows) - 1)]), notes.counted), header, row
-        )
-    return numbers
-
-
-def plain(values: Sequence[str], header: str, rows: NDArray[np.int64], decimal: str, notes: Notes) -> Sequence[str]:
-    """The cells with a point as decimal sign and no thousands separators; raises ValueError where they may be either."""
-    text = "".join(values)
-    separator = "," if decimal == "." else "."
-    if "_" in text:
-        raise ValueError("numpy takes 1_000 for a number")
-    if separator in text:
-        without = ungrouped(values, decimal)
-        if without is None:
-            raise ValueError("a second kind of sign")
-        first = without[1]
-        read = without[0][first].replace(",", ".").strip()
-        message = f"{separator!r} is read as a thousands separator: {shown(values[first].strip())} as {read}"
-        notes.warning(message, header, int(rows[first]))
-        values = without[0]
-    return [cell.replace(",", ".") for cell in values] if decimal == "," else values
-
-
-def wrong_cell(cell: Any, decimal: str) -> str:
-    """What is wrong with a cell that is not a number."""
-    if cell is None or (isinstance(cell, str) and not cell.strip()):
-        return "the cell is empty"
-    text = shown(cell) if isinstance(cell, str) else f"{cell}"
-    if isinstance(cell, str) and decimal == "," and math.isfinite(number(cell.replace(",", ""), ".")):
-        return f"{text} holds a point where decimal is ',': numbers must have no thousands separator and one decimal sign"
-    if isinstance(cell, str) and decimal == "." and math.isfinite(number(cell, ",")):
-        return f"{text} is not a finite number: set decimal = ','?"
-    return f"{text} is not a finite number"
-
-
-def number(cell: Any, decimal: str) -> float:
-    """A cell as float, NaN if it is not a number."""
-    if isinstance(cell, str):
-        if "_" in cell or (decimal == "," and "." in cell):
-            return math.nan
-        cell = cell.replace(",", ".") if decimal == "," else cell
-    try:
-        return float(cell)
-    except (ValueError, TypeError, OverflowError):
-        return math.nan

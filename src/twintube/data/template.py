@@ -14,7 +14,7 @@ from twintube.data.dataset import FILE
 from twintube.data.formats import TEXT
 from twintube.data.keys import READING
 from twintube.data.read_binary import READERS
-from twintube.data.sniff import sniff
+from twintube.data.sniff_blocks import sniff_records
 from twintube.data.sniff_values import Sniffed
 from twintube.engine.simulate import InputError
 from twintube.files import replacing, write_text
@@ -45,6 +45,7 @@ READING_HELP = """
 # encoding = "cp1252"         # where the file is not UTF-8
 # skip_rows = 3               # rows before the header, or before the numbers where `columns` is a list
 # sheet = "Data"              # of a workbook; usual is the first
+# group = "Bench"             # of an MDF file with several channel groups: name or number, the first is 0
 # force_sign = -1             # force must be positive when the damper is pulled
 # stroke_sign = -1            # stroke must rise when the damper is pulled (rebound)
 # stroke_offset = "12.5 mm"   # added: 0 must be the middle position
@@ -53,7 +54,8 @@ RECORD_HELP = """
 # The records, one [[record]] for each file:
 #
 # [[record]]
-# file = "oil060_1.0.csv"     # CSV, text, Excel, JSON, Parquet, MATLAB .mat or MDF 4, relative to this file
+# file = "oil060_1.0.csv"     # CSV, text, LabVIEW .lvm, Excel, JSON, Parquet, MATLAB .mat or MDF 4, relative to this file
+# block = 2                   # optional: which of several tables in a text file, the first is 1
 # measurement = "harmonic"    # quasi-static, harmonic or stochastic
 # oil_level = 0.6             # share of the intact oil volume; or instead of it
 # oil_volume_mL = 164
@@ -104,8 +106,12 @@ def new_dataset(folder: Path, sources: Sequence[Path], damper: str = "", state: 
             raise InputError(f"{target} is there already; it is not overwritten")
         if not target.exists():
             copies[target] = file
-    sniffed = [sniff(file) if file.suffix.lower() in TEXT else Sniffed({}) for file in files]
-    text, doubts = template(folder, names, sniffed, damper, state or State())
+    records = [
+        (file.name, guess)
+        for file in files
+        for guess in (sniff_records(file) if file.suffix.lower() in TEXT else [Sniffed({})])
+    ]
+    text, doubts = template(folder, records, damper, state or State())
     for target, file in copies.items():
         with replacing(target) as part:
             shutil.copyfile(file, part)
@@ -119,11 +125,11 @@ def present(folder: Path) -> list[Path]:
 
 
 def template(
-    folder: Path, names: Sequence[str], sniffed: Sequence[Sniffed], damper: str, state: State
+    folder: Path, records: Sequence[tuple[str, Sniffed]], damper: str, state: State
 ) -> tuple[str, dict[str, list[str]]]:
-    """The text of dataset.toml, and what is not sure in it with the names of the records."""
+    """The text of dataset.toml about files by name, and what is not sure in it with the names of the records."""
     doubts: dict[str, list[str]] = {}
-    readings = [guess.reading for guess in sniffed]
+    readings = [guess.reading for _, guess in records]
     first = readings[0] if readings else {}
     shared = {key: first[key] for key in READING if key in first and all(r.get(key) == first[key] for r in readings)}
     text = HEAD + f"title = {quoted(folder.resolve().name)}\n"
@@ -133,7 +139,7 @@ def template(
         text += f"# NOT SURE: {doubt}\n"
     text += f"damper = {quoted(relative(damper, folder) if damper else 'SA8')}\n"
     text += READING_HELP + "".join(f"{key} = {quoted(value)}\n" for key, value in shared.items()) + RECORD_HELP
-    for name, guess in zip(names, sniffed, strict=True):
+    for name, guess in records:
         text += entry(name, guess, shared, state, doubts)
     return text, doubts
 
@@ -162,7 +168,8 @@ def entry(name: str, guess: Sniffed, shared: dict[str, Any], state: State, doubt
         body.append(f"gas_preload = {str(state.gas_preload).lower()}")
     body += [f"{key} = {quoted(value)}" for key, value in guess.reading.items() if key not in shared]
     for doubt in own:
-        doubts.setdefault(said(doubt), []).append(said(name))
+        block = f", block {guess.reading['block']}" if "block" in guess.reading else ""
+        doubts.setdefault(said(doubt), []).append(said(name + block))
     return "\n".join(lines + [f"# NOT SURE: {said(doubt)}" for doubt in own] + body) + "\n"
 
 
