@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 from tests.data.conftest import RECORD, as_csv, good
 from twintube.cli import app
 from twintube.data import Record, check_dataset, load_dataset
+from twintube.words import short
 
 Make = Callable[..., Path]
 T, Z, F = "time [s]", "stroke [mm]", "force [N]"
@@ -354,7 +355,7 @@ def test_a_file_outside_of_the_folder_is_named(folder: Make, tmp_path: Path, abs
     outside = (tmp_path / "outside.csv").as_posix() if absolute else "../outside.csv"
     (home / "dataset.toml").write_text(HEAD + RECORD.format("../home/inside.csv") + RECORD.format(outside))
     found = said(home)
-    assert f"remark: dataset.toml: row 7, column 'file': outside of the dataset's folder: {outside}; a copy" in found
+    assert f"remark: dataset.toml: row 7, column 'file': outside of the dataset's folder: {short(outside)}; a copy" in found
     assert len(load_dataset(home).records) == 2
 
 
