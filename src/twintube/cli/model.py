@@ -77,8 +77,7 @@ def simulate(
     """
     from twintube.data import listed_record
     from twintube.data.motion import Motion, read_moved
-    from twintube.engine.simulate import simulate as run
-    from twintube.engine.simulate import unit_of
+    from twintube.engine.simulate import disagreement, simulate_quietly, unit_of
 
     entry = None if record is None else listed_record(record)
     if damper is None and entry is None:
@@ -98,7 +97,10 @@ def simulate(
         motion = block_motion(velocity, amplitude_mm) if record is None else read_moved(record)
         usable = np.ones(len(motion.time), dtype=bool)
     time = motion.time
-    result = run(chosen, motion.stroke, motion.velocity, time)
+    result = simulate_quietly(chosen, motion.stroke, motion.velocity, time)
+    doubtful = disagreement(time, result.stroke, result.velocity)
+    if doubtful:
+        typer.echo(f"warning: {'' if record is None else f'{record}: '}{doubtful}", err=True)
     head = ["time [s]", "stroke [m]", "velocity [m/s]"]
     columns: list[Any] = [time, result.stroke, result.velocity]
     for name, values in result.columns.items():

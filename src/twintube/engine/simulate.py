@@ -1,5 +1,6 @@
 """The kernel driven over records: stroke and velocity in, forces and volumes out."""
 
+import warnings
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -7,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from twintube.arrays import Array, freeze_arrays
-from twintube.core import effects, model
+from twintube.core import effects, messages, model
+from twintube.core.agreement import Agreement, ways
 from twintube.core.checks import VELOCITY, bad_input, problems
 from twintube.core.frame import stroke_limit
 from twintube.core.variables import Derived, Flow, Outputs, blank
@@ -19,6 +21,10 @@ from twintube.errors import UserError
 
 class InputError(UserError, ValueError):
     """A record that cannot be simulated; the message names the quantity, the sample, the value and the range."""
+
+
+class MotionWarning(UserWarning):
+    """Velocity and stroke of a record do not belong together."""
 
 
 @dataclass(frozen=True)
@@ -124,10 +130,25 @@ def finished(done: int, z: Array) -> None:
         raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
 
 
+def disagreement(time: Array, stroke: Array, velocity: Array, *, interpreted: bool = False) -> str:
+    """What to warn of where the velocity [m/s] does not belong to the stroke [m] at the times [s], all (n,); else empty."""
+    a = blank(Agreement)
+    if interpreted:
+        found = loops.first_parted(a, time.tolist(), stroke.tolist(), velocity.tolist())
+    else:
+        row = compiled.as_row(a)[0]
+        # Copies, as compiled code takes arrays that can be written to.
+        found = compiled.module().first_parted(row, *(np.array(values) for values in (time, stroke, velocity)))
+        a = Agreement(*row.item())
+    return messages.parted(float(time[found]), *ways(a)) if found >= 0 else ""
+
+
 def simulate(
     damper: Damper, stroke: ArrayLike, velocity: ArrayLike, time: ArrayLike | None = None, *, interpreted: bool = False
 ) -> Simulation:
     """Simulate a record from rest at its first sample.
+
+    Where a time is given, a velocity that does not belong to the stroke (sign, unit, connection) is warned of, once.
 
     Args:
         damper: parameters and condition (oil level, gas preload).
@@ -140,7 +161,23 @@ def simulate(
         InputError: a sample is not finite, the piston would leave the tube, or a needed time is missing.
         ParameterError: the parameters are not admissible.
 
+    Warns:
+        MotionWarning: velocity and stroke do not belong together.
+
     """
+    result = simulate_quietly(damper, stroke, velocity, time, interpreted=interpreted)
+    if time is not None:
+        t = np.asarray(time, dtype=float)
+        text = disagreement(t, result.stroke, result.velocity, interpreted=interpreted)
+        if text:
+            warnings.warn(text, MotionWarning, stacklevel=2)
+    return result
+
+
+def simulate_quietly(
+    damper: Damper, stroke: ArrayLike, velocity: ArrayLike, time: ArrayLike | None = None, *, interpreted: bool = False
+) -> Simulation:
+    """As `simulate`, for motions that were looked at already: without a warning."""
     records, t, z, v = started(damper, stroke, velocity, time)
     out = np.empty((len(z), len(loops.COLUMNS)))
     if interpreted:
