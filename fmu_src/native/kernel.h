@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 40f590a2c5c04d64, body d0a07503c2e0edc9; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations c7ce9141e8122733, body 5c4a3983cd279769; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -2795,9 +2795,10 @@ static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double v
     led = 0.5 * a->step * (a->velocity + velocity);
     change = velocity - a->velocity;
     a->doubt += 0.5 * a->step * (fabs(change) + fabs(change - a->change));
+    /* What changes in no time, at the start or between two steps, says nothing of the course. */
+    a->change = (a->step > 0.0 ? change : 0.0);
     a->stroke = stroke;
     a->velocity = velocity;
-    a->change = change;
     a->step = step;
     place = a->at_stroke + way;
     a->at_stroke = kernel_within_play(place);
@@ -2836,7 +2837,7 @@ static int64_t kernel_followed(struct kernel_Agreement* a)
         return 0;
     }
     sums = a->way_stroke + a->way_led + a->way_apart + a->doubt;
-    return (fabs(a->stroke) + fabs(a->velocity) + fabs(a->change) + a->step + sums < 1000000000000000.0 ? 1 : 0);
+    return (fabs(a->stroke) + fabs(a->velocity) + fabs(a->change) + a->step + sums < 1e+17 ? 1 : 0);
 }
 
 #endif

@@ -22,8 +22,8 @@ SHARE = 0.2
 # Way [m] at which half of all that was is forgotten, so that an error that comes late is found: NOTABLE / SHARE - NOTABLE.
 # After that much way without a difference, a jump of NOTABLE still is the share that counts.
 REMEMBERED = 0.08
-# Above every number [SI] of a record: more than the fastest motion goes in the longest step.
-FARTHEST = 1e15
+# Above every number [SI] of a record: far more than the fastest motion goes in the longest step.
+FARTHEST = 1e17
 
 
 @dataclass(slots=True)
@@ -61,9 +61,10 @@ def parted(a: Agreement, stroke: float, velocity: float, step: float) -> int:
     led = 0.5 * a.step * (a.velocity + velocity)
     change = velocity - a.velocity
     a.doubt += 0.5 * a.step * (abs(change) + abs(change - a.change))
+    # What changes in no time, at the start or between two steps, says nothing of the course.
+    a.change = change if a.step > 0.0 else 0.0
     a.stroke = stroke
     a.velocity = velocity
-    a.change = change
     a.step = step
     place = a.at_stroke + way
     a.at_stroke = within_play(place)
