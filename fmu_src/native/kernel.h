@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations c7ce9141e8122733, body 5c4a3983cd279769; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 27c17acc89478e8d, body ac388096acda90e8; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -2814,7 +2814,7 @@ static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double v
     {
         return 1;
     }
-    if (whole > 0.08)
+    if (double_max(2, whole, a->doubt) > 0.08)
     {
         a->way_stroke *= 0.5;
         a->way_led *= 0.5;

@@ -15,12 +15,13 @@ from twintube.core.variables import var
 PLAY = 0.002
 # Way [m] from which on a difference is worth a warning.
 NOTABLE = 0.02
-# Share of the way by which the two may part. A forgotten motion ratio of 0.5 to 0.8 parts them by more, a sign by twice the
-# way; a calibration is right within some hundredths, and straight lines between samples miss a fifth of a sine only where a
+# Share of the way by which the two may part. A forgotten motion ratio, mostly 0.5 to 0.8, parts them by more, a turned sign by
+# twice the way; a calibration is right within some hundredths, and straight lines between samples miss a fifth of a sine only where a
 # period has hardly four of them.
 SHARE = 0.2
-# Way [m] at which half of all that was is forgotten, so that an error that comes late is found: NOTABLE / SHARE - NOTABLE.
-# After that much way without a difference, a jump of NOTABLE still is the share that counts.
+# Way or doubt [m] at which half of all that was is forgotten, so that an error that comes late is found, also after a long
+# rest with noise: NOTABLE / SHARE - NOTABLE. After that much way without a difference, a jump of NOTABLE is still the share
+# that counts.
 REMEMBERED = 0.08
 # Above every number [SI] of a record: far more than the fastest motion goes in the longest step.
 FARTHEST = 1e17
@@ -78,7 +79,7 @@ def parted(a: Agreement, stroke: float, velocity: float, step: float) -> int:
     whole = max(a.way_stroke, a.way_led)
     if whole >= NOTABLE and a.way_apart > a.doubt + SHARE * whole:
         return 1
-    if whole > REMEMBERED:
+    if max(whole, a.doubt) > REMEMBERED:
         a.way_stroke *= 0.5
         a.way_led *= 0.5
         a.way_apart *= 0.5
