@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 27c17acc89478e8d, body ac388096acda90e8; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 04b5d9054c1b0f80, body 9bab7708e48da1d6; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -2814,7 +2814,7 @@ static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double v
     {
         return 1;
     }
-    if (double_max(2, whole, a->doubt) > 0.08)
+    if ((whole > 0.12) || (a->doubt > 2.0 * 0.12))
     {
         a->way_stroke *= 0.5;
         a->way_led *= 0.5;

@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 53487bd8c73864e3, body 8901c5eb84881c8a; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations d96eb0b181bd094b, body ad86fede73143ce9; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -902,7 +902,7 @@ static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double v
     {
         return 1;
     }
-    if (double_max(2, whole, a->doubt) > 0.08)
+    if ((whole > 0.12) || (a->doubt > 2.0 * 0.12))
     {
         a->way_stroke *= 0.5;
         a->way_led *= 0.5;

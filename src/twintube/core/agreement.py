@@ -15,14 +15,15 @@ from twintube.core.variables import var
 PLAY = 0.002
 # Way [m] from which on a difference is worth a warning.
 NOTABLE = 0.02
-# Share of the way by which the two may part. A forgotten motion ratio, mostly 0.5 to 0.8, parts them by more, a turned sign by
-# twice the way; a calibration is right within some hundredths, and straight lines between samples miss a fifth of a sine only where a
-# period has hardly four of them.
+# Share of the way by which the two may part. A forgotten motion ratio, mostly 0.5 to 0.8, parts them by more, a turned sign
+# by twice the way. A calibration is right within some hundredths, and straight lines between samples miss a fifth of a sine
+# only where a period has hardly four of them.
 SHARE = 0.2
-# Way or doubt [m] at which half of all that was is forgotten, so that an error that comes late is found, also after a long
-# rest with noise: NOTABLE / SHARE - NOTABLE. After that much way without a difference, a jump of NOTABLE is still the share
-# that counts.
-REMEMBERED = 0.08
+# Way [m] at which half of all that was is forgotten, so that an error that comes late is found. It holds some swings of a
+# car's body, over which motions too fast for the step (the wheel's at 40 ms) even out, and after that much way without a
+# difference a jump of 30 mm still is the share that counts: 0.03 / SHARE - 0.03. A doubt of twice this way is forgotten too,
+# as no difference could exceed it: after a long rest with noise the next motion counts.
+REMEMBERED = 0.12
 # Above every number [SI] of a record: far more than the fastest motion goes in the longest step.
 FARTHEST = 1e17
 
@@ -79,7 +80,7 @@ def parted(a: Agreement, stroke: float, velocity: float, step: float) -> int:
     whole = max(a.way_stroke, a.way_led)
     if whole >= NOTABLE and a.way_apart > a.doubt + SHARE * whole:
         return 1
-    if max(whole, a.doubt) > REMEMBERED:
+    if whole > REMEMBERED or a.doubt > 2.0 * REMEMBERED:
         a.way_stroke *= 0.5
         a.way_led *= 0.5
         a.way_apart *= 0.5
