@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 04b5d9054c1b0f80, body 9bab7708e48da1d6; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 6b7229d2f37aae30, body 63fb9e91b418fe08; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -2788,11 +2788,13 @@ static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double v
 {
     double way;
     double led;
+    bool jumped;
     double change;
     double place;
     double whole;
     way = stroke - a->stroke;
     led = 0.5 * a->step * (a->velocity + velocity);
+    jumped = fabs(way - led) > 0.02 + 20.0 * a->step;
     change = velocity - a->velocity;
     a->doubt += 0.5 * a->step * (fabs(change) + fabs(change - a->change));
     /* What changes in no time, at the start or between two steps, says nothing of the course. */
@@ -2810,7 +2812,7 @@ static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double v
     a->at_apart = kernel_within_play(place);
     a->way_apart += fabs(place - a->at_apart);
     whole = double_max(2, a->way_stroke, a->way_led);
-    if ((whole >= 0.02) && (a->way_apart > a->doubt + 0.2 * whole))
+    if (jumped || ((whole >= 0.02) && (a->way_apart > a->doubt + 0.2 * whole)))
     {
         return 1;
     }

@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations d96eb0b181bd094b, body ad86fede73143ce9; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 6ebbbdf455bd40d9, body 816c48e3b67cd450; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -876,11 +876,13 @@ static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double v
 {
     double way;
     double led;
+    bool jumped;
     double change;
     double place;
     double whole;
     way = stroke - a->stroke;
     led = 0.5 * a->step * (a->velocity + velocity);
+    jumped = fabs(way - led) > 0.02 + 20.0 * a->step;
     change = velocity - a->velocity;
     a->doubt += 0.5 * a->step * (fabs(change) + fabs(change - a->change));
     /* What changes in no time, at the start or between two steps, says nothing of the course. */
@@ -898,7 +900,7 @@ static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double v
     a->at_apart = kernel_within_play(place);
     a->way_apart += fabs(place - a->at_apart);
     whole = double_max(2, a->way_stroke, a->way_led);
-    if ((whole >= 0.02) && (a->way_apart > a->doubt + 0.2 * whole))
+    if (jumped || ((whole >= 0.02) && (a->way_apart > a->doubt + 0.2 * whole)))
     {
         return 1;
     }

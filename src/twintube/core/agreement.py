@@ -24,6 +24,8 @@ SHARE = 0.2
 # difference a jump of 30 mm still is the share that counts: 0.03 / SHARE - 0.03. A doubt of twice this way is forgotten too,
 # as no difference could exceed it: after a long rest with noise the next motion counts.
 REMEMBERED = 0.12
+# A difference that no velocity [m/s] within the bounds of `Inputs` leads over in the step is a jump, whatever went before.
+FASTEST = 20.0
 # Above every number [SI] of a record: far more than the fastest motion goes in the longest step.
 FARTHEST = 1e17
 
@@ -61,6 +63,7 @@ def parted(a: Agreement, stroke: float, velocity: float, step: float) -> int:
     """
     way = stroke - a.stroke
     led = 0.5 * a.step * (a.velocity + velocity)
+    jumped = abs(way - led) > NOTABLE + FASTEST * a.step
     change = velocity - a.velocity
     a.doubt += 0.5 * a.step * (abs(change) + abs(change - a.change))
     # What changes in no time, at the start or between two steps, says nothing of the course.
@@ -78,7 +81,7 @@ def parted(a: Agreement, stroke: float, velocity: float, step: float) -> int:
     a.at_apart = within_play(place)
     a.way_apart += abs(place - a.at_apart)
     whole = max(a.way_stroke, a.way_led)
-    if whole >= NOTABLE and a.way_apart > a.doubt + SHARE * whole:
+    if jumped or (whole >= NOTABLE and a.way_apart > a.doubt + SHARE * whole):
         return 1
     if whole > REMEMBERED or a.doubt > 2.0 * REMEMBERED:
         a.way_stroke *= 0.5
