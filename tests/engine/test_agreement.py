@@ -83,8 +83,10 @@ def test_a_record_has_the_numbers_of_one_that_follows() -> None:
     a = blank(Agreement)
     random = np.random.default_rng(2)
     for h in random.choice([0.0, 1e-4, 1e-3, 1.0, 1e12], 2000):
-        parted(a, random.uniform(-1e4, 1e4), random.uniform(-1e3, 1e3), h)
+        found = parted(a, random.uniform(-1e4, 1e4), random.uniform(-1e3, 1e3), h)
         assert followed(a) == 1
+        if found:  # after a warning nobody follows any more
+            a = blank(Agreement)
 
 
 @pytest.mark.parametrize("interpreted", [False, True])
