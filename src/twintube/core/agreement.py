@@ -25,7 +25,7 @@ SHARE = 0.2
 # as no difference could exceed it: after a long rest with noise the next motion counts.
 REMEMBERED = 0.12
 # A difference that no velocity [m/s] within the bounds of `Inputs` leads over in the step is a jump, whatever went before.
-FASTEST = 20.0
+HIGHEST_SPEED = 20.0
 # Above every number [SI] of a record: far more than the fastest motion goes in the longest step.
 FARTHEST = 1e17
 
@@ -63,7 +63,7 @@ def parted(a: Agreement, stroke: float, velocity: float, step: float) -> int:
     """
     way = stroke - a.stroke
     led = 0.5 * a.step * (a.velocity + velocity)
-    jumped = abs(way - led) > NOTABLE + FASTEST * a.step
+    jumped = abs(way - led) > NOTABLE + HIGHEST_SPEED * a.step
     change = velocity - a.velocity
     a.doubt += 0.5 * a.step * (abs(change) + abs(change - a.change))
     # What changes in no time, at the start or between two steps, says nothing of the course.
