@@ -39,6 +39,30 @@ static int numbers(const void *record, size_t size)
     return !wrong;
 }
 
+/* The name of the variable with this value. */
+static const char *name_of(const struct unit *u, const double *value)
+{
+    const size_t offset = (size_t)((const char *)value - (const char *)&u->m);
+    for (fmi2ValueReference i = 0; i < VARIABLES; i++) {
+        if (VARIABLE[i].offset == offset)
+            return VARIABLE[i].name;
+    }
+    return "";
+}
+
+/* Follow two inputs, a way and its velocity, from a communication point on which `h` [s] are to follow; a warning, once, where
+   they do not belong together. */
+static fmi2Status follow(struct unit *u, struct kernel_Agreement *a, const double *way, const double *velocity, double h)
+{
+    const char *led;
+    if (u->m.warned || !kernel_parted(a, *way, *velocity, h))
+        return fmi2OK;
+    u->m.warned = 1;
+    led = name_of(u, velocity);
+    return warn(u, SAY_PARTED, u->m.time, name_of(u, way), a->way_stroke + fabs(a->at_stroke), led, a->way_led + fabs(a->at_led),
+                a->way_apart + fabs(a->at_apart), led);
+}
+
 /* Of each model, in step.h. */
 static int admissible(struct unit *u, struct parameters *of);
 static void derive(struct memory *m);

@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 500d6636b1e8c9e9, body 202eda6d4e0b371a; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 6b7229d2f37aae30, body 63fb9e91b418fe08; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -255,6 +255,20 @@ struct kernel_Violation {
     int64_t point;
     double value;
     double limit;
+};
+
+struct kernel_Agreement {
+    double stroke;
+    double velocity;
+    double change;
+    double step;
+    double at_stroke;
+    double at_led;
+    double at_apart;
+    double way_stroke;
+    double way_led;
+    double way_apart;
+    double doubt;
 };
 
 /* Friction and cavitation shares of a damper that holds `oil_level` [1] of its oil. */
@@ -2738,14 +2752,6 @@ static double kernel_time_slack(double time, double step)
     return 1e-09 * (1.0 + fabs(time)) + 0.001 * step;
 }
 
-/* Way [m] from the stroke that the last step led to, with a mount that of its outer end; 0 where it is not notable. */
-static double kernel_stroke_jump(struct kernel_Derived* d, struct kernel_State* s, double stroke)
-{
-    double jump;
-    jump = stroke - ((d->extended > 0 ? s->z_rod : s->z));
-    return (fabs(jump) > 0.02 ? jump : 0.0);
-}
-
 /* 1 where a restored state can be that of a damper: the piston in the tube, no phase below zero; else 0. */
 static int64_t kernel_possible(struct kernel_Derived* d, struct kernel_State* s)
 {
@@ -2762,6 +2768,78 @@ static int64_t kernel_possible(struct kernel_Derived* d, struct kernel_State* s)
         return 0;
     }
     return ((s->V3_oil < -1e-12) || (s->V3_foam < -1e-12) || (s->V3_foam_oil < -1e-12) ? 0 : 1);
+}
+
+/* The end of the play [m] where a place is beyond it, else the place. */
+static double kernel_within_play(double place)
+{
+    if (place > 0.002)
+    {
+        return 0.002;
+    }
+    return (place < -0.002 ? -0.002 : place);
+}
+
+/* 1 where the ways up to this communication point do not belong together, else 0; `step` [s] is that to the next one.
+   Where the velocity rises or falls all the way to the next point, the trapezoid misses at most half a step times its
+   change. That covers a velocity that only comes with the first step, and one that is the mean of the coming step. Where it
+   turns in between, the change itself changes. */
+static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double velocity, double step)
+{
+    double way;
+    double led;
+    bool jumped;
+    double change;
+    double place;
+    double whole;
+    way = stroke - a->stroke;
+    led = 0.5 * a->step * (a->velocity + velocity);
+    jumped = fabs(way - led) > 0.02 + 20.0 * a->step;
+    change = velocity - a->velocity;
+    a->doubt += 0.5 * a->step * (fabs(change) + fabs(change - a->change));
+    /* What changes in no time, at the start or between two steps, says nothing of the course. */
+    a->change = (a->step > 0.0 ? change : 0.0);
+    a->stroke = stroke;
+    a->velocity = velocity;
+    a->step = step;
+    place = a->at_stroke + way;
+    a->at_stroke = kernel_within_play(place);
+    a->way_stroke += fabs(place - a->at_stroke);
+    place = a->at_led + led;
+    a->at_led = kernel_within_play(place);
+    a->way_led += fabs(place - a->at_led);
+    place = a->at_apart + way - led;
+    a->at_apart = kernel_within_play(place);
+    a->way_apart += fabs(place - a->at_apart);
+    whole = double_max(2, a->way_stroke, a->way_led);
+    if (jumped || ((whole >= 0.02) && (a->way_apart > a->doubt + 0.2 * whole)))
+    {
+        return 1;
+    }
+    if ((whole > 0.12) || (a->doubt > 2.0 * 0.12))
+    {
+        a->way_stroke *= 0.5;
+        a->way_led *= 0.5;
+        a->way_apart *= 0.5;
+        a->doubt *= 0.5;
+    }
+    return 0;
+}
+
+/* 1 where a restored record can come from following inputs, else 0. */
+static int64_t kernel_followed(struct kernel_Agreement* a)
+{
+    double sums;
+    if ((fabs(a->at_stroke) > 0.002) || (fabs(a->at_led) > 0.002) || (fabs(a->at_apart) > 0.002))
+    {
+        return 0;
+    }
+    if ((a->step < 0.0) || (a->way_stroke < 0.0) || (a->way_led < 0.0) || (a->way_apart < 0.0) || (a->doubt < 0.0))
+    {
+        return 0;
+    }
+    sums = a->way_stroke + a->way_led + a->way_apart + a->doubt;
+    return (fabs(a->stroke) + fabs(a->velocity) + fabs(a->change) + a->step + sums < 1e+17 ? 1 : 0);
 }
 
 #endif

@@ -13,6 +13,7 @@ struct model {
     struct kernel_State s;
     struct kernel_Flow f;
     struct kernel_Outputs out;
+    struct kernel_Agreement a;
     double stroke, velocity;
     double limit; /* [m] largest stroke to each side */
 };

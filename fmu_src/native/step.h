@@ -45,12 +45,13 @@ static void publish(struct memory *m)
 /* For states from elsewhere: whether all that is remembered are numbers, and those of a damper. */
 static int all_numbers(const struct memory *m)
 {
-    return numbers(&m->now.s, sizeof m->now.s) && numbers(&m->now.f, sizeof m->now.f) && numbers(&m->now.out, sizeof m->now.out);
+    return numbers(&m->now.s, sizeof m->now.s) && numbers(&m->now.f, sizeof m->now.f)
+        && numbers(&m->now.out, sizeof m->now.out) && numbers(&m->now.a, sizeof m->now.a);
 }
 
 static int possible(struct memory *m)
 {
-    return kernel_possible(&m->now.d, &m->now.s) == 1;
+    return kernel_possible(&m->now.d, &m->now.s) == 1 && kernel_followed(&m->now.a) == 1;
 }
 
 /* The damper at rest at the stroke that is set. */
@@ -63,6 +64,9 @@ static int begin(struct unit *u)
         return 0;
     memset(&m->now.s, 0, sizeof m->now.s);
     memset(&m->now.f, 0, sizeof m->now.f);
+    memset(&m->now.a, 0, sizeof m->now.a);
+    m->now.a.stroke = m->now.stroke;
+    m->now.a.velocity = m->now.velocity;
     m->now.f.k_degr = m->now.f.k_mean = 1.0;
     kernel_start(&m->in_force.p, &m->now.d, &m->now.s, m->now.stroke);
     kernel_advance(&m->in_force.p, &m->now.d, &m->now.s, &m->now.f, m->now.stroke, m->now.velocity, m->now.velocity, 0.0);
@@ -82,10 +86,8 @@ static fmi2Status move(struct unit *u, double h, double rate)
     struct memory *m = &u->m;
     const double z = m->now.stroke, v = m->now.velocity, after = v + rate * h;
     const double end = z + (v + 0.5 * rate * h) * h;
-    double jump;
     struct kernel_State before;
     struct kernel_Flow flow;
-    fmi2Status status = fmi2OK;
 
     if (m->changed && !take_over(u))
         return fmi2Error;
@@ -95,18 +97,13 @@ static fmi2Status move(struct unit *u, double h, double rate)
         return fmi2Error;
     before = m->now.s;
     flow = m->now.f;
-    jump = kernel_stroke_jump(&m->now.d, &m->now.s, z);
     if (!kernel_advance(&m->in_force.p, &m->now.d, &m->now.s, &m->now.f, end, v, after, h) || !computed(m)) {
         m->now.s = before;
         m->now.f = flow;
         return refuse(u, SAY_NO_STEP, m->time);
     }
     publish(m);
-    if (!m->warned && jump != 0.0) {
-        m->warned = 1;
-        status = warn(u, SAY_STROKE_JUMP, m->time, z, z - jump);
-    }
-    return status;
+    return follow(u, &m->now.a, &m->now.stroke, &m->now.velocity, h);
 }
 
 #endif

@@ -209,5 +209,5 @@ def test_a_wrong_sign_of_the_velocity_is_noticed(sa8_fmu: Path) -> None:
         for i in range(200):
             z, v = motion(i, 1e-2)
             damper.step(z, -v, 1e-2)
-        assert any("check its sign" in message for message in damper.messages)
+        assert any("check sign, unit and connection" in message for message in damper.messages)
         assert len(damper.messages) == 1

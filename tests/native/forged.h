@@ -81,6 +81,8 @@ static void fields_of(enum set which, int mode)
             with_number(&i, "state", FIELD(now.s) + n * sizeof(double), odd[k]);
         for (size_t n = 0; n < sizeof(struct kernel_Flow) / sizeof(double); n++)
             with_number(&i, "flow", FIELD(now.f) + n * sizeof(double), odd[k]);
+        for (size_t n = 0; n < sizeof(struct kernel_Agreement) / sizeof(double); n++)
+            with_number(&i, "agreement", FIELD(now.a) + n * sizeof(double), odd[k]);
     }
     for (fmi2ValueReference vr = 0; vr < VARIABLES; vr++) {
         const struct variable *v = &VARIABLE[vr];
@@ -100,6 +102,9 @@ static void fields_of(enum set which, int mode)
     }
     if (mode >= STEPPING) {
         with_whole(&i, "stale between steps", FIELD(stale), 1);
+        with_number(&i, "a place beyond the play", FIELD(now.a.at_apart), 0.003);
+        with_number(&i, "a way below zero", FIELD(now.a.way_led), -1e-9);
+        with_number(&i, "a velocity beyond any", FIELD(now.a.velocity), 1e300);
         with_number(&i, "a phase below zero", FIELD(now.s.V1_oil), -1e-6);
         with_number(&i, "a stroke beyond the tube", FIELD(now.s.z), 0.4);
         with_number(&i, "oil that does not fit", FIELD(in_force.p.V_oil), 4e-3);

@@ -133,7 +133,7 @@ def test_a_failing_case_is_named_and_leaves_no_file(tmp_path: Path, monkeypatch:
         raise ValueError("boom")
 
     study = studies.load("oil_levels")
-    monkeypatch.setattr("twintube.studies.cases.simulate", failing)
+    monkeypatch.setattr("twintube.studies.cases.simulate_quietly", failing)
     with pytest.raises(studies.StudyError, match=r"case 0 \(SA8, .*oil_level=0.0.*boom"):
         studies.run(study, tmp_path / "out.parquet", processes=1, progress=False)
     assert list(tmp_path.iterdir()) == []

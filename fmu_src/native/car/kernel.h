@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations c829afd9eaec52e0, body c58901f5e3bd67bd; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 6ebbbdf455bd40d9, body 816c48e3b67cd450; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -196,6 +196,20 @@ struct kernel_Course {
     double span;
     double earlier;
     double part;
+};
+
+struct kernel_Agreement {
+    double stroke;
+    double velocity;
+    double change;
+    double step;
+    double at_stroke;
+    double at_led;
+    double at_apart;
+    double way_stroke;
+    double way_led;
+    double way_apart;
+    double doubt;
 };
 
 /* Mass and places of the axles from the sprung masses of a front and a rear corner [kg]. */
@@ -842,6 +856,78 @@ static void kernel_publish_wheel(struct kernel_BodyMotion* b, struct kernel_Whee
 static double kernel_time_slack(double time, double step)
 {
     return 1e-09 * (1.0 + fabs(time)) + 0.001 * step;
+}
+
+/* The end of the play [m] where a place is beyond it, else the place. */
+static double kernel_within_play(double place)
+{
+    if (place > 0.002)
+    {
+        return 0.002;
+    }
+    return (place < -0.002 ? -0.002 : place);
+}
+
+/* 1 where the ways up to this communication point do not belong together, else 0; `step` [s] is that to the next one.
+   Where the velocity rises or falls all the way to the next point, the trapezoid misses at most half a step times its
+   change. That covers a velocity that only comes with the first step, and one that is the mean of the coming step. Where it
+   turns in between, the change itself changes. */
+static int64_t kernel_parted(struct kernel_Agreement* a, double stroke, double velocity, double step)
+{
+    double way;
+    double led;
+    bool jumped;
+    double change;
+    double place;
+    double whole;
+    way = stroke - a->stroke;
+    led = 0.5 * a->step * (a->velocity + velocity);
+    jumped = fabs(way - led) > 0.02 + 20.0 * a->step;
+    change = velocity - a->velocity;
+    a->doubt += 0.5 * a->step * (fabs(change) + fabs(change - a->change));
+    /* What changes in no time, at the start or between two steps, says nothing of the course. */
+    a->change = (a->step > 0.0 ? change : 0.0);
+    a->stroke = stroke;
+    a->velocity = velocity;
+    a->step = step;
+    place = a->at_stroke + way;
+    a->at_stroke = kernel_within_play(place);
+    a->way_stroke += fabs(place - a->at_stroke);
+    place = a->at_led + led;
+    a->at_led = kernel_within_play(place);
+    a->way_led += fabs(place - a->at_led);
+    place = a->at_apart + way - led;
+    a->at_apart = kernel_within_play(place);
+    a->way_apart += fabs(place - a->at_apart);
+    whole = double_max(2, a->way_stroke, a->way_led);
+    if (jumped || ((whole >= 0.02) && (a->way_apart > a->doubt + 0.2 * whole)))
+    {
+        return 1;
+    }
+    if ((whole > 0.12) || (a->doubt > 2.0 * 0.12))
+    {
+        a->way_stroke *= 0.5;
+        a->way_led *= 0.5;
+        a->way_apart *= 0.5;
+        a->doubt *= 0.5;
+    }
+    return 0;
+}
+
+/* 1 where a restored record can come from following inputs, else 0. */
+static int64_t kernel_followed(struct kernel_Agreement* a)
+{
+    double sums;
+    if ((fabs(a->at_stroke) > 0.002) || (fabs(a->at_led) > 0.002) || (fabs(a->at_apart) > 0.002))
+    {
+        return 0;
+    }
+    if ((a->step < 0.0) || (a->way_stroke < 0.0) || (a->way_led < 0.0) || (a->way_apart < 0.0) || (a->doubt < 0.0))
+    {
+        return 0;
+    }
+    sums = a->way_stroke + a->way_led + a->way_apart + a->doubt;
+    return (fabs(a->stroke) + fabs(a->velocity) + fabs(a->change) + a->step + sums < 1e+17 ? 1 : 0);
 }
 
 #endif

@@ -15,6 +15,7 @@ struct model {
     struct kernel_BodyMotion b;
     struct kernel_WheelMotion w[4];
     struct kernel_Course t;
+    struct kernel_Agreement a[4]; /* of the road under each wheel and its rate */
     struct kernel_DriverInputs driver;
     struct kernel_WheelInputs given[4];
     struct kernel_BodyOutputs out;

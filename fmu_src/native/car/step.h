@@ -39,6 +39,10 @@ static int all_numbers(const struct memory *m)
 static int possible(struct memory *m)
 {
     const struct kernel_Course *t = &m->now.t;
+    for (int i = 0; i < 4; i++) {
+        if (!kernel_followed(&m->now.a[i]))
+            return 0;
+    }
     return within(t->span, 0.0, LONGEST_SPAN) && within(t->earlier, 0.0, LONGEST_SPAN) && within(t->part, 0.0, LONGEST_SPAN);
 }
 
@@ -54,6 +58,11 @@ static int begin(struct unit *u)
     memset(&now->b, 0, sizeof now->b);
     memset(now->w, 0, sizeof now->w);
     memset(&now->t, 0, sizeof now->t);
+    memset(now->a, 0, sizeof now->a);
+    for (int i = 0; i < 4; i++) {
+        now->a[i].stroke = now->given[i].road;
+        now->a[i].velocity = now->given[i].road_rate;
+    }
     kernel_start_car(&now->b, &now->k[0], &now->k[1], &now->k[2], &now->k[3], &now->w[0], &now->w[1], &now->w[2], &now->w[3],
                      &now->given[0], &now->given[1], &now->given[2], &now->given[3], m->in_force.speed);
     publish(m);
@@ -71,6 +80,7 @@ static fmi2Status move(struct unit *u, double h, double rate)
     struct memory *m = &u->m;
     struct model *now = &m->now;
     const struct model before = *now;
+    fmi2Status status = fmi2OK;
     (void)rate;
     if (!inside(u, "communication step", h, 0.0, LONGEST_SPAN, " s"))
         return fmi2Error;
@@ -82,7 +92,9 @@ static fmi2Status move(struct unit *u, double h, double rate)
         *now = before;
         return refuse(u, SAY_NO_STEP, m->time);
     }
-    return fmi2OK;
+    for (int i = 0; i < 4 && status == fmi2OK; i++)
+        status = follow(u, &now->a[i], &now->given[i].road, &now->given[i].road_rate, h);
+    return status;
 }
 
 #endif

@@ -3,6 +3,7 @@
 import json
 import math
 import re
+import warnings
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -19,6 +20,7 @@ from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import ParameterError
 from twintube.dampers.freed_gas import acting, as_published
 from twintube.engine.simulate import InputError
+from twintube.errors import InputWarning
 from twintube.files import write_bytes, write_text
 from twintube.rig import signals
 
@@ -81,8 +83,7 @@ def simulate(
     """
     from twintube.data import listed_record
     from twintube.data.motion import Motion, read_moved
-    from twintube.engine.simulate import simulate as run
-    from twintube.engine.simulate import unit_of
+    from twintube.engine.simulate import disagreement, simulate_quietly, unit_of
 
     if record is not None and not record.exists():
         raise InputError(f"{record}: the file does not exist")
@@ -107,7 +108,10 @@ def simulate(
             typer.echo(str(finding))
         usable = np.ones(len(motion.time), dtype=bool)
     time = motion.time
-    result = run(chosen, motion.stroke, motion.velocity, time)
+    result = simulate_quietly(chosen, motion.stroke, motion.velocity, time)
+    doubtful = disagreement(time, result.stroke, result.velocity)
+    if doubtful:
+        warnings.warn(f"{'' if record is None else f'{record}: '}{doubtful}", InputWarning, stacklevel=1)
     head = ["time [s]", "stroke [m]", "velocity [m/s]"]
     columns: list[Any] = [time, result.stroke, result.velocity]
     for name, values in result.columns.items():

@@ -1,4 +1,4 @@
-"""What must hold between parameters, and between a step and the last step: rules of both kinds of FMU and the engine.
+"""What must hold between parameters, of times and of a restored state: rules of both kinds of FMU and the engine.
 
 In the kernel's subset of Python, so that the native FMU runs the translation. Rules have numbers; their texts are in
 `messages.py`. The bounds of single parameters are in the table, `variables.py`.
@@ -15,8 +15,6 @@ from twintube.core.variables import FV_POINTS, Derived, var
 LONGEST = 1e12
 # Rounding may leave a phase [m3] this far below zero.
 TRACE = 1e-12
-# From here on [m] a stroke that the velocity did not lead to is worth a warning.
-JUMP = 0.02
 
 
 @dataclass(slots=True)
@@ -99,12 +97,6 @@ def fit_rule(p: Parameters, d: Derived, after: int, violation: Violation) -> int
 def time_slack(time: float, step: float) -> float:
     """Difference [s] of two communication points that is rounding: importers add up their steps, and end on a rest."""
     return 1e-9 * (1.0 + abs(time)) + 1e-3 * step
-
-
-def stroke_jump(d: Derived, s: State, stroke: float) -> float:
-    """Way [m] from the stroke that the last step led to, with a mount that of its outer end; 0 where it is not notable."""
-    jump = stroke - (s.z_rod if d.extended > 0 else s.z)
-    return jump if abs(jump) > JUMP else 0.0
 
 
 def possible(d: Derived, s: State) -> int:

@@ -10,8 +10,9 @@ from operator import attrgetter
 from typing import Any
 
 from twintube.core import messages
+from twintube.core.agreement import Agreement, followed, parted, ways
 from twintube.core.checks import out_of_bounds, out_of_range, outside, problems
-from twintube.core.consistency import possible, stroke_jump
+from twintube.core.consistency import possible
 from twintube.core.effects import Parameters, State
 from twintube.core.frame import stroke_limit
 from twintube.core.model import advance, set_up, start
@@ -58,7 +59,8 @@ class Instance:
         self.limit = 0.0  # [m] largest stroke to each side
         self.held: tuple[float, ...] = ()  # `s` after the last step, for a step that has to be taken back
         self.changed = False  # `wanted` differs from `p`
-        self.warned = False
+        self.a: Agreement = blank(Agreement)
+        self.warned = False  # that velocity and stroke have parted; then nobody looks any more
         self.remark = ""  # of the last step
 
     def set_parameter(self, name: str, index: int, value: float) -> None:
@@ -90,7 +92,8 @@ class Instance:
         text = self.take_over() or outside("stroke", z, -self.limit, self.limit, "m")
         if text:
             return text
-        self.s, self.f = blank(State), blank(Flow)
+        self.s, self.f, self.a = blank(State), blank(Flow), blank(Agreement)
+        self.a.stroke, self.a.velocity = z, v
         try:
             start(self.p, self.d, self.s, z)
             advance(self.p, self.d, self.s, self.f, z, v, v, 0.0)
@@ -121,7 +124,6 @@ class Instance:
             text = outside("stroke", z, -limit, limit, "m")
             return text or outside("stroke at the end of the step", end, -limit, limit, "m")
         flow = flow_of(self.f)
-        jump = stroke_jump(self.d, s, z)
         try:
             done = advance(self.p, self.d, s, self.f, end, v, v, h)
             publish(self.d, s, self.o)
@@ -133,9 +135,9 @@ class Instance:
                     setattr(record, name, value)
             publish(self.d, s, self.o)
             return messages.NO_STEP % time
-        if jump != 0.0 and not self.warned:
+        if not self.warned and parted(self.a, z, v, h):
             self.warned = True
-            self.remark = messages.STROKE_JUMP % (time, z, z - jump)
+            self.remark = messages.parted(time, *ways(self.a))
         return ""
 
     def kept(self) -> dict[str, Any]:
@@ -148,12 +150,13 @@ class Instance:
             "inputs": asdict(self.inputs),
             "state": asdict(self.s),
             "flow": asdict(self.f),
+            "agreement": asdict(self.a),
         }
 
     @classmethod
     def restored(cls, state: Any, *, begun: bool) -> "Instance":
         """A damper in a state that was kept; raises StateError otherwise. `begun`: the start was computed."""
-        keys = {"changed", "warned", "parameters", "wanted", "inputs", "state", "flow"}
+        keys = {"changed", "warned", "parameters", "wanted", "inputs", "state", "flow", "agreement"}
         if not isinstance(state, dict) or set(state) != keys:
             raise StateError("fields")
         if type(state["changed"]) is not bool or type(state["warned"]) is not bool:
@@ -161,11 +164,10 @@ class Instance:
         p, wanted = record_of(Parameters, state["parameters"]), record_of(Parameters, state["wanted"])
         new = cls(asdict(p))
         new.wanted, new.changed, new.warned = asdict(wanted), state["changed"], state["warned"]
-        new.inputs, new.s, new.f = (
-            record_of(kind, state[key]) for kind, key in ((Inputs, "inputs"), (State, "state"), (Flow, "flow"))
-        )
+        kinds = {"inputs": Inputs, "state": State, "flow": Flow, "agreement": Agreement}
+        new.inputs, new.s, new.f, new.a = (record_of(kind, state[key]) for key, kind in kinds.items())
         beyond = [out_of_range(item, getattr(new.inputs, item.name)) for item in fields(Inputs)]
-        if out_of_bounds(p) or out_of_bounds(wanted) or any(beyond) or (begun and problems(p)):
+        if out_of_bounds(p) or out_of_bounds(wanted) or any(beyond) or not followed(new.a) or (begun and problems(p)):
             raise StateError("bounds")
         if begun:
             new.derive()

@@ -33,7 +33,11 @@ MISTIMED = "communication point = %.10g s: the last step ended at %.10g s"
 BEYOND_STOP = "communication step = %g s at %.10g s: beyond the stop time %.10g s"
 NO_START = "the start could not be computed; please report this parameter set"
 NO_STEP = "time %g s: the step could not be computed; please report this parameter set"
-STROKE_JUMP = "time %g s: stroke = %g m, but the velocity led to %g m; check its sign and unit"
+# Arguments: time, stroke and its way, velocity and the way that it led, the way of their difference, velocity.
+PARTED = (
+    "time %g s: %s went %g m, %s led %g m in the same time, and the two parted by %g m; "
+    "check sign, unit and connection of %s"
+)
 NO_STATE = "%s: the bytes are not an FMU state"
 OTHER_STATE = "%s: the state belongs to another FMU"
 DAMAGED_STATE = "%s: the state is damaged"
@@ -50,6 +54,11 @@ def suffix(unit: str) -> str:
 def outside(name: str, value: float, lower: float, upper: float, unit: str) -> str:
     """The text for a value beyond its bounds."""
     return OUTSIDE % (name, value, suffix(unit), lower, upper, suffix(unit))
+
+
+def parted(time: float, way_stroke: float, way_led: float, way_apart: float) -> str:
+    """The text for a velocity that does not belong to its stroke, by the ways of `agreement.py`."""
+    return PARTED % (time, "stroke", way_stroke, "velocity", way_led, way_apart, "velocity")
 
 
 def broken_rule(rule: int, point: int, value: float, limit: float) -> str:

@@ -14,6 +14,7 @@ KERNEL = (
     "frame.py",
     "outputs.py",
 )
+AGREEMENT = "agreement.py"
 RULES = "consistency.py"
 MODEL = "model.py"
 
@@ -36,6 +37,11 @@ def effect_texts() -> list[str]:
 def model_text() -> str:
     """The kernel with the effects around it."""
     return text_of(MODEL)
+
+
+def agreement_text() -> str:
+    """Whether a velocity belongs to its stroke."""
+    return text_of(AGREEMENT)
 
 
 def rule_text() -> str:

@@ -43,7 +43,11 @@ def joined_source() -> str:
         parts += compilable(text)
     for text in sources.effect_texts():
         parts += compilable(text, described=True)
-    for text in (sources.model_text(), *((PACKAGE / name).read_text(encoding="utf-8") for name in LOOPS)):
+    for text in (
+        sources.model_text(),
+        sources.agreement_text(),
+        *((PACKAGE / name).read_text(encoding="utf-8") for name in LOOPS),
+    ):
         parts += compilable(text)
     return "\n\n".join(parts) + "\n"
 

@@ -6,6 +6,7 @@
 import math
 from typing import Any
 
+from twintube.core.agreement import parted
 from twintube.core.effects import effects_parts, effects_remember, effects_scale_valve
 from twintube.core.frame import stroke_limit
 from twintube.core.model import advance, advance_whole, set_up, start
@@ -67,6 +68,20 @@ def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any)
         row[14] = s.V_cav
         row[15] = reserve_gas(d, s)
     return len(z)
+
+
+def first_parted(a: Any, t: Any, z: Any, v: Any) -> int:
+    """The first sample by which the velocities `v` [m/s] do not belong to the strokes `z` [m] at the times `t` [s], else -1.
+
+    All are (n,); `a` is a blank Agreement.
+    """
+    a.stroke = z[0]
+    a.velocity = v[0]
+    last = len(z) - 1
+    for i in range(len(z)):
+        if parted(a, z[i], v[i], t[i + 1] - t[i] if i < last else 0.0) > 0:
+            return i
+    return -1
 
 
 def run_work(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, marks: Any, out: Any) -> int:

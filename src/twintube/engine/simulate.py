@@ -1,5 +1,6 @@
 """The kernel driven over records: stroke and velocity in, forces and volumes out."""
 
+import warnings
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
@@ -8,14 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from twintube.arrays import Array, freeze_arrays
-from twintube.core import effects, model
+from twintube.core import effects, messages, model
+from twintube.core.agreement import Agreement, ways
 from twintube.core.checks import VELOCITY, bad_input, problems
 from twintube.core.frame import stroke_limit
 from twintube.core.variables import Derived, Flow, Outputs, blank
 from twintube.dampers import Damper, load
 from twintube.dampers.damper import refuse
 from twintube.engine import compiled, loops
-from twintube.errors import UserError
+from twintube.errors import InputWarning, UserError
 
 
 class InputError(UserError, ValueError):
@@ -145,6 +147,19 @@ def finished(done: int, z: Array) -> None:
         raise InputError(f"sample {done}: the step could not be split finely enough; please report this parameter set")
 
 
+def disagreement(time: Array, stroke: Array, velocity: Array, *, interpreted: bool = False) -> str:
+    """What to warn of where the velocity [m/s] does not belong to the stroke [m] at the times [s], all (n,); else empty."""
+    a = blank(Agreement)
+    if interpreted:
+        found = loops.first_parted(a, time.tolist(), stroke.tolist(), velocity.tolist())
+    else:
+        row = compiled.as_row(a)[0]
+        # Copies, as compiled code takes arrays that can be written to.
+        found = compiled.module().first_parted(row, *(np.array(values) for values in (time, stroke, velocity)))
+        a = Agreement(*row.item())
+    return messages.parted(float(time[found]), *ways(a)) if found >= 0 else ""
+
+
 def simulate(
     damper: Damper | str | Path,
     stroke: ArrayLike | Motion,
@@ -154,6 +169,8 @@ def simulate(
     interpreted: bool = False,
 ) -> Simulation:
     """Simulate a record from rest at its first sample.
+
+    Where a time is given, a velocity that does not belong to the stroke (sign, unit, connection) is warned of, once.
 
     Args:
         damper: parameters and condition (oil level, gas preload), or the name or file of a parameter set.
@@ -166,14 +183,29 @@ def simulate(
         InputError: a sample is not finite, the piston would leave the tube, or a needed time is missing.
         ParameterError: the parameters are not admissible.
 
+    Warns:
+        InputWarning: velocity and stroke do not belong together.
+
     """
     damper = load(damper)
     if isinstance(stroke, Motion):
-        records, t, z, v = started(damper, stroke.stroke, stroke.velocity, stroke.time)
+        stroke, velocity, time = stroke.stroke, stroke.velocity, stroke.time
     elif velocity is None:
         raise InputError("velocity is missing: simulate takes stroke, velocity and time, or a signal that has all three")
-    else:
-        records, t, z, v = started(damper, stroke, velocity, time)
+    result = simulate_quietly(damper, stroke, velocity, time, interpreted=interpreted)
+    if time is not None:
+        t = np.asarray(time, dtype=float)
+        text = disagreement(t, result.stroke, result.velocity, interpreted=interpreted)
+        if text:
+            warnings.warn(text, InputWarning, stacklevel=2)
+    return result
+
+
+def simulate_quietly(
+    damper: Damper, stroke: ArrayLike, velocity: ArrayLike, time: ArrayLike | None = None, *, interpreted: bool = False
+) -> Simulation:
+    """As `simulate`, for motions that were looked at already: without a warning."""
+    records, t, z, v = started(damper, stroke, velocity, time)
     out = np.empty((len(z), len(loops.COLUMNS)))
     if interpreted:
         p, d, s, f = records

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 
 from twintube.core import effects, sources
+from twintube.core.agreement import Agreement
 from twintube.core.consistency import Violation
 from twintube.core.variables import FV_POINTS, Derived, Flow, Outputs
 from twintube.vehicle.full import brakes, car, equation_texts, signals
@@ -24,12 +25,13 @@ class Equations:
 
 def damper_texts() -> list[str]:
     """The sources of kernel, effects, model and rules."""
-    return [*sources.kernel_texts(), *sources.effect_texts(), sources.model_text(), sources.rule_text()]
+    texts = [*sources.kernel_texts(), *sources.effect_texts(), sources.model_text()]
+    return [*texts, sources.agreement_text(), sources.rule_text()]
 
 
 def car_texts() -> list[str]:
-    """The sources of the car without dampers, and the rule of times."""
-    return [*equation_texts(), sources.rule_text()]
+    """The sources of the car without dampers, and the rules of times and roads."""
+    return [*equation_texts(), sources.agreement_text(), sources.rule_text()]
 
 
 DAMPER = Equations(
@@ -40,11 +42,12 @@ DAMPER = Equations(
         "Flow": Flow,
         "Outputs": Outputs,
         "Violation": Violation,
+        "Agreement": Agreement,
     },
     {"p": "Parameters", "d": "Derived", "s": "State", "f": "Flow", "o": "Outputs", "violation": "Violation"},
     (
-        "set_up", "start", "advance", "publish", "curve_rule", "fit_rule", "stroke_limit", "time_slack", "stroke_jump",
-        "possible",
+        "set_up", "start", "advance", "publish", "curve_rule", "fit_rule", "stroke_limit", "time_slack", "possible",
+        "parted", "followed",
     ),
     damper_texts,
 )  # fmt: skip
@@ -60,9 +63,10 @@ CAR = Equations(
         "BodyOutputs": signals.BodyOutputs,
         "WheelOutputs": signals.WheelOutputs,
         "Course": signals.Course,
+        "Agreement": Agreement,
     },
     {"car": "Wheel"},  # the corner of a quarter car; other records are in the annotations
-    ("set_up_car", "start_car", "communication_step", "publish_body", "publish_wheel", "time_slack"),
+    ("set_up_car", "start_car", "communication_step", "publish_body", "publish_wheel", "time_slack", "parted", "followed"),
     car_texts,
 )
 INTEGERS = ("effects_active", "effects_parts", "effects_remember")  # of the functions generated from the effects' files

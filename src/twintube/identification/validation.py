@@ -9,7 +9,7 @@ from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.data import Record
 from twintube.data.condition import is_intact
-from twintube.engine.simulate import simulate
+from twintube.engine.simulate import simulate_quietly
 from twintube.fitting.averaging import averaged
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.oscillations import smooth_velocity
@@ -48,7 +48,7 @@ def state(damper: Damper, level: float, preload: bool | int) -> Damper:
 def predicted(damper: Damper, record: Harmonic, offset: float) -> Array:
     """What the force channel would show of the model (n,) [N]: with its zero and through its moving mean."""
     condition = state(damper, record.oil_level, record.gas_preload)
-    force = simulate(condition, record.stroke, record.velocity, record.time).force
+    force = simulate_quietly(condition, record.stroke, record.velocity, record.time).force
     return averaged(record.time, force + offset, record.averaged)
 
 
@@ -104,7 +104,7 @@ def validate_drives(damper: Damper, records: Sequence[Record], offset: float = 0
 def driven(damper: Damper, record: Record) -> Array:
     """Force (n,) [N] of the model over a record's stroke."""
     condition = state(damper, record.oil_level, record.gas_preload)
-    return simulate(condition, record.stroke, smooth_velocity(record), record.time).force
+    return simulate_quietly(condition, record.stroke, smooth_velocity(record), record.time).force
 
 
 def intact(record: Record) -> bool:

@@ -11,7 +11,7 @@ from twintube.core import kernel
 from twintube.core.variables import Derived, blank
 from twintube.dampers import Damper
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
-from twintube.engine.simulate import InputError, simulate
+from twintube.engine.simulate import InputError, simulate_quietly
 from twintube.provenance import fingerprint
 from twintube.rig.signals import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, harmonic_block, oscillations
 from twintube.studies.definition import FIELDS, Signal, Study, StudyCase, StudyError
@@ -107,7 +107,7 @@ def oscillation_results(study: Study, damper: Damper, signal: Signal, counted: t
     """Work [J], peak force in rebound and in compression [N] (negative) of the oscillations `counted` from 1."""
     time, stroke, velocity, marks = excitation(study, signal)
     end = int(marks[counted[-1]]) + 1
-    run = simulate(damper, stroke[:end], velocity[:end], time[:end])
+    run = simulate_quietly(damper, stroke[:end], velocity[:end], time[:end])
     rows = []
     for number in counted:
         first, last = int(marks[number - 1]), int(marks[number])
