@@ -189,7 +189,8 @@ def simulate(
     """
     damper = load(damper)
     if isinstance(stroke, Motion):
-        stroke, velocity, time = stroke.stroke, stroke.velocity, stroke.time
+        signal = stroke
+        stroke, velocity, time = signal.stroke, signal.velocity, signal.time
     elif velocity is None:
         raise InputError("velocity is missing: simulate takes stroke, velocity and time, or a signal that has all three")
     result = simulate_quietly(damper, stroke, velocity, time, interpreted=interpreted)
