@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from twintube.data.findings import UnreadableError
+from twintube.data.skipped import texts_over
 from twintube.data.units import NUMBER, units_row
 from twintube.words import listed, shown
 
@@ -63,6 +64,7 @@ class Raw:
     counted: Literal["row", "sample"] = "sample"
     units: dict[str, str] = field(default_factory=dict)  # where the format carries them besides the names
     refused: dict[str, str] = field(default_factory=dict)  # columns that do not hold numbers, and what they hold
+    over: dict[str, list[str]] = field(default_factory=dict)  # what skipped rows say over columns of a list
 
 
 def known_encoding(name: str) -> bool:
@@ -110,7 +112,8 @@ def read_text(path: Path, form: Format) -> Raw:
     rows = [cells if len(cells) == width else (cells + [""] * width)[:width] for _, cells in body]
     columns: dict[str, Any] = {header: [cells[i] for cells in rows] for i, header in enumerate(headers) if header}
     carried = {header: unit for header, unit in zip(headers, units or [], strict=False) if header and unit}
-    return Raw(columns, [number for number, _ in body], "row", carried)
+    over = texts_over(text, delimiter, form.skip_rows, headers) if isinstance(form.columns, list) else {}
+    return Raw(columns, [number for number, _ in body], "row", carried, over=over)
 
 
 def decoded(path: Path, encoding: str) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.data.masses import WEIGHTS
 from twintube.data.stamps import is_stamp, seconds
 from twintube.data.table import UNITS, in_si
 
@@ -45,10 +46,12 @@ def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: s
         try:
             known[name] = in_si(values[name], name, unit)
         except ValueError:
-            unit, wrong = guessed(name, values[name]), unit
-            result.doubts.append(
-                f"{name}: the unit {wrong!r} is not known here, {unit} is guessed from the size of the values"
-            )
+            wrong, unit = unit, WEIGHTS.get(unit, "") if name == "force" else ""
+            how = f"is a mass, {unit} is assumed"
+            if not unit:
+                unit = guessed(name, values[name])
+                how = f"is not known here, {unit} is guessed from the size of the values"
+            result.doubts.append(f"{name}: the unit {wrong!r} {how}")
             known[name] = in_si(values[name], name, unit)
         headers[name] = f"{name} [{unit}]"
     for name, or_else in (("time", "set `sample_rate_Hz`"), ("stroke", "`channels`"), ("force", "`channels`")):

@@ -15,6 +15,7 @@ from twintube.dampers.quantity import parsed, quantity, registry
 from twintube.data.findings import Notes, more
 from twintube.data.formats import Channel, Format, Raw
 from twintube.data.grouping import ungrouped
+from twintube.data.masses import is_mass, is_weight_of
 from twintube.data.stamps import is_stamp, seconds
 from twintube.data.units import split_header, unit_of
 from twintube.words import listed, printable, shown
@@ -58,7 +59,8 @@ def in_si(values: Array, name: str, unit: str) -> Array:
             return np.asarray(registry().Quantity(values, parsed(unit)).to("degC").magnitude, dtype=float)
         return values * quantity(f"1 {unit}", UNITS[name])
     except (ValueError, pint.PintError) as error:
-        raise ValueError(f"unit {shown(unit)} is not a unit of {name}, must be one like {UNITS[name]}") from error
+        why = ", but of mass; as a weight it is stated in kgf" if name == "force" and is_mass(unit) else ""
+        raise ValueError(f"unit {shown(unit)} is not a unit of {name}{why}, must be one like {UNITS[name]}") from error
 
 
 def scaled(values: Array, name: str, unit: str, channel: Channel) -> Array:
@@ -212,7 +214,9 @@ def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, Source]:
 
 
 def equal_units(name: str, unit: str, other: str) -> bool:
-    """Whether two units of a quantity are equal."""
+    """Whether two units of a quantity are equal, also the mass and its weight where the weight is stated."""
+    if name == "force" and is_mass(unit):
+        return is_weight_of(other, unit)
     probe = np.array([1.0, 2.0])
     try:
         return bool(np.allclose(in_si(probe, name, unit), in_si(probe, name, other), rtol=1e-9, atol=0.0))
