@@ -12,6 +12,7 @@ from twintube.data.manifest import Manifest, read_manifest
 from twintube.data.quality import no_preconditioning
 from twintube.data.raw import read_all
 from twintube.data.record import Record, read_record
+from twintube.data.signs import check_signs
 from twintube.reading import ReadError, read_toml
 from twintube.rig.signals import PRECONDITIONING, V_PRECONDITIONING
 from twintube.words import listed, printable
@@ -116,6 +117,8 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None) 
                 record = replace(record, findings=(*record.findings, remark))
             records.append(record)
     check_preconditioning(records, notes)
+    if damper is not None:
+        check_signs(entries, records, damper, notes)
     return Dataset(manifest.title, damper, records, notes.findings + findings)
 
 
