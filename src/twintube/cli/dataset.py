@@ -28,7 +28,7 @@ def new_dataset(
 
     What is not certain is said in its comments. No file is overwritten.
     """
-    from twintube.data import check_dataset
+    from twintube.data import check_dataset, report
     from twintube.data.template import State, new_dataset
 
     preload = None if gas_lost is None else not gas_lost
@@ -37,8 +37,8 @@ def new_dataset(
     for doubt, records in remarks.items():
         typer.echo(f"not sure: {doubt} ({', '.join(records)})" if records else f"not sure: {doubt}")
     dataset = check_dataset(folder)
-    for finding in dataset.findings:
-        typer.echo(str(finding))
+    if dataset.findings:
+        typer.echo(report(dataset.findings))
     if dataset.errors:
         typer.echo(f"Next: edit {folder / 'dataset.toml'}, then run: twintube check {folder}")
     else:

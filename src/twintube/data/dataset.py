@@ -83,7 +83,7 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None) 
     """The dataset with its forces times `force_factor`; with `only`, the record of this file alone."""
     folder = Path(path)
     toml = folder / FILE if folder.is_dir() or folder.suffix != ".toml" else folder
-    notes = Notes(toml.name)
+    notes = Notes(toml.name, "line")
     title = toml.resolve().parent.name
     try:
         content, text = read_toml(toml)

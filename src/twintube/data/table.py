@@ -24,6 +24,7 @@ UNITS = {"time": "s", "stroke": "m", "force": "N", "velocity": "m/s", "temperatu
 EXAMPLES = {"time": "time [s]", "stroke": "stroke [mm]", "force": "force [N]"}
 WHOLE = (-math.inf, math.inf)  # the window of a record that is not cut
 AS_STATED = Channel()
+LOOK = 1000  # cells that tell whether a column rises
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,7 @@ def convert(
         if name == "time" and name in columns and window != WHOLE:
             kept = inside(columns["time"], window, headers["time"], notes)
             columns["time"] = columns["time"][kept]
-    missing(raw, sources, columns, needed, len(notes.findings) > before, notes)
+    missing(raw, form, sources, columns, needed, len(notes.findings) > before, notes)
     if len(rows) < 2:
         notes.error(f"{len(rows)} samples, at least 2 are needed")
     if len(kept) < 2:
@@ -166,7 +167,13 @@ def stamped(values: Sequence[str], header: str, rows: NDArray[np.int64], notes: 
 
 
 def missing(
-    raw: Raw, sources: dict[str, Source], columns: dict[str, Array], needed: Sequence[str], failed: bool, notes: Notes
+    raw: Raw,
+    form: Format,
+    sources: dict[str, Source],
+    columns: dict[str, Array],
+    needed: Sequence[str],
+    failed: bool,
+    notes: Notes,
 ) -> None:
     """Findings on needed quantities without a column; on those with one there is a finding already."""
     for name in needed:
@@ -177,9 +184,21 @@ def missing(
             notes.error(f"holds {raw.refused[refused]}, must hold numbers", refused)
             continue
         there = listed(map(printable, raw.columns)) or "nothing"
-        hint = suggestion(name, [split_header(text)[0] for text in raw.columns])
+        known = rising(raw, form.decimal) if name == "time" else list(raw.columns)
+        hint = suggestion(name, [split_header(text)[0] for text in known])
+        hint = hint or (f", did you mean {printable(known[0])}?" if name == "time" and known else "")
         rate = "; without times set sample_rate_Hz" if name == "time" and not hint else ""
         notes.error(f"no column {EXAMPLES[name]!r} among {there}{hint}{rate}", name)
+
+
+def rising(raw: Raw, decimal: str) -> list[str]:
+    """The columns whose first cells rise from each to the next, as times do."""
+    found = []
+    for name, values in raw.columns.items():
+        first = np.array([number(cell, decimal) for cell in values[:LOOK]], dtype=float)
+        if len(first) > 2 and len(values) == len(raw.rows) and np.all(np.diff(first) > 0.0):
+            found.append(name)
+    return found
 
 
 def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, Source]:
