@@ -67,7 +67,7 @@ def test_a_foreign_file_gives_its_record(name: str, tmp_path: Path) -> None:
     np.testing.assert_allclose(record.time, TIME, atol=1e-9)
     np.testing.assert_allclose(record.stroke, STROKE * 1e-3, atol=1e-7)
     np.testing.assert_allclose(record.force, FORCE, rtol=1e-5, atol=1e-3)
-    assert "Next: twintube identify" in run.output
+    assert f"then run: twintube check {tmp_path / 'set'}" in run.output
 
 
 def test_what_is_not_sure_is_said(tmp_path: Path) -> None:
@@ -84,7 +84,7 @@ def test_what_is_not_sure_is_said(tmp_path: Path) -> None:
         "oil_level: the file does not tell it",
         "gas_preload: the file does not tell it",
     ):
-        assert f"# NOT SURE: {said}" in toml
+        assert (f"# NOT SURE: {said}" if "fill it in" in said or said.endswith("tell it") else f'    "{said}') in toml
         assert f"not sure: {said}" in run.output
     assert "oil_level or oil_volume_mL is missing" in run.output
     assert "Next: edit" in run.output

@@ -11,6 +11,7 @@ from twintube.words import listed, printable, shown
 # A number of a message, but none in a name; a quoted name, which stays; the count of further places.
 NUMBER = re.compile(r"'[^']*'|\"[^\"]*\"|(?<![\w.])[+-]?\d[\d.]*(?:e[+-]?\d+)?|\([^()]* such [^()]*\)")
 Counted = Literal["row", "sample", "line"]
+UNCONFIRMED = "not confirmed: "  # how the warning about a guess of a new dataset begins
 MOST_NAMED = 3  # further files of a kind of finding
 
 
@@ -67,6 +68,11 @@ def report(findings: Iterable[Finding]) -> str:
     for finding in sorted(findings, key=lambda finding: order.index(finding.severity)):
         kinds.setdefault(finding.kind, []).append(finding)
     return "\n".join(f"{first}{elsewhere(first, others)}" for first, *others in kinds.values())
+
+
+def unconfirmed(findings: Iterable[Finding]) -> list[str]:
+    """What dataset.toml still calls a guess, each once."""
+    return list(dict.fromkeys(finding.message for finding in findings if finding.message.startswith(UNCONFIRMED)))
 
 
 def elsewhere(first: Finding, others: list[Finding]) -> str:

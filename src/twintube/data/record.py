@@ -77,7 +77,8 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
         return None
     table = convert(outcome, entry.form, own, window=entry.window)
     if table is None:
-        suggest_columns(outcome, entry.form, own)
+        if any(finding.message.startswith(("no column", "no unit")) for finding in own.findings):
+            suggest_columns(outcome, entry.form, own)
         return None
     check_names(outcome, entry.form, table.headers, own)
     table = turned(table, entry)

@@ -27,7 +27,8 @@ class Sniffed:
     reading: dict[str, Any]  # keys of dataset.toml: columns, delimiter, decimal, encoding, skip_rows
     measurement: str = ""  # quasi-static, harmonic, stochastic or not known
     facts: list[str] = field(default_factory=list)  # what was seen
-    doubts: list[str] = field(default_factory=list)  # what was guessed, or is missing
+    doubts: list[str] = field(default_factory=list)  # what was guessed
+    missing: list[str] = field(default_factory=list)  # what must be filled in
 
 
 def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: str, result: Sniffed) -> None:
@@ -56,7 +57,7 @@ def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: s
         headers[name] = f"{name} [{unit}]"
     for name, or_else in (("time", "set `sample_rate_Hz`"), ("stroke", "`channels`"), ("force", "`channels`")):
         if name not in known:
-            result.doubts.append(f"{name}: no column looks like it; complete `columns`, or {or_else}")
+            result.missing.append(f"{name}: no column looks like it; complete `columns`, or {or_else}")
     write_columns(columns, headers, result)
     if "time" in known:
         steps = np.diff(known["time"])

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.data.findings import unconfirmed
 from twintube.diagnosis.fits.candidates import LATE, RECALIBRATE, candidates
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.fits.gains import bootstrap, gains, whole, worst
@@ -49,7 +50,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     progress("reading the records")
     dataset, turned = read(path)
     records = prepare(dataset)
-    remarks = []
+    remarks = unconfirmed(dataset.findings)
     if not any(record.intact for record in records):
         remarks.append("no record of the intact damper: what is wrong in every state looks like an effect of the oil loss")
     turned, problem = right_signs(turned, Problem(dataset.damper, records, tolerance=tolerance))

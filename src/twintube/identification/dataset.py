@@ -8,6 +8,7 @@ from typing import Any
 from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset, Record, load_dataset
+from twintube.data.findings import unconfirmed
 from twintube.engine.simulate import InputError
 from twintube.fitting.averaging import averaging, through
 from twintube.fitting.harmonic import Harmonic
@@ -78,7 +79,7 @@ def identify_dataset(
         raise InputError(f"{dataset.title}: no harmonic record to identify from, only {kinds}")
     stated = {r.name: r.split for r in dataset.records}
     split, remarks = splits(sines, stated)
-    remarks = signs(dataset, sines) + remarks
+    remarks = unconfirmed(dataset.findings) + signs(dataset, sines) + remarks
     smoothed = averaging(sines)
     if smoothed is not None:
         sines = through(sines, smoothed)

@@ -1,6 +1,7 @@
 """The answer in four lines, alike on the page and in the terminal: verdict, how sure it is, a number, the next step."""
 
 from twintube.core.effects import EFFECTS
+from twintube.data.findings import UNCONFIRMED
 from twintube.diagnosis.fits.candidates import RECALIBRATE
 from twintube.diagnosis.measurement.faults import BOTH_SIGNS, PUT_RIGHT
 from twintube.diagnosis.result import Cause, Diagnosis
@@ -148,5 +149,6 @@ def what_is_left(d: Diagnosis) -> str:
 def lines(d: Diagnosis) -> list[str]:
     """The answer for a terminal."""
     value, label = number(d)
-    texts = (d.sentence, confidence(d), f"{value}: {label}" if value else "", f"Next: {next_step(d)}")
+    doubts = (f"note: {remark}" for remark in d.remarks if remark.startswith(UNCONFIRMED))
+    texts = (*doubts, d.sentence, confidence(d), f"{value}: {label}" if value else "", f"Next: {next_step(d)}")
     return [text for text in texts if text]
