@@ -47,7 +47,7 @@ def test_other_quantities_in_another_unit_are_refused(stated: str, units: list[s
 
 
 @pytest.mark.parametrize(
-    "name", ["Load_lbf", "Load, lbf", "load/lbf", "Load lbf", "Load in lbf", "Load-lbf", "rig.load_lbf_f"]
+    "name", ["Load_lbf", "Load, lbf", "load/lbf", "Load lbf", "Load in lbf", "Load-lbf", "rig.load_lbf_f", "lbf", "lbf load"]
 )
 def test_every_way_to_write_a_unit_counts(name: str) -> None:
     (finding,) = found(name, "force [N]")

@@ -43,6 +43,9 @@ def claims(name: str, quantity: str) -> Iterator[Claim]:
         yield Claim(separated[1], "unit")
         return
     parts = LOOSE.split(bare)
+    first = parts[0] if len(parts) == 1 or (len(parts[0]) > 1 and parts[0].lower() != "in") else ""
+    if unit_of(first) and says_unit(first, quantity):
+        yield Claim(first, "unit")
     for before, part in itertools.pairwise(parts):
         if not (unit_of(part) or part.lower() == "kg") or (len(part) == 1 and not says_unit(part, quantity)):
             continue
