@@ -21,6 +21,7 @@ from twintube.words import listed
 
 SIGNS = "force_sign"  # the key by which its finding is known
 AS_STATED, UNTOLD, TURNED, PULLED = "as stated", "", "turned", "pulled in"  # pulled in: turned, or a zero of the load cell
+PULLS_IN = "a constant force pulls the rod in"  # how the warning begins where a zero of the load cell would do as well
 MOST = 20_000  # samples of a record that are looked at, evenly spread
 REST = 1.0  # [s] without motion: the fluid force has died away
 STILL = 0.004  # of the stroke's range, as in fitting/oscillations.py
@@ -119,6 +120,6 @@ def check_signs(entries: Sequence[Entry], records: Sequence[Record], damper: Dam
         where = " in these records" if right else ""
         message += f"turned; unless this damper is stronger in compression, set {keys}{where}"
     else:
-        message = f"at rest a force pulls the rod in ({files}), which no gas does: the load cell has a zero"
+        message = f"{PULLS_IN} ({files}), which no gas does: the load cell has a zero"
         message += "" if right else f", or stroke and force have the other sign both: then set {keys}"
     notes.warning(message, SIGNS, first.line)

@@ -9,6 +9,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.data.findings import unconfirmed
+from twintube.data.signs import SIGNS
 from twintube.diagnosis.fits.candidates import LATE, RECALIBRATE, candidates
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.fits.gains import bootstrap, gains, whole, worst
@@ -54,6 +55,7 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     if not any(record.intact for record in records):
         remarks.append("no record of the intact damper: what is wrong in every state looks like an effect of the oil loss")
     turned, problem = right_signs(turned, Problem(dataset.damper, records, tolerance=tolerance))
+    remarks += [finding.message for finding in dataset.findings if turned is None and finding.column == SIGNS]
     recorded = problem
     wrong, problem = unit_error(problem)
     smoothed, problem, notes = force_averaging(dataset.records, problem)

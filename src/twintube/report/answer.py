@@ -2,6 +2,7 @@
 
 from twintube.core.effects import EFFECTS
 from twintube.data.findings import UNCONFIRMED
+from twintube.data.signs import PULLS_IN
 from twintube.diagnosis.fits.candidates import RECALIBRATE
 from twintube.diagnosis.measurement.faults import BOTH_SIGNS, PUT_RIGHT
 from twintube.diagnosis.result import Cause, Diagnosis
@@ -149,6 +150,6 @@ def what_is_left(d: Diagnosis) -> str:
 def lines(d: Diagnosis) -> list[str]:
     """The answer for a terminal."""
     value, label = number(d)
-    doubts = (f"note: {remark}" for remark in d.remarks if remark.startswith(UNCONFIRMED))
+    doubts = (f"note: {remark}" for remark in d.remarks if remark.startswith((UNCONFIRMED, PULLS_IN)))
     texts = (*doubts, d.sentence, confidence(d), f"{value}: {label}" if value else "", f"Next: {next_step(d)}")
     return [text for text in texts if text]
