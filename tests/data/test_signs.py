@@ -42,6 +42,12 @@ def test_a_slow_record_tells_it_by_the_gas_alone() -> None:
     assert (told_by(load("SA8"), r), told_by(load("SA8"), turned(r))) == (AS_STATED, PULLED)
 
 
+def test_a_slow_record_tells_it_with_oil_lost_and_gas_present() -> None:
+    slow, fast = (replace(record(load("SA8"), speed=speed), oil_level=0.5) for speed in (0.001, 0.8))
+    assert (told_by(load("SA8"), slow), told_by(load("SA8"), turned(slow))) == (AS_STATED, PULLED)
+    assert told_by(load("SA8"), fast) == told_by(load("SA8"), turned(fast)) == UNTOLD
+
+
 def test_another_gas_pressure_is_that_of_the_record() -> None:
     damper = load("SA8")
     high = replace(record(damper.with_(F_0=265.0), speed=0.001), gas_pressure=20e5)

@@ -73,7 +73,11 @@ def curve(velocity: Array, points: Sequence[float], forces: Sequence[float]) -> 
 
 
 def told_by(damper: Damper, record: Record) -> str:
-    """What an intact record tells: by its force over the velocity, else by that at rest."""
+    """What a record with gas preload tells: by its force over the velocity, else by that at rest.
+
+    Without some of its oil the damper has another F-v curve; then only motion so slow that the gas is most of what differs
+    between the sides tells anything.
+    """
     p = damper.parameters
     gas = p.F_0 if record.gas_pressure is None else record.gas_pressure * np.pi / 4 * p.D_PR**2
     some = np.flatnonzero(record.usable)[:: 1 + len(record.time) // MOST]
@@ -81,14 +85,16 @@ def told_by(damper: Damper, record: Record) -> str:
         return UNTOLD
     z, v, force = (values[some] for values in (record.stroke, record.velocity, record.force))
     stated, mirrored = quasi_steady(damper, z, v, gas), quasi_steady(damper, -z, -v, gas)
-    told = errors(force, stated, mirrored).told
-    if told == PULLED and np.sqrt(np.mean(((stated + mirrored) / 2 + gas) ** 2)) > gas:
-        told = UNTOLD  # so fast that the constant is not that of the gas, but of a curve that is another one
-    return told or at_rest(damper, record.time[some], z, force, gas)
+    slow = bool(np.sqrt(np.mean(((stated + mirrored) / 2 + gas) ** 2)) <= gas)
+    told = errors(force, stated, mirrored).told if slow or is_intact(record.oil_level, True) else UNTOLD
+    if told == PULLED and not slow:
+        told = UNTOLD  # the constant is not that of the gas, but of a curve that is another one
+    friction = p.F_FrS * (1.0 + p.oil_loss_gain * (1.0 - record.oil_level))
+    return told or at_rest(record.time[some], z, force - p.c_gas * z, gas, friction)
 
 
-def at_rest(damper: Damper, time: Array, stroke: Array, force: Array, gas: float) -> str:
-    """What the mean force (n,) [N] at rest tells; friction, of either sign there, can hide it.
+def at_rest(time: Array, stroke: Array, force: Array, gas: float, friction: float) -> str:
+    """What the mean force (n,) [N] at rest tells of one of the gas [N]; friction [N], of either sign there, can hide it.
 
     Of the zero that the load cell would need one side asks for three times as much as the other, as `Errors` does.
     """
@@ -98,15 +104,15 @@ def at_rest(damper: Damper, time: Array, stroke: Array, force: Array, gas: float
     still = maximum_filter1d(stroke, window) - minimum_filter1d(stroke, window) < STILL * np.ptp(stroke)
     if not still.any():
         return UNTOLD
-    pulls = float(np.mean(force[still] - damper.parameters.c_gas * stroke[still]))
-    if abs(pulls) - damper.parameters.F_FrS <= gas / 2 or gas == 0.0:
+    pulls = float(np.mean(force[still]))
+    if abs(pulls) - friction <= gas / 2 or gas == 0.0:
         return UNTOLD
     return PULLED if pulls > 0.0 else AS_STATED
 
 
 def check_signs(entries: Sequence[Entry], records: Sequence[Record], damper: Damper, notes: Notes) -> None:
-    """A warning with the keys to set where intact records are explained only with both channels turned."""
-    told = {r.file: told_by(damper, r) for r in records if is_intact(r.oil_level, r.gas_preload)}
+    """A warning with the keys to set where records with gas preload are explained only with both channels turned."""
+    told = {r.file: told_by(damper, r) for r in records if r.gas_preload}
     turned, pulled = ([entry for entry in entries if told.get(entry.file) == sign] for sign in (TURNED, PULLED))
     right = AS_STATED in told.values()
     wrong = turned if turned and right else turned + pulled
