@@ -355,7 +355,7 @@ def test_a_file_outside_of_the_folder_is_named(folder: Make, tmp_path: Path, abs
     outside = (tmp_path / "outside.csv").as_posix() if absolute else "../outside.csv"
     (home / "dataset.toml").write_text(HEAD + RECORD.format("../home/inside.csv") + RECORD.format(outside))
     found = said(home)
-    assert f"remark: dataset.toml: row 7, column 'file': outside of the dataset's folder: {short(outside)}; a copy" in found
+    assert f"remark: dataset.toml, line 7, file: outside of the dataset's folder: {short(outside)}; a copy" in found
     assert len(load_dataset(home).records) == 2
 
 

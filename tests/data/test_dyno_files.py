@@ -313,7 +313,7 @@ def test_several_settings_are_named(folder: Make) -> None:
     toml = HEAD + RECORD.format("a.csv") + 'setting = "C3"\n' + RECORD.format("b.csv") + 'setting = "R5"\n'
     findings = load_dataset(folder({"a.csv": good(), "b.csv": other}, toml=toml)).findings
     (finding,) = [finding for finding in findings if finding.severity == "warning"]
-    assert "row 2, column 'setting': records of several settings, no single damper: C3 (a.csv), R5 (b.csv)" in str(finding)
+    assert "line 2, setting: records of several settings, no single damper: C3 (a.csv), R5 (b.csv)" in str(finding)
 
 
 @pytest.mark.parametrize(

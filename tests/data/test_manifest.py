@@ -7,7 +7,8 @@ import pytest
 
 from tests.data.conftest import RECORD, good
 from twintube.dampers import load, to_toml
-from twintube.data import DataError, check_dataset, load_dataset
+from twintube.data import DataError, check_dataset, load_dataset, report
+from twintube.data.findings import unconfirmed
 
 Make = Callable[..., Path]
 GOOD = 'title = "Test"\ndamper = "SA8"\n' + RECORD.format("a.csv")
@@ -92,3 +93,18 @@ def test_a_record_twice_under_two_names(folder: Make) -> None:
     findings = load_dataset(folder({"a.csv": good(), "b.csv": good()})).findings
     (found,) = [finding for finding in findings if finding.severity == "warning"]
     assert str(found) == "warning: b.csv: the same samples as a.csv: recorded twice?"
+
+
+def test_what_is_not_sure_is_said_until_it_is_deleted(folder: Callable[..., Path]) -> None:
+    two = {"a.csv": good(), "b.csv": good(1601)}
+    entry = RECORD + 'not_sure = ["measurement: a guess", "force: N is guessed"]\n'
+    toml = 'not_sure = ["damper: a guess"]\ndamper = "SA8"\n' + entry.format("a.csv") + entry.format("b.csv")
+    findings = load_dataset(folder(two, toml=toml)).findings
+    said = [f for f in findings if f.message.startswith("not confirmed: ")]
+    assert [(f.severity, f.row) for f in said] == [("warning", 1)] + [("warning", 8)] * 2 + [("warning", 14)] * 2
+    assert len(unconfirmed(findings)) == 3
+    lines = [line for line in report(findings).splitlines() if "not confirmed" in line]
+    assert lines[0].startswith("warning: dataset.toml, line 1, not_sure: not confirmed: damper: a guess; delete this entry")
+    assert lines[1].endswith("(the like at 1 more place: line 14)") and len(lines) == 3
+    rest = toml.replace('"damper: a guess"', "").replace('"measurement: a guess", "force: N is guessed"', "")
+    assert not unconfirmed(load_dataset(folder(two, toml=rest)).findings)

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 
 from tests.diagnosis import small
-from twintube.diagnosis.measurement.faults import Fault, really_turned, scaled
+from twintube.diagnosis.measurement.faults import Fault, both_turned, really_turned, right_signs, scaled
 from twintube.diagnosis.measurement.odd import odd_records
+from twintube.diagnosis.result import Gain
+from twintube.diagnosis.verdict.answer import faulty
+from twintube.report.answer import repair
 
 
 @pytest.fixture(scope="module")
@@ -62,3 +65,31 @@ def test_a_record_whose_work_does_not_tell_its_sign_is_turned_with_the_others(ru
     assert fault is not None and set(fault.records) == {r.name for r in problem.records}
     assert fault.explanation == "The force channel has the other sign."
     assert np.array_equal(right.records[0].force, silent.force)
+
+
+@pytest.mark.parametrize("level", [small.INTACT, small.DEGRADED])
+def test_both_channels_of_the_other_sign_are_named_and_put_right(level: float) -> None:
+    several = [small.record(small.run(speed, level, turns=6), seed=i) for i, speed in enumerate((0.2, 0.5, 0.9))]
+    problem = small.problem(several)
+    assert both_turned(problem) == (None, problem)
+    wrong = problem.with_records([scaled(r, -1.0, -1.0) for r in problem.records])
+    fault, right = right_signs(None, wrong)
+    assert fault is not None
+    assert (fault.effect, fault.channel, set(fault.records)) == ("sign_flip", "both", {r.name for r in problem.records})
+    for turned, record in zip(right.records, problem.records, strict=True):
+        assert np.array_equal(turned.stroke, record.stroke) and np.array_equal(turned.force, record.force)
+    assert "force_sign = -1 and stroke_sign = -1" in repair(faulty(fault, Gain(1.0, 1.0, (0.0, 1.0), 1.0)))
+
+
+def test_only_records_whose_signs_differ_are_turned(runs: list[small.Run]) -> None:
+    problem = small.problem([small.record(r, seed=i) for i, r in enumerate(runs)])
+    first, *others = problem.records
+    fault, _ = both_turned(problem.with_records([scaled(first, -1.0, -1.0), *others]))
+    assert fault is not None and fault.records == (first.name,) and first.name in fault.explanation
+
+
+def test_a_damper_without_gas_and_most_of_its_oil_is_not_called_turned() -> None:
+    """Said to be intact: its forces are as unlike the model's with either sign."""
+    runs = [small.run(speed, 0.3, turns=6) for speed in (0.3, 0.8)]
+    records = [replace(small.record(r, seed=i), oil_level=1.0, gas_preload=True) for i, r in enumerate(runs)]
+    assert both_turned(small.problem(records))[0] is None

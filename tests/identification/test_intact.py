@@ -8,6 +8,7 @@ import pytest
 from twintube.dampers import Damper, load, names
 from twintube.engine.simulate import InputError, simulate
 from twintube.fitting.harmonic import Harmonic
+from twintube.identification import identify_damper
 from twintube.identification.intact import identify_intact, quasi_static
 from twintube.rig.plan import quasi_static as ramp
 from twintube.rig.signals import BLOCKS, harmonic_block
@@ -73,6 +74,17 @@ def test_intact_identification_predicts_a_held_out_block() -> None:
     predicted = simulate(damper, held_out.stroke, held_out.velocity).force
     rmse = np.sqrt(np.mean((predicted - held_out.force) ** 2))
     assert rmse < 0.06 * np.abs(held_out.force).max()
+
+
+def test_both_signs_turned_are_remarked_beside_a_slow_record() -> None:
+    truth = load("SA8")
+    signal = ramp(truth)
+    slow = (signal.stroke, simulate(truth, signal.stroke, signal.velocity).force)
+    records = intact_records(truth, noise=0.01)[:3]
+    assert not any("pulls the rod in" in remark for remark in identify_damper(truth, slow, records, []).remarks)
+    turned = [replace(r, stroke=-r.stroke, velocity=-r.velocity, force=-r.force) for r in records]
+    remarks = identify_damper(truth, (-slow[0], -slow[1]), turned, []).remarks
+    assert any("pulls the rod in" in remark and "force_sign = -1" in remark for remark in remarks)
 
 
 def test_bad_records_are_refused() -> None:

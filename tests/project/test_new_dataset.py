@@ -67,7 +67,7 @@ def test_a_foreign_file_gives_its_record(name: str, tmp_path: Path) -> None:
     np.testing.assert_allclose(record.time, TIME, atol=1e-9)
     np.testing.assert_allclose(record.stroke, STROKE * 1e-3, atol=1e-7)
     np.testing.assert_allclose(record.force, FORCE, rtol=1e-5, atol=1e-3)
-    assert "Next: twintube identify" in run.output
+    assert f"then run: twintube check {tmp_path / 'set'}" in run.output
 
 
 def test_what_is_not_sure_is_said(tmp_path: Path) -> None:
@@ -84,7 +84,7 @@ def test_what_is_not_sure_is_said(tmp_path: Path) -> None:
         "oil_level: the file does not tell it",
         "gas_preload: the file does not tell it",
     ):
-        assert f"# NOT SURE: {said}" in toml
+        assert (f"# NOT SURE: {said}" if "fill it in" in said or said.endswith("tell it") else f'    "{said}') in toml
         assert f"not sure: {said}" in run.output
     assert "oil_level or oil_volume_mL is missing" in run.output
     assert "Next: edit" in run.output
@@ -200,3 +200,19 @@ def test_a_binary_file_is_refused(tmp_path: Path) -> None:
     path.write_bytes(bytes(range(256)) * 1000)
     with pytest.raises(InputError, match="no table"):
         sniff(path)
+
+
+@pytest.mark.parametrize(("head", "unit"), [("force_kN_filtered", "kN"), ("Load_kg", "kgf"), ("Kraft (daN) Mittel", "daN")])
+def test_the_unit_within_a_name_is_proposed(head: str, unit: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(table(f"time [s],stroke [mm],{head}\n", (TIME, STROKE, FORCE / 9.80665)))
+    assert RUNNER.invoke(app, ["new-dataset", str(tmp_path), *STATE]).exit_code == 0
+    assert f'"force [{unit}]" = "{head}"' in (tmp_path / "dataset.toml").read_text()
+    assert not [finding for finding in check_dataset(tmp_path).errors if "named in" in finding.message]
+
+
+def test_a_guess_is_repeated_by_check(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(FILES["plain.csv"][0])
+    assert RUNNER.invoke(app, ["new-dataset", str(tmp_path), "--oil-level", "1", "--gas-present"]).exit_code == 0
+    run = RUNNER.invoke(app, ["check", str(tmp_path)])
+    assert run.exit_code == 0 and "line 5, not_sure: not confirmed: damper: none was given, SA8 is assumed" in run.output
+    assert "not confirmed: measurement: harmonic" in run.output

@@ -1,6 +1,7 @@
 """Commands to start with measured data: new-dataset, example."""
 
 from importlib.resources import as_file, files
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
@@ -8,6 +9,7 @@ import typer
 
 from twintube.cli.base import app
 from twintube.engine.simulate import InputError
+from twintube.extras import extra_of
 
 EXAMPLE = "bench_SA8"
 
@@ -28,7 +30,8 @@ def new_dataset(
 
     What is not certain is said in its comments. No file is overwritten.
     """
-    from twintube.data import check_dataset
+    from twintube.data import check_dataset, report
+    from twintube.data.findings import UNCONFIRMED
     from twintube.data.template import State, new_dataset
 
     preload = None if gas_lost is None else not gas_lost
@@ -37,12 +40,15 @@ def new_dataset(
     for doubt, records in remarks.items():
         typer.echo(f"not sure: {doubt} ({', '.join(records)})" if records else f"not sure: {doubt}")
     dataset = check_dataset(folder)
-    for finding in dataset.findings:
-        typer.echo(str(finding))
+    findings = [finding for finding in dataset.findings if not finding.message.startswith(UNCONFIRMED)]  # said above
+    if findings:
+        typer.echo(report(findings))
     if dataset.errors:
         typer.echo(f"Next: edit {folder / 'dataset.toml'}, then run: twintube check {folder}")
-    else:
-        typer.echo(f"Next: twintube identify {folder}")
+        return
+    typer.echo(f"Next: confirm what is not sure in {folder / 'dataset.toml'}, then run: twintube check {folder}")
+    needs = "" if find_spec("pymoo") else f" (needs pip install 'twintube[{extra_of('pymoo')}]')"
+    typer.echo(f"After that: twintube diagnose {folder}, or twintube identify {folder}{needs}")
 
 
 @app.command(epilog="Example: twintube example my_example")

@@ -17,8 +17,30 @@ WORDS = {
     "force": ("force", "kraft", "load", "last", "fz"),
     "time": ("time", "zeit", "elapsed", "seconds", "sekunden"),
 }
-SET_POINT = ("soll", "set", "setpoint", "target", "command", "cmd", "demand", "ref", "sollwert")
-MEASURED = ("ist", "istwert", "act", "actual", "meas", "measured", "feedback", "fbk")
+SET_POINT = ("soll", "set", "setpoint", "setpt", "sp", "target", "command", "commanded", "cmd", "demand", "desired", "ref",
+             "reference", "nominal", "program", "sollwert", "vorgabe")  # fmt: skip
+MEASURED = ("ist", "istwert", "act", "actual", "meas", "measured", "feedback", "fbk", "fdbk", "response")
+# Within a single word: `Sollweg`, `Wegsoll`, `LoadSetpoint`; short ones only as a word of their own.
+SET_POINT_PARTS = ("soll", "setpoint", "command", "sollwert")
+MEASURED_PARTS = ("istwert", "istweg", "istkraft", "istpos", "feedback")
+
+
+def words(name: str) -> list[str]:
+    """The words of a name in small letters: `LoadCmd`, `load_cmd` and `Load (cmd)` have the same."""
+    return [word.lower() for word in re.findall(r"[^\W\d_]+", re.sub(r"(?<=[a-zäöü])(?=[A-ZÄÖÜ])", " ", name))]
+
+
+def is_measured(name: str) -> bool:
+    """Whether a name says that it is the actual value."""
+    return any(word in MEASURED or word.startswith(MEASURED_PARTS) or word.endswith(MEASURED_PARTS) for word in words(name))
+
+
+def is_set_point(name: str) -> bool:
+    """Whether a name says that it is what was asked for, and not what was measured."""
+    own = words(name)
+    return not is_measured(name) and any(
+        word in SET_POINT or word.startswith(SET_POINT_PARTS) or word.endswith(SET_POINT_PARTS) for word in own
+    )
 
 
 def fits(quantity: str, unit: str) -> bool:
@@ -34,7 +56,6 @@ def likeness(name: str, unit: str) -> tuple[str, float]:
     """The quantity that a column most likely is, and how sure that is: 0 where it is none."""
     low = name.lower()
     parts = re.split(r"[\s_.-]+", low)
-    wanted = any(part in SET_POINT for part in parts)
     symbol = name[:1] if all(part in (*SET_POINT, *MEASURED) for part in parts[1:]) and len(parts[0]) == 1 else ""
     quantity, score = "", 0.0
     if low in UNITS:
@@ -49,7 +70,7 @@ def likeness(name: str, unit: str) -> tuple[str, float]:
     if not quantity and unit:
         quantity = next((q for q in UNITS if fits(q, unit)), "")
         score = 1.0 if quantity else 0.0
-    return quantity, score - 0.75 if wanted and score else score
+    return quantity, score - 0.75 if is_set_point(name) and score else score
 
 
 def assigned(pairs: Sequence[tuple[str, str]], doubts: list[str]) -> dict[str, tuple[int, str]]:
@@ -61,12 +82,15 @@ def assigned(pairs: Sequence[tuple[str, str]], doubts: list[str]) -> dict[str, t
             likely.setdefault(quantity, []).append((score, i))
     columns = {}
     for quantity in UNITS:
-        rated = sorted(likely.get(quantity, []), key=lambda item: (-item[0], item[1]))
+        # What was asked for is taken only where nothing else fits, however well it is named.
+        rated = sorted(likely.get(quantity, []), key=lambda item: (is_set_point(pairs[item[1]][0]), -item[0], item[1]))
         if not rated:
             continue
         score, i = rated[0]
         columns[quantity] = i, pairs[i][1]
-        if score < 2.0:
+        if is_set_point(pairs[i][0]):
+            doubts.append(f"{quantity}: {pairs[i][0]!r} is named as a set point, and no measured one was found")
+        elif score < 2.0:
             doubts.append(f"{quantity}: taken from {pairs[i][0]!r}, by its unit only")
         rivals = [k for other, k in rated[1:] if other > score - 1.0]
         if rivals:

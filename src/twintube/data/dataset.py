@@ -13,6 +13,7 @@ from twintube.data.manifest import Manifest, read_manifest
 from twintube.data.quality import no_preconditioning
 from twintube.data.raw import read_all
 from twintube.data.record import Record, read_record
+from twintube.data.signs import check_signs
 from twintube.engine.simulate import InputError
 from twintube.reading import ReadError, read_toml
 from twintube.rig.signals import PRECONDITIONING, V_PRECONDITIONING
@@ -90,7 +91,7 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None, 
         raise InputError(f"path is a {type(path).__name__}: must be that of a folder with {FILE}, or of this file")
     folder = Path(path)
     toml = folder / FILE if folder.is_dir() or folder.suffix != ".toml" else folder
-    notes = Notes(toml.name)
+    notes = Notes(toml.name, "line")
     title = toml.resolve().parent.name
     try:
         content, text = read_toml(toml)
@@ -127,6 +128,8 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None, 
                 record = replace(record, findings=(*record.findings, remark))
             records.append(record)
     check_preconditioning(records, notes)
+    if damper is not None:
+        check_signs(entries, records, damper, notes)
     return Dataset(manifest.title, damper, records, notes.findings + findings)
 
 

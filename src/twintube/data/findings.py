@@ -1,11 +1,18 @@
 """What is wrong with measured data: findings, collected over all records before anything is refused."""
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
 from twintube.engine.simulate import InputError
-from twintube.words import printable, shown
+from twintube.words import listed, printable, shown
+
+# A number of a message, but none in a name; a quoted name, which stays; the count of further places.
+NUMBER = re.compile(r"'[^']*'|\"[^\"]*\"|(?<![\w.])[+-]?\d[\d.]*(?:e[+-]?\d+)?|\([^()]* such [^()]*\)")
+Counted = Literal["row", "sample", "line"]
+UNCONFIRMED = "not confirmed: "  # how the warning about a guess of a new dataset begins
+MOST_NAMED = 3  # further files of a kind of finding
 
 
 @dataclass(frozen=True)
@@ -15,19 +22,33 @@ class Finding:
     severity: Literal["error", "warning", "remark"]
     file: str  # as written in dataset.toml, or "dataset.toml" itself
     column: str  # header as in the file or in `columns`; a key in dataset.toml; "" if it is about the whole file
-    row: int | None  # row of a text file counted from 1, else number of the sample counted from 0; None: the whole column
+    row: (
+        int | None
+    )  # row of a text or line of dataset.toml from 1, else number of the sample from 0; None: all of the column
     message: str
-    counted: Literal["row", "sample"] = "row"
+    counted: Counted = "row"
+
+    @property
+    def place(self) -> str:
+        """Row and column, or the line of dataset.toml and its key."""
+        place = [] if self.row is None else [f"{self.counted} {self.row}"]
+        return ", ".join(
+            place + ([self.column if self.counted == "line" else f"column {shown(self.column)}"] if self.column else [])
+        )
 
     @property
     def text(self) -> str:
         """Row, column and message, in one line."""
-        place = [] if self.row is None else [f"{self.counted} {self.row}"]
-        place += [f"column {shown(self.column)}"] if self.column else []
-        return " ".join(printable(": ".join([*([", ".join(place)] if place else []), self.message])).split("\n"))
+        return " ".join(printable(": ".join([*([self.place] if self.place else []), self.message])).split("\n"))
+
+    @property
+    def kind(self) -> tuple[str, str, str]:
+        """What it shares with findings that differ in their numbers alone."""
+        return self.severity, self.column, NUMBER.sub(lambda m: m[0] if m[0][0] in "'\"" else "", self.message)
 
     def __str__(self) -> str:
-        return f"{self.severity}: {printable(self.file)}: {self.text}"
+        joint = ", " if self.counted == "line" and self.place else ": "
+        return f"{self.severity}: {printable(self.file)}{joint}{self.text}"
 
 
 class DataError(InputError):
@@ -41,9 +62,28 @@ class DataError(InputError):
 
 
 def report(findings: Iterable[Finding]) -> str:
-    """One line per finding, errors first, remarks last."""
+    """One line per kind of finding, errors first, remarks last: the first in full, and where else there are such."""
+    kinds: dict[tuple[str, str, str], list[Finding]] = {}
     order = ("error", "warning", "remark")
-    return "\n".join(str(finding) for finding in sorted(findings, key=lambda finding: order.index(finding.severity)))
+    for finding in sorted(findings, key=lambda finding: order.index(finding.severity)):
+        kinds.setdefault(finding.kind, []).append(finding)
+    return "\n".join(f"{first}{elsewhere(first, others)}" for first, *others in kinds.values())
+
+
+def unconfirmed(findings: Iterable[Finding]) -> list[str]:
+    """What dataset.toml still calls a guess, each once."""
+    return list(dict.fromkeys(finding.message for finding in findings if finding.message.startswith(UNCONFIRMED)))
+
+
+def elsewhere(first: Finding, others: list[Finding]) -> str:
+    """The tail of the line of a first finding: other files, or other places in its own, with findings of its kind."""
+    files = list(dict.fromkeys(printable(other.file) for other in others if other.file != first.file))
+    places = [f"{other.counted} {other.row}" for other in others if other.file == first.file]
+    tails = [f"the like in {len(files)} more file{'s' * (len(files) > 1)}: {listed(files, MOST_NAMED)}"] if files else []
+    tails += (
+        [f"the like at {len(places)} more place{'s' * (len(places) > 1)}: {listed(places, MOST_NAMED)}"] if places else []
+    )
+    return "".join(f" ({tail})" for tail in tails)
 
 
 class UnreadableError(ValueError):
@@ -59,7 +99,7 @@ class Notes:
     """Collects the findings of one file."""
 
     file: str
-    counted: Literal["row", "sample"] = "row"
+    counted: Counted = "row"
     findings: list[Finding] = field(default_factory=list)
 
     def error(self, message: str, column: str = "", row: int | None = None) -> None:

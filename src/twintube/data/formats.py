@@ -66,6 +66,7 @@ class Raw:
     blank: Sequence[int] = ()  # rows that were skipped because they hold nothing
     spaced: bool = False  # whether some of the blank rows hold separators, and so may be samples that were lost
     nothing: str = EMPTY  # what a cell without a value means
+    over: dict[str, list[str]] = field(default_factory=dict)  # what skipped rows say over columns of a list
 
 
 def known_encoding(name: str) -> bool:

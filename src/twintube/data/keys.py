@@ -16,6 +16,7 @@ MOST_RECORDS = 1000
 MOST_UNKNOWN = 5  # unknown keys that are named
 LONGEST_TEXT = 200  # characters
 LONGEST_PATH = 1000
+MOST_DOUBTS, LONGEST_DOUBT = 50, 500  # entries of not_sure, and characters of each
 LARGEST_OFFSET = 1.0  # [m]
 LARGEST_VOLUME = 100_000.0  # oil [mL]
 MOST_PRESSURE = 10e6  # gauge pressure of the gas [Pa]
@@ -26,10 +27,11 @@ MOST_GROUPS = 65_535  # of an MDF file, whose format counts them in 16 bits
 READING = ("columns", "channels", "sample_rate_Hz", "delimiter", "decimal", "encoding", "skip_rows", "sheet", "group",
            "force_sign",
            "stroke_sign", "stroke_offset")  # fmt: skip
-TOP = ("title", "damper", "record", *READING)
+NOT_SURE = "not_sure"
+TOP = ("title", "damper", "record", NOT_SURE, *READING)
 OIL = ("oil_level", "oil_volume_mL")
 RECORD = ("file", "block", "measurement", *OIL, "gas_preload", "gas_pressure", "setting", "temperature_degC",
-          "start_temperature_degC", "start_s", "end_s", "exclude", "split", *READING)  # fmt: skip
+          "start_temperature_degC", "start_s", "end_s", "exclude", "split", NOT_SURE, *READING)  # fmt: skip
 
 
 def number(value: Any) -> bool:
@@ -74,6 +76,11 @@ def text(value: Any, most: int = LONGEST_TEXT) -> bool:
     return isinstance(value, str) and 0 < len(value) <= most and "\n" not in value
 
 
+def good_doubts(value: Any) -> bool:
+    """A list of texts; empty once all is confirmed."""
+    return isinstance(value, list) and len(value) <= MOST_DOUBTS and all(text(doubt, LONGEST_DOUBT) for doubt in value)
+
+
 def good_path(value: Any) -> bool:
     """A path of a file that systems take; `a.csv/` is that of a folder."""
     return text(value, LONGEST_PATH) and re.search(r"[/\\]\.{0,2}$", value) is None
@@ -87,6 +94,10 @@ def good_delimiter(value: Any) -> bool:
 RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "title": (text, f"a text of one line and at most {LONGEST_TEXT} characters"),
     "damper": (good_path, "the name of a damper or of a parameter file"),
+    NOT_SURE: (
+        good_doubts,
+        f"a list of at most {MOST_DOUBTS} texts of one line, of at most {LONGEST_DOUBT} characters each",
+    ),
     "file": (good_path, f"the name of a file, not of a folder, at most {LONGEST_PATH} characters"),
     "block": (
         lambda x: type(x) is int and 1 <= x <= MOST_RECORDS,

@@ -10,9 +10,9 @@ from twintube.dampers.damper import suggestion
 from twintube.dampers.quantity import quantity
 from twintube.dampers.toml import line_of
 from twintube.data.channels import read_channels, wrong_channels
-from twintube.data.findings import Notes
+from twintube.data.findings import UNCONFIRMED, Notes
 from twintube.data.formats import DEFAULT_ENCODING, Format
-from twintube.data.keys import MOST_RECORDS, MOST_UNKNOWN, OIL, READING, RECORD, RULES, TOP
+from twintube.data.keys import MOST_RECORDS, MOST_UNKNOWN, NOT_SURE, OIL, READING, RECORD, RULES, TOP
 from twintube.data.keys import number as is_number
 from twintube.data.table import UNITS, WHOLE, quantity_of
 from twintube.data.units import split_header
@@ -130,13 +130,15 @@ def valid(
     for message in wrong_channels(good.get("channels", {})):
         notes.error(f"{where}channels: {message}", "channels", line("channels"))
         good.pop("channels", None)
+    for doubt in good.get(NOT_SURE, []):
+        notes.warning(f"{UNCONFIRMED}{doubt}; delete this entry of {NOT_SURE} once it is right", NOT_SURE, line(NOT_SURE))
     return good
 
 
 def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[str, Any], notes: Notes) -> Entry:
     """One `[[record]]`, with the keys at the top where it has none of its own."""
     where = f"record {number}: "
-    before = len(notes.findings)
+    before = sum(finding.severity == "error" for finding in notes.findings)
 
     def line(key: str) -> int | None:
         return section.line_of(key)
@@ -160,7 +162,7 @@ def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[s
     return Entry(
         where=where,
         line=line(""),
-        complete=len(notes.findings) == before,
+        complete=sum(finding.severity == "error" for finding in notes.findings) == before,
         file=good.get("file", ""),
         label=good.get("file", ""),
         measurement=good.get("measurement", ""),

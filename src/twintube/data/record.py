@@ -10,7 +10,9 @@ from twintube.arrays import Array, freeze_arrays
 from twintube.core.checks import tube_limit
 from twintube.dampers import Damper
 from twintube.data.checks import check, computed
+from twintube.data.column_claims import check_names
 from twintube.data.findings import Finding, Notes, UnreadableError
+from twintube.data.hints import suggest_columns
 from twintube.data.manifest import Entry
 from twintube.data.quality import check_quality, within
 from twintube.data.raw import Outcome
@@ -75,7 +77,10 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
         return None
     table = convert(outcome, entry.form, own, window=entry.window)
     if table is None:
+        if any(finding.message.startswith(("no column", "no unit")) for finding in own.findings):
+            suggest_columns(outcome, entry.form, own)
         return None
+    check_names(outcome, entry.form, table.headers, own)
     table = turned(table, entry)
     check(table, limit, own)
     excluded = within(table.columns["time"], entry.excluded)

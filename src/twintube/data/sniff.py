@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
+from twintube.data.column_claims import claims
 from twintube.data.column_names import assigned
 from twintube.data.formats import TEXT
 from twintube.data.sniff_values import GROUPED, NUMBER, Sniffed, judge, velocity_apart
@@ -165,7 +166,10 @@ def named(best: Shape, numbers: Sequence[int], result: Sniffed) -> dict[str, tup
         pairs = [
             (name, name_and_unit(f"x [{unit.strip('[]()')}]")[1]) for (name, _), unit in zip(pairs, units, strict=False)
         ]
-    columns = assigned(pairs, result.doubts)
+    columns = {
+        name: (i, unit or next((claim.unit for claim in claims(headers[i], name) if claim.kind == "unit"), ""))
+        for name, (i, unit) in assigned(pairs, result.doubts).items()
+    }
     result.facts.append("columns in the file: " + ", ".join(headers))
     own_row = units is None and at == best.first - 1 and len(best.rows[at]) in (width, width + 1)
     simple = own_row and len(set(headers)) == len(headers) == width

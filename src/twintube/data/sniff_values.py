@@ -9,6 +9,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.data.grouping import SPACES
+from twintube.data.masses import WEIGHTS
 from twintube.data.stamps import is_stamp, seconds
 from twintube.data.table import UNITS, in_si
 
@@ -34,7 +35,8 @@ class Sniffed:
     reading: dict[str, Any]  # keys of dataset.toml: columns, delimiter, decimal, encoding, skip_rows
     measurement: str = ""  # quasi-static, harmonic, stochastic or not known
     facts: list[str] = field(default_factory=list)  # what was seen
-    doubts: list[str] = field(default_factory=list)  # what was guessed, or is missing
+    doubts: list[str] = field(default_factory=list)  # what was guessed
+    missing: list[str] = field(default_factory=list)  # what must be filled in
 
 
 def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: str, result: Sniffed) -> None:
@@ -53,15 +55,17 @@ def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: s
         try:
             known[name] = in_si(values[name], name, unit)
         except ValueError:
-            unit, wrong = guessed(name, values[name]), unit
-            result.doubts.append(
-                f"{name}: the unit {wrong!r} is not known here, {unit} is guessed from the size of the values"
-            )
+            wrong, unit = unit, WEIGHTS.get(unit, "") if name == "force" else ""
+            how = f"is a mass, {unit} is assumed"
+            if not unit:
+                unit = guessed(name, values[name])
+                how = f"is not known here, {unit} is guessed from the size of the values"
+            result.doubts.append(f"{name}: the unit {wrong!r} {how}")
             known[name] = in_si(values[name], name, unit)
         headers[name] = f"{name} [{unit}]"
     for name, or_else in (("time", "set `sample_rate_Hz`"), ("stroke", "`channels`"), ("force", "`channels`")):
         if name not in known:
-            result.doubts.append(f"{name}: no column looks like it; complete `columns`, or {or_else}")
+            result.missing.append(f"{name}: no column looks like it; complete `columns`, or {or_else}")
     write_columns(columns, headers, result)
     if "time" in known:
         steps = np.diff(known["time"])

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from twintube.arrays import Array
 from twintube.dampers.damper import suggestion
 from twintube.dampers.quantity import parsed, quantity, registry
-from twintube.data.cells import cells
+from twintube.data.cells import cells, number
 from twintube.data.findings import Notes, more
 from twintube.data.formats import Channel, Format, Raw
 from twintube.data.inferred import say_inferred
+from twintube.data.masses import is_mass, is_weight_of
 from twintube.data.stamps import is_stamp, seconds
 from twintube.data.units import split_header, unit_of
 from twintube.words import listed, printable, shown
@@ -23,6 +24,7 @@ UNITS = {"time": "s", "stroke": "m", "force": "N", "velocity": "m/s", "temperatu
 EXAMPLES = {"time": "time [s]", "stroke": "stroke [mm]", "force": "force [N]"}
 WHOLE = (-math.inf, math.inf)  # the window of a record that is not cut
 AS_STATED = Channel()
+LOOK = 1000  # cells that tell whether a column rises
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,8 @@ def in_si(values: Array, name: str, unit: str) -> Array:
             return np.asarray(registry().Quantity(values, parsed(unit)).to("degC").magnitude, dtype=float)
         return values * quantity(f"1 {unit}", UNITS[name])
     except (ValueError, pint.PintError) as error:
-        raise ValueError(f"unit {shown(unit)} is not a unit of {name}, must be one like {UNITS[name]}") from error
+        why = ", but of mass; as a weight it is stated in kgf" if name == "force" and is_mass(unit) else ""
+        raise ValueError(f"unit {shown(unit)} is not a unit of {name}{why}, must be one like {UNITS[name]}") from error
 
 
 def scaled(values: Array, name: str, unit: str, channel: Channel) -> Array:
@@ -114,7 +117,7 @@ def convert(
         if name == "time" and name in columns and window != WHOLE:
             kept = inside(columns["time"], window, headers["time"], notes)
             columns["time"] = columns["time"][kept]
-    missing(raw, sources, columns, needed, len(notes.findings) > before, notes)
+    missing(raw, form, sources, columns, needed, len(notes.findings) > before, notes)
     if len(rows) < 2:
         notes.error(f"{len(rows)} samples, at least 2 are needed")
     if len(kept) < 2:
@@ -166,7 +169,13 @@ def stamped(values: Sequence[str], header: str, rows: NDArray[np.int64], notes: 
 
 
 def missing(
-    raw: Raw, sources: dict[str, Source], columns: dict[str, Array], needed: Sequence[str], failed: bool, notes: Notes
+    raw: Raw,
+    form: Format,
+    sources: dict[str, Source],
+    columns: dict[str, Array],
+    needed: Sequence[str],
+    failed: bool,
+    notes: Notes,
 ) -> None:
     """Findings on needed quantities without a column; on those with one there is a finding already."""
     for name in needed:
@@ -177,7 +186,9 @@ def missing(
             notes.error(f"no column {EXAMPLES[name]!r}, it holds {raw.refused[refused]}, must hold numbers", refused)
             continue
         there = listed(map(printable, raw.columns)) or "nothing"
-        hint = suggestion(name, [split_header(text)[0] for text in raw.columns])
+        known = rising(raw, form.decimal) if name == "time" else list(raw.columns)
+        hint = suggestion(name, [split_header(text)[0] for text in known])
+        hint = hint or (f", did you mean {printable(known[0])}?" if name == "time" and known else "")
         rate = (
             "; without times set sample_rate_Hz"
             if name == "time" and not hint
@@ -186,6 +197,16 @@ def missing(
             else ""
         )
         notes.error(f"no column {EXAMPLES[name]!r} among {there}{hint}{rate}", name)
+
+
+def rising(raw: Raw, decimal: str) -> list[str]:
+    """The columns whose first cells rise from each to the next, as times do."""
+    found = []
+    for name, values in raw.columns.items():
+        first = np.array([number(cell, decimal) for cell in values[:LOOK]], dtype=float)
+        if len(first) > 2 and len(values) == len(raw.rows) and np.all(np.diff(first) > 0.0):
+            found.append(name)
+    return found
 
 
 def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, Source]:
@@ -221,7 +242,9 @@ def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, Source]:
 
 
 def equal_units(name: str, unit: str, other: str) -> bool:
-    """Whether two units of a quantity are equal."""
+    """Whether two units of a quantity are equal, also the mass and its weight where the weight is stated."""
+    if name == "force" and is_mass(unit):
+        return is_weight_of(other, unit)
     probe = np.array([1.0, 2.0])
     try:
         return bool(np.allclose(in_si(probe, name, unit), in_si(probe, name, other), rtol=1e-9, atol=0.0))

@@ -12,7 +12,7 @@ import tomlkit
 from twintube import dampers
 from twintube.data.dataset import FILE
 from twintube.data.formats import TEXT
-from twintube.data.keys import READING
+from twintube.data.keys import NOT_SURE, READING
 from twintube.data.read_binary import READERS
 from twintube.data.sniff_blocks import sniff_records
 from twintube.data.sniff_values import Sniffed
@@ -49,6 +49,8 @@ READING_HELP = """
 # force_sign = -1             # force must be positive when the damper is pulled
 # stroke_sign = -1            # stroke must rise when the damper is pulled (rebound)
 # stroke_offset = "12.5 mm"   # added: 0 must be the middle position
+#
+# not_sure = ["force: N is guessed"]   # what is still a guess: every command warns until you delete the entry
 """
 RECORD_HELP = """
 # The records, one [[record]] for each file:
@@ -136,7 +138,7 @@ def template(
     if not damper:
         doubt = "damper: none was given, SA8 is assumed; a name of `twintube dampers` or a parameter file"
         doubts[doubt] = []
-        text += f"# NOT SURE: {doubt}\n"
+        text += not_sure([doubt])
     text += f"damper = {quoted(relative(damper, folder) if damper else 'SA8')}\n"
     text += READING_HELP + "".join(f"{key} = {quoted(value)}\n" for key, value in shared.items()) + RECORD_HELP
     for name, guess in records:
@@ -146,31 +148,38 @@ def template(
 
 def entry(name: str, guess: Sniffed, shared: dict[str, Any], state: State, doubts: dict[str, list[str]]) -> str:
     """One `[[record]]`; what is not sure goes to `doubts` too."""
-    lines = ["", "[[record]]"]
-    own = list(guess.doubts)
-    lines += [f"# {said(fact)}" for fact in guess.facts]
+    guessed, missing = list(guess.doubts), list(guess.missing)
     body = [f"file = {quoted(name)}"]
     if guess.measurement:
-        own.append(f"measurement: {guess.measurement}, judged by the speed and the turning points of the stroke")
+        guessed.append(f"measurement: {guess.measurement}, judged by the speed and the turning points of the stroke")
         body.append(f"measurement = {quoted(guess.measurement)}")
     else:
-        own.append("measurement: quasi-static, harmonic or stochastic; fill it in")
+        missing.append("measurement: quasi-static, harmonic or stochastic; fill it in")
         body.append("# measurement = ")
     if state.oil_level is None:
-        own.append("oil_level: the file does not tell it; fill it in")
+        missing.append("oil_level: the file does not tell it; fill it in")
         body.append("# oil_level = ")
     else:
         body.append(f"oil_level = {state.oil_level}")
     if state.gas_preload is None:
-        own.append("gas_preload: the file does not tell it; fill it in")
+        missing.append("gas_preload: the file does not tell it; fill it in")
         body.append("# gas_preload = ")
     else:
         body.append(f"gas_preload = {str(state.gas_preload).lower()}")
     body += [f"{key} = {quoted(value)}" for key, value in guess.reading.items() if key not in shared]
-    for doubt in own:
-        block = f", block {guess.reading['block']}" if "block" in guess.reading else ""
+    block = f", block {guess.reading['block']}" if "block" in guess.reading else ""
+    for doubt in guessed + missing:
         doubts.setdefault(said(doubt), []).append(said(name + block))
-    return "\n".join(lines + [f"# NOT SURE: {said(doubt)}" for doubt in own] + body) + "\n"
+    comments = [f"# {said(fact)}" for fact in guess.facts] + [f"# NOT SURE: {said(doubt)}" for doubt in missing]
+    return "\n".join(["", "[[record]]", *comments, *body]) + "\n" + not_sure([said(doubt) for doubt in guessed])
+
+
+def not_sure(guesses: Sequence[str]) -> str:
+    """The key by which every command repeats what was guessed until the user deletes it; empty where nothing was."""
+    if not guesses:
+        return ""
+    lines = "".join(f"    {quoted(guess)},\n" for guess in guesses)
+    return f"{NOT_SURE} = [  # NOT SURE: delete what you have confirmed; all commands warn of the rest\n{lines}]\n"
 
 
 def said(text: str) -> str:

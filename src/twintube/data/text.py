@@ -19,6 +19,7 @@ from twintube.data.blocks import Row, Rows, chosen, is_numbers, ruled
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import DEFAULT_ENCODING, MOST_COLUMNS, TEXT, Format, Raw
 from twintube.data.lvm import MAGIC, Layout, Segment, completed, layout_of, names_of, segment, segments_of
+from twintube.data.skipped import texts_over
 from twintube.data.units import NUMBER, units_row
 from twintube.words import listed, shown
 
@@ -36,6 +37,7 @@ class Cut:
     delimiter: str
     layout: Layout | None = None  # of a file that LabVIEW wrote
     segments: list[Segment] = field(default_factory=list)  # of such a file
+    over: dict[str, list[str]] = field(default_factory=dict)  # what skipped rows say over the columns of a list
 
 
 class TextReader:
@@ -57,6 +59,7 @@ class TextReader:
             raw = read_lvm(segment(cut.segments, form.block), cut.layout, form)
         else:
             raw = columns_of(chosen(cut.rows, form.block), form, cut.delimiter)
+            raw = replace(raw, over=cut.over | raw.over)
         blank = cut.rows.blank
         if not blank or not len(raw.rows):
             return raw
@@ -85,7 +88,8 @@ def cut_text(path: Path, form: Format) -> Cut:
         raise UnreadableError(
             f"delimiter and decimal are both {delimiter!r}: set `delimiter`, often ';' where decimal is ','"
         )
-    return Cut(ruled(split_text(text, delimiter, form.skip_rows)), delimiter)
+    over = texts_over(text, delimiter, form.skip_rows, form.columns) if isinstance(form.columns, list) else {}
+    return Cut(ruled(split_text(text, delimiter, form.skip_rows)), delimiter, over=over)
 
 
 def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
@@ -118,7 +122,14 @@ def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
     columns: dict[str, Any] = {header: [cells[i] for cells in rows] for i, header in enumerate(headers) if header}
     numbers = np.array([number for number, _ in body], dtype=np.int64)
     if headers is form.columns:
-        return Raw(columns, numbers, "row")
+        # The block's own names and units, which the list replaces.
+        rows_over = [names, [f"[{unit}]" if unit else "" for unit in units or []]] if named else []
+        over = {
+            header: said
+            for i, header in enumerate(headers)
+            if header and (said := [row[i].strip() for row in rows_over if i < len(row) and row[i].strip()])
+        }
+        return Raw(columns, numbers, "row", over=over)
     carried = {header: unit for header, unit in zip(headers, units or [], strict=False) if header and unit}
     without = [header for header in headers[max(widths) :] if header]
     return Raw(columns, numbers, "row", carried, without=without)

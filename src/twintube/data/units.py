@@ -7,14 +7,16 @@ UNIT_NAMES = {
     "millimeter": "mm", "meter": "m", "newton": "N", "kilonewton": "kN", "kn": "kN", "n": "N", "dan": "daN", "kp": "kgf",
     "°c": "degC", "c": "degC", "degc": "degC", "deg c": "degC", "celsius": "degC", "grad c": "degC", "k": "K", "kelvin": "K",
     "°f": "degF", "f": "degF", "degf": "degF", "deg f": "degF", "fahrenheit": "degF",
-    "inch": "in", "inches": "in", '"': "in", "lb": "lbf", "lbs": "lbf", "mm/sec": "mm/s", "m/sec": "m/s", "in/sec": "in/s",
-    "ips": "in/s",
+    "inch": "in", "inches": "in", '"': "in", "mil": "thou", "mils": "thou", "foot": "ft", "feet": "ft", "micron": "um",
+    "microns": "um", "lb": "lbf", "lbs": "lbf", "mm/sec": "mm/s", "m/sec": "m/s", "in/sec": "in/s", "ips": "in/s",
+    "ft/sec": "ft/s", "fps": "ft/s", "kmh": "km/h", "kph": "km/h",
 }  # fmt: skip
 # Kept by their case: ms is not MS, mm not Mm.
-PLAIN_UNITS = ("s", "ms", "us", "m", "mm", "cm", "in", "N", "kN", "daN", "kgf", "lbf", "m/s", "mm/s", "cm/s", "in/s", "degC",
-               "degF", "K")  # fmt: skip
+PLAIN_UNITS = ("s", "ms", "us", "m", "mm", "cm", "um", "in", "ft", "thou", "N", "kN", "daN", "kgf", "lbf", "m/s", "mm/s",
+               "cm/s", "in/s", "ft/s", "km/h", "mph", "degC", "degF", "K")  # fmt: skip
 OTHER_UNITS = ("V", "mV", "A", "mA", "%", "-", "1", "bar", "psi", "Pa", "MPa", "Hz", "rpm", "1/min", "mm/m", "J", "W")
 NUMBER = re.compile(r"\s*[+-]?[0-9]+([.,][0-9]*)?([eE][+-]?[0-9]+)?\s*")
+BRACKETS = re.compile(r"[\[(<{]\s*([^\[\](){}<>]*?)\s*[\])>}]")
 HEADER = re.compile(r"(.*?)\s*(?:\[(.*)\]|\((.*)\))", re.DOTALL)
 FEWEST = 2  # cells with a unit make a row of units
 
@@ -42,8 +44,13 @@ def name_and_unit(header: str) -> tuple[str, str]:
     """
     text = header.strip().strip('"').strip()
     bracketed = re.fullmatch(r"(.*?)\s*[\[(<{]\s*([^\])>}]*?)\s*[\])>}]", text)
+    if bracketed and unit_of(bracketed[2]):
+        return bracketed[1], unit_of(bracketed[2])
+    for inside in BRACKETS.finditer(text):  # `Load [kN] filtered`
+        if len(inside[1]) > 1 and unit_of(inside[1]):
+            return " ".join(f"{text[: inside.start()]} {text[inside.end() :]}".split()), unit_of(inside[1])
     if bracketed:
-        return bracketed[1], unit_of(bracketed[2]) or bracketed[2]
+        return bracketed[1], bracketed[2]
     parted = re.fullmatch(r"(.+?)(?:\s*,\s*|\s+in\s+|\s*/\s*|\s+|_)([^\s,_]+)", text)
     if parted and unit_of(parted[2]) and not unit_of(text):
         return re.sub(r"(\s+in|\s*[/,])$", "", parted[1]), unit_of(parted[2])

@@ -9,12 +9,14 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.dampers.freed_gas import as_before, as_published
+from twintube.data.findings import unconfirmed
+from twintube.data.signs import SIGNS
 from twintube.diagnosis.fits.candidates import LATE, RECALIBRATE, candidates
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.fits.gains import bootstrap, gains, whole, worst
 from twintube.diagnosis.fits.options import Fold
 from twintube.diagnosis.measurement.edges import with_memory, with_motion, with_noise, with_outliers, without_outliers
-from twintube.diagnosis.measurement.faults import STRANGER, Fault, force_averaging, read, really_turned, scaled, unit_error
+from twintube.diagnosis.measurement.faults import STRANGER, Fault, force_averaging, read, right_signs, scaled, unit_error
 from twintube.diagnosis.measurement.history import bare_of_strokes, settled, with_history
 from twintube.diagnosis.measurement.jitter import with_uncertainty
 from twintube.diagnosis.measurement.odd import GAINS, odd_records
@@ -52,10 +54,11 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     # Blocks of seconds, on which the paper's equations alone were fitted.
     dataset = replace(given, damper=as_published(given.damper))
     records = prepare(dataset)
-    remarks = []
+    remarks = unconfirmed(dataset.findings)
     if not any(record.intact for record in records):
         remarks.append("no record of the intact damper: what is wrong in every state looks like an effect of the oil loss")
-    turned, problem = really_turned(turned, Problem(dataset.damper, records, tolerance=tolerance))
+    turned, problem = right_signs(turned, Problem(dataset.damper, records, tolerance=tolerance))
+    remarks += [finding.message for finding in dataset.findings if turned is None and finding.column == SIGNS]
     recorded = problem
     wrong, problem = unit_error(problem)
     smoothed, problem, notes = force_averaging(dataset.records, problem)
@@ -72,8 +75,10 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     outliers = {} if cut is not None else outliers  # what lies beyond a limit stays left out
     remarks += [*notes, *drift, *([history_remark(bare)] if bare else [])]
     if turned is not None:
-        factors = (1.0, 1.0 / turned.factor) if turned.channel == "stroke" else (1.0 / turned.factor, 1.0)
-        recorded = recorded.with_records([scaled(r, *factors) if r.name in turned.records else r for r in recorded.records])
+        force, stroke = (1.0 if turned.channel == other else 1.0 / turned.factor for other in ("stroke", "force"))
+        recorded = recorded.with_records(
+            [scaled(r, force, stroke) if r.name in turned.records else r for r in recorded.records]
+        )
 
     seen = signatures(dataset.records)
     seen += [cut] if cut is not None and all(signature.name != cut.name for signature in seen) else []

@@ -9,13 +9,14 @@ from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import as_before, as_published
 from twintube.data import LoadedDataset, Record, load_dataset
+from twintube.data.findings import unconfirmed
 from twintube.engine.simulate import InputError
 from twintube.fitting.averaging import averaging, through
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.oscillations import harmonic
 from twintube.fitting.splits import distinct
 from twintube.fitting.strokes import quiet
-from twintube.identification.remarks import EQUAL_SPEEDS, SINGLE, continuation, noisy, reach
+from twintube.identification.remarks import EQUAL_SPEEDS, SINGLE, continuation, noisy, reach, signs
 from twintube.identification.validation import Validated, intact, validate_drives, validate_harmonic
 from twintube.identification.workflow import PAPER, Budget, Identification, identify_damper
 from twintube.words import listed
@@ -84,6 +85,7 @@ def identify_dataset(
         raise InputError(f"{dataset.title}: no harmonic record to identify from, only {kinds}")
     stated = {r.name: r.split for r in dataset.records}
     split, remarks = splits(sines, stated)
+    remarks = unconfirmed(dataset.findings) + signs(dataset, sines) + remarks
     smoothed = averaging(sines)
     if smoothed is not None:
         sines = through(sines, smoothed)

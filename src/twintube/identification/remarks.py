@@ -3,7 +3,11 @@
 from collections.abc import Sequence
 
 from twintube.dampers import Damper
+from twintube.data import LoadedDataset
+from twintube.data.signs import AS_STATED, SIGNS, TURNED, errors
+from twintube.engine.simulate import simulate
 from twintube.fitting.harmonic import Harmonic
+from twintube.identification.validation import state
 
 EQUAL_SPEEDS = 1.03  # velocities of sines, free of noise, that differ by a smaller factor are taken for equal
 NOISY = 0.02  # of the length over which friction builds up: a quarter of it changes the friction by some 5 %
@@ -38,4 +42,22 @@ def noisy(damper: Damper, sines: Sequence[Harmonic]) -> list[str]:
     return [
         f"noise of {1e6 * worst.stroke_noise:.2g} um in the stroke ({worst.name}) was taken out: friction builds up over "
         f"{1e6 * length:.2g} um and would count it as reversals; the validation also says the error over the recorded stroke"
+    ]
+
+
+def signs(dataset: LoadedDataset, sines: Sequence[Harmonic]) -> list[str]:
+    """A remark where both channels seem to have the other sign: as on reading, else by simulations of all states."""
+    found = [finding.message for finding in dataset.findings if finding.column == SIGNS]
+    if found:
+        return found
+    told = []
+    for h in sines:
+        damper, used = state(dataset.damper, h.oil_level, h.gas_preload), h.counts(slice(None))
+        stated, mirrored = (simulate(damper, side * h.stroke, side * h.velocity, h.time).force for side in (1.0, -1.0))
+        told.append(errors(h.force[used], stated[used], mirrored[used]).told)
+    if TURNED not in told or AS_STATED in told:
+        return []
+    return [
+        f"{dataset.damper.name} explains the records only with stroke and force both turned: unless this damper is stronger "
+        "in compression than in rebound, set force_sign = -1 and stroke_sign = -1 in dataset.toml, or leave both out there"
     ]

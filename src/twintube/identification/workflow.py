@@ -178,22 +178,24 @@ def first_step(
     remarks: list[str],
 ) -> tuple[Damper, float, list[Estimate]]:
     """F-v curve, friction and gas spring, the zero of the load cell [N] where only sines show it, and intervals."""
-    offset = 0.0
+    offset, pulls = 0.0, 0.0
     known: list[Estimate] = []
     if slow is not None and len(intact) >= 2:
         damper, known = identify_intact(damper, slow, intact)
+        pulls = -quasi_static(*slow).F_0
     elif intact:
         fit = identify_sines(damper, intact)
         damper, offset, known = fit.damper, fit.offset, fit.estimates
+        pulls = offset
         remarks.append(
             "friction and gas spring from the harmonic records, as there is no quasi-static record of the intact damper"
         )
     else:
         remarks.append("no intact harmonic record: F-v curve, friction and gas spring are those of the given parameter set")
-    if round(offset, 1) > 0.0:
+    if round(pulls, 1) > 0.0:
         remarks.append(
-            f"a constant {offset:.1f} N pulls the rod in, which no gas does: a zero of the load cell, or both signs turned "
-            "(force_sign = -1 and stroke_sign = -1 in dataset.toml)"
+            f"a constant {pulls:.1f} N pulls the rod in, which no gas does; F_0 stays at its bound 0: a zero of the load "
+            "cell, or both signs turned (force_sign = -1 and stroke_sign = -1 in dataset.toml)"
         )
     rises = []
     for level, (stroke, force) in slow_lost:

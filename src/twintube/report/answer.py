@@ -1,8 +1,10 @@
 """The answer in four lines, alike on the page and in the terminal: verdict, how sure it is, a number, the next step."""
 
 from twintube.core.effects import EFFECTS
+from twintube.data.findings import UNCONFIRMED
+from twintube.data.signs import PULLS_IN
 from twintube.diagnosis.fits.candidates import RECALIBRATE
-from twintube.diagnosis.measurement.faults import PUT_RIGHT
+from twintube.diagnosis.measurement.faults import BOTH_SIGNS, PUT_RIGHT
 from twintube.diagnosis.result import Cause, Diagnosis
 from twintube.diagnosis.verdict.verdict import lower, share
 from twintube.readable import amount
@@ -15,6 +17,7 @@ OTHERS = 2  # of them
 ANSWERS = {"none": "nothing is missing", "unknown": "none of the known causes"}
 REPAIRS = {
     "sign_flip": "turn the sign of this channel: force_sign or stroke_sign in dataset.toml",
+    BOTH_SIGNS: "set force_sign = -1 and stroke_sign = -1 in dataset.toml, or leave both out where they stand there",
     "unit_error": "correct the unit of this channel in dataset.toml",
     "force_averaging": "record the force without this mean; here the model was seen through an equal mean",
     "odd_record": "look up damper, setting and fill of what is named, and correct dataset.toml or repeat the measurement",
@@ -29,6 +32,11 @@ REPAIRS = {
 }
 PLACES = ("largest at", "nowhere")  # beginnings of a description of where the residual is large (diagnosis/where.py)
 IDENTIFY = "identify the damper from these records (twintube identify)"
+
+
+def repair(cause: Cause) -> str:
+    """How to put a fault right; where one kind has several, its title tells."""
+    return REPAIRS.get(cause.title, REPAIRS[cause.effect])
 
 
 def put_right(cause: Cause) -> bool:
@@ -106,7 +114,7 @@ def chance(p: float) -> str:
 
 def next_step(d: Diagnosis) -> str:
     """What to do or measure next."""
-    steps = [REPAIRS[cause.effect] for cause in d.causes if cause.effect in REPAIRS and d.verdict != "ambiguous"]
+    steps = [repair(cause) for cause in d.causes if cause.effect in REPAIRS and d.verdict != "ambiguous"]
     effects = [cause.effect for cause in d.causes if cause.effect in EFFECTS]
     match d.verdict:
         case "none":
@@ -128,7 +136,7 @@ def next_step(d: Diagnosis) -> str:
 def decisive(d: Diagnosis) -> list[str]:
     """What would decide between the answers of an ambiguous verdict, each with the answer that it shows."""
     first = [f"{title_of(c.effect)}: {EFFECTS[c.effect].decides}" for c in d.causes[:1] if c.effect in EFFECTS]
-    first += [f"{title_of(c.effect)}: {REPAIRS[c.effect]}" for c in d.causes[:1] if c.effect in REPAIRS]
+    first += [f"{title_of(c.effect)}: {repair(c)}" for c in d.causes[:1] if c.effect in REPAIRS]
     return first + [a.separable_by for a in d.alternatives]
 
 
@@ -142,5 +150,6 @@ def what_is_left(d: Diagnosis) -> str:
 def lines(d: Diagnosis) -> list[str]:
     """The answer for a terminal."""
     value, label = number(d)
-    texts = (d.sentence, confidence(d), f"{value}: {label}" if value else "", f"Next: {next_step(d)}")
+    doubts = (f"note: {remark}" for remark in d.remarks if remark.startswith((UNCONFIRMED, PULLS_IN)))
+    texts = (*doubts, d.sentence, confidence(d), f"{value}: {label}" if value else "", f"Next: {next_step(d)}")
     return [text for text in texts if text]

@@ -12,6 +12,7 @@ from twintube.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.dampers.freed_gas import as_published
 from twintube.data import LoadedDataset, Record, check_dataset, load_dataset
+from twintube.data.signs import AS_STATED, TURNED, errors
 from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.measurement.signature import oscillating
 from twintube.diagnosis.records.prepare import prepare
@@ -33,6 +34,7 @@ STROKE_UNITS = {
 }
 
 
+BOTH_SIGNS = "Signs of stroke and force"
 STRANGER = "odd_record"  # a record of something else
 PUT_RIGHT = ("sign_flip", "unit_error", "force_averaging", STRANGER)  # put right before anything is fitted
 
@@ -91,6 +93,12 @@ def scaled(record: PreparedRecord, force: float, stroke: float) -> PreparedRecor
     )  # fmt: skip
 
 
+def right_signs(turned: Fault | None, problem: Problem) -> tuple[Fault | None, Problem]:
+    """The turned sign of a channel or of both that the model, too, tells, if there is any; the problem with right signs."""
+    fault, right = really_turned(turned, problem)
+    return both_turned(right) if fault is None else (fault, right)
+
+
 def really_turned(turned: Fault | None, problem: Problem) -> tuple[Fault | None, Problem]:
     """The turned sign with which the model, too, explains the records far better, if there is any, and these records.
 
@@ -123,6 +131,29 @@ def all_turned(fault: Fault, problem: Problem) -> tuple[Fault, Problem]:
     of = f" of {', '.join(names)}" if len(names) < len(pairs) else ""
     named = replace(fault, explanation=f"The force channel{of} has the other sign.", records=names)
     return named, problem.with_records([other if wrong else record for record, other, wrong in pairs])
+
+
+def both_turned(problem: Problem) -> tuple[Fault | None, Problem]:
+    """Stroke and force both of the other sign, whose work is right, where the model explains only that; the problem turned.
+
+    Where some records tell that their signs are right, only those that tell the contrary are turned. An error that is not
+    much smaller then is that of another model.
+    """
+    others = problem.with_records([scaled(record, -1.0, -1.0) for record in problem.records])
+    stated, mirrored = problem.forces({}), others.forces({})
+    spans = [slice(a + 1, b) for a, b in zip(problem.starts[:-1], problem.starts[1:], strict=True)]
+    told = [errors(problem.measured[span], stated[span], mirrored[span]).told for span in spans]
+    if TURNED not in told:
+        return None, problem
+    wrong = np.array([sign == TURNED or AS_STATED not in told for sign in told])
+    if (relative(problem) - relative(others))[wrong].mean() < RULES.unit_gain:
+        return None, problem
+    pairs = list(zip(problem.records, others.records, wrong, strict=True))
+    names = tuple(record.name for record, _, turned in pairs if turned)
+    of = f" of {', '.join(names)}" if len(names) < len(pairs) else ""
+    text = f"Stroke and force{of} both have the other sign: the rig counts compression positive."
+    fault = Fault("sign_flip", BOTH_SIGNS, text, -1.0, records=names, channel="both")
+    return fault, problem.with_records([other if turned else record for record, other, turned in pairs])
 
 
 def stroke_turned(turned: Fault) -> Fault:
