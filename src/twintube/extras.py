@@ -10,7 +10,8 @@ def extra_of(module: str) -> str | None:
     """The extra of this package that brings a module, None where none does."""
     name = module.split(".", maxsplit=1)[0].lower()
     for requirement in requires("twintube") or []:
-        match = re.match(r"([\w.-]+).*extra == ['\"](\w+)['\"]", requirement)
+        # An extra may hold other extras of this package, which no module is missing for.
+        match = re.match(r"(?!twintube\b)([\w.-]+).*extra == ['\"](\w+)['\"]", requirement)
         if match and match[1].replace("-", "_").lower() == name and match[2] not in NOT_FOR_USERS:
             return match[2]
     return None

@@ -15,6 +15,7 @@ from tests.diagnosis import small
 from twintube.arrays import Array
 from twintube.cli import app
 from twintube.dampers import load
+from twintube.dampers.freed_gas import as_published
 from twintube.data import Record
 from twintube.diagnosis import Diagnosis, diagnose, engine
 from twintube.diagnosis.engine import contradicted, says_more, split
@@ -36,7 +37,7 @@ BLOCKS = (0.131, 0.262, 0.524, 0.786, 1.048)
 def nothing() -> Problem:
     """Records of another scheme, with nothing hidden in them."""
     data = dataset(trial("none", 2001, blocks=(0.262, 0.524, 1.048)))
-    return Problem(data.damper, prepare(data))
+    return Problem(as_published(data.damper), prepare(data))
 
 
 @pytest.fixture(scope="module")

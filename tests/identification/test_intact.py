@@ -77,7 +77,7 @@ def test_intact_identification_predicts_a_held_out_block() -> None:
 
 
 def test_both_signs_turned_are_remarked_beside_a_slow_record() -> None:
-    truth = load("SA8")
+    truth = load("SA8", as_published=True)
     signal = ramp(truth)
     slow = (signal.stroke, simulate(truth, signal.stroke, signal.velocity).force)
     records = intact_records(truth, noise=0.01)[:3]

@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
+from twintube.cli.outputs import MARK
 from twintube.dampers.freed_gas import DEFAULT, VARIED
 from twintube.inspection import METHODS
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, markdown, method_rows, range_rows
@@ -62,7 +63,7 @@ def test_the_page_has_all_methods_and_pictures(tmp_path: Path) -> None:
     for method in METHODS.values():
         assert method.title in page
     names = {"SA8.png", "plate.png", "SA8_detected.png", "SA8_roc.png"}
-    assert {path.name for path in tmp_path.iterdir()} == names | {"report.html"}
+    assert {path.name for path in tmp_path.iterdir()} == names | {"report.html", MARK}
     assert page.count("data:image/png") == len(names)
 
 

@@ -140,7 +140,7 @@ def test_a_compiler_that_does_not_end_is_stopped(tmp_path: Path, monkeypatch: py
 @pytest.fixture
 def compiled_kernel() -> None:
     """The kernel, before the home goes: compiling it again takes long."""
-    simulate(load("SA8"), [0.0, 0.0], [0.0, 0.0])
+    simulate(load("SA8", as_published=True), [0.0, 0.0], [0.0, 0.0])
 
 
 @pytest.mark.parametrize("arguments", [["dampers", "SA8"], ["simulate", "SA8", "--velocity", "1.5", "--amplitude-mm", "5"]])
