@@ -1,13 +1,14 @@
-"""The paper's statements about results, C1 to C16, evaluated with its published parameters.
+"""The paper's statements about results, C1 to C17, evaluated with its published parameters.
 
 `evaluate` returns one `Claim` per statement. A claim that was used to calibrate the dead lengths names the dampers
-concerned. A claim that follows from an assumed value alone is marked `assumed`. Only the other claims are evidence.
+concerned. A claim that an assumed value or the code alone decides, or that nobody measured, says so (`Claim.kind`). Only the
+others are evidence.
 """
 
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 
-from twintube.claims import fast, intact, levels, slow, table3_drives, variants
+from twintube.claims import fast, intact, levels, slow, small, table3_drives, variants
 from twintube.claims.claim import BENCH, Bench, Claim, Dampers, fluid_works, works
 from twintube.dampers import load, names
 from twintube.rig.plan import oil_levels, velocities
@@ -29,6 +30,7 @@ EVALUATORS: tuple[Callable[[Dampers, Bench], Claim], ...] = (
     variants.c14,
     slow.c15,
     levels.c16,
+    small.c17,
 )
 
 

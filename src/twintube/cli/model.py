@@ -202,16 +202,17 @@ def claims(
         str, typer.Option(help="What freed gas does in every run; if left out: stays, in drives dissolves.")
     ] = "",
 ) -> None:
-    """Evaluate the paper's statements C1 to C16 with its published parameters."""
+    """Evaluate the paper's statements C1 to C17 with its published parameters."""
     from twintube.claims import EVALUATORS, evaluate
 
     readings = dict(parsed_reading(text) for text in reading or [])
     results = list(tqdm(evaluate(readings, bench(start, freed_gas)), total=len(EVALUATORS), unit="claim", leave=False))
     if json_file is not None:
-        write_text(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in results], indent=1) + "\n")
+        write_text(
+            json_file, json.dumps([asdict(c) | {"kind": c.kind, "evidence": c.evidence} for c in results], indent=1) + "\n"
+        )
     for c in results:
-        mark = "calibrated" if c.calibrated else "by assumption" if c.assumed else "evidence"
-        typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{mark:15}{c.statement} ({c.source})")
+        typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{c.kind:17}{c.statement} ({c.source})")
         typer.echo(f'      the paper: "{c.quote}"')
         typer.echo(f"      tested: {c.tested}")
         for name, value in c.figures.items():
@@ -221,10 +222,9 @@ def claims(
             typer.echo(f"      used for the dead length of: {', '.join(c.calibrated)}")
         if not c.holds:
             typer.echo(f"      why not ({c.because}): {c.reason}")
-    for kind in (True, False):
-        some = [c for c in results if c.evidence is kind]
-        what = "evidence" if kind else "calibrated or by assumption"
-        typer.echo(f"{what}: {sum(c.holds for c in some)} of {len(some)} hold")
+    for kind in dict.fromkeys(["evidence", *(c.kind for c in results)]):
+        some = [c for c in results if c.kind == kind]
+        typer.echo(f"{kind}: {sum(c.holds for c in some)} of {len(some)} hold")
 
 
 def bench(start: str, freed_gas: str = "") -> Any:
