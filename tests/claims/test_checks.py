@@ -10,7 +10,7 @@ import pytest
 from twintube.claims import fast, intact, levels, slow, small, table3_drives, variants
 from twintube.claims.claim import BENCH, Bench, Dampers, block
 from twintube.dampers import Damper, load, names
-from twintube.dampers.collapse import collapse_level
+from twintube.dampers.dead_length import collapse_level
 from twintube.engine.simulate import work_between
 from twintube.rig.signals import harmonic_block
 from twintube.vehicle.maneuvers import MANEUVERS

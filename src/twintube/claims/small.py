@@ -16,7 +16,7 @@ from twintube.claims.claim import (
     rounded,
 )
 from twintube.dampers import Damper
-from twintube.dampers.collapse import collapse_level
+from twintube.dampers.dead_length import collapse_level
 from twintube.rig.plan import amplitude
 from twintube.rig.signals import BLOCKS
 
@@ -50,26 +50,25 @@ def c17(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     }
     answers = {state: answer(shares) for state, shares in table.items()}
     without = [state for state, found in answers.items() if found in ("less", "the same")]
+    count = {kind: sum(found == kind for found in answers.values()) for kind in ("more", "the same", "less", "gone")}
     levels = ", ".join(f"{name} {collapse_level(damper):.1%}" for name, damper in dampers.items())
     return Claim(
         id="C17",
-        quote="It is likely that small excitation amplitudes of less than 10 mm significantly increase the effect of oil and "
-        "gas loss on the SA properties. These small amplitudes were not considered in this study, as the authors do not "
+        quote="It is likely that small excitation amplitudes of less than 10 mm significantly increase the effect of oil "
+        "and gas loss on the SA properties. These small amplitudes were not considered in this study, as the authors do not "
         "consider them to be part of safety critical driving dynamics.",
         statement="amplitudes below 10 mm: oil and gas loss have more effect than at 45 mm (expected, not measured)",
         source="Section 4 (Discussion)",
-        tested="fluid work over intact at 0.131 m/s, mean of the 19 oscillations about the middle, every damper at both levels "
-        f"of Table 2 and at 50 %: with 5 and with 2.5 mm by more than {MODEL_ERROR:.0%} of the intact work (the model's own "
-        f"error) below that of the blocks' amplitude, unless at most {GONE:.0%} is left there",
+        tested="fluid work over intact at 0.131 m/s, mean of the 19 oscillations about the middle, every damper at both "
+        f"levels of Table 2 and at 50 %: with 5 and with 2.5 mm by more than {MODEL_ERROR:.0%} of the intact work (the "
+        f"model's own error) below that of the blocks' amplitude, unless at most {GONE:.0%} is left there",
         holds=not without,
         figures={
             "amplitudes_mm": [rounded(1e3 * (bench.reach or amplitude(next(iter(dampers.values())))), 1)]
             + [1e3 * a for a in SMALL],
             "mean_work_relative_to_intact": table,
             "effect_below_10_mm": answers,
-            "states": {
-                kind: sum(found == kind for found in answers.values()) for kind in ("more", "the same", "less", "gone")
-            },
+            "states": count,
         },
         needs=f"{DEAD}, {FV_STANDIN}; the paper expects this and did not measure it",
         because="" if not without else PAPER,

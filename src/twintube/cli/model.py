@@ -18,6 +18,7 @@ from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_optio
 from twintube.core.effects import Parameters
 from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import ParameterError
+from twintube.dampers.dead_length import bounds, collapse_level
 from twintube.dampers.freed_gas import acting, as_published
 from twintube.engine.simulate import InputError
 from twintube.errors import InputWarning
@@ -35,7 +36,7 @@ FMU_NAMES = {item.name: fmi_name(item) for item in fields(Outputs)}
 
 @app.command("dampers", epilog="Example: twintube dampers SA8")
 def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this damper: a name or a file.")] = None) -> None:
-    """List the named dampers, or show one as TOML with its sources."""
+    """List the named dampers with the oil level at which their chambers fall short, or show one as TOML with its sources."""
     if damper is not None:
         chosen = dampers.load(damper)
         typer.echo(dampers.to_toml(chosen), nl=False)
@@ -43,7 +44,15 @@ def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this da
     for name in dampers.names():
         named = dampers.load(name)
         levels = ", ".join(f"{level:.0%}" for level in named.measured_levels)
-        typer.echo(f"{name}  {named.title:36} {named.parameters.V_oil * 1e6:4.0f} mL, measured at 100%, {levels}")
+        low, high = (collapse_level(named.with_(dead_length=length)) for length in reversed(bounds(named)))
+        typer.echo(
+            f"{name}  {named.title:36} {named.parameters.V_oil * 1e6:4.0f} mL, measured at 100%, {levels}; "
+            f"chambers full down to {collapse_level(named):.1%} ({low:.0%}-{high:.0%})"
+        )
+    typer.echo(
+        "chambers full down to: oil = (A_1 + A_2) l / 2, l = h_l - dead_length; above it a damper that moves little is "
+        "as new. In brackets: within the bounds of the dead length, which is assumed"
+    )
 
 
 @app.command(epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv")
