@@ -5,7 +5,7 @@ import pytest
 from twintube.claims.calibrate import FLAT, calibrate, deviations
 from twintube.claims.lengths import STEP, candidates
 from twintube.dampers import load, names
-from twintube.dampers.dead_length import HIGHEST, LONGEST, SHORTEST, pressure
+from twintube.dampers.dead_length import HIGHEST, LONGEST, SHORTEST, bounds, pressure
 
 
 @pytest.mark.parametrize("name", ["SA5"])

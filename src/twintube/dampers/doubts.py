@@ -31,7 +31,8 @@ def doubts(p: Parameters) -> list[str]:
     if not SHORTEST <= p.dead_length <= LONGEST:  # no error: a damper of another build may be outside
         texts.append(
             f"geometry.dead_length = {p.dead_length:g} m: in a car's damper piston with valves (30-40 mm), foot valve "
-            f"(15-25 mm) and rebound stop (15-35 mm) take {SHORTEST:g} to {LONGEST:g} m; it decides at which oil level the damper fails"
+            f"(15-25 mm) and rebound stop (15-35 mm) take {SHORTEST:g} to {LONGEST:g} m; it decides at which oil level the "
+            "damper fails"
         )
     return texts + gas(p, d)
 
