@@ -11,6 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from twintube.claims import fast, intact, levels, slow, small, table3_drives, variants
 from twintube.claims.claim import BENCH, Bench, Claim, Dampers, fluid_works, works
 from twintube.dampers import load, names
+from twintube.dampers.variants import rear_curve
 from twintube.rig.plan import oil_levels, velocities
 
 EVALUATORS: tuple[Callable[[Dampers, Bench], Claim], ...] = (
@@ -34,9 +35,14 @@ EVALUATORS: tuple[Callable[[Dampers, Bench], Claim], ...] = (
 )
 
 
-def evaluate(readings: Mapping[str, float] | None = None, bench: Bench = BENCH) -> Iterator[Claim]:
-    """All claims in order; `readings` sets parameters of the group `reading` for every damper."""
+def evaluate(readings: Mapping[str, float] | None = None, bench: Bench = BENCH, *, rear: bool = False) -> Iterator[Claim]:
+    """All claims in order; `readings` sets parameters of the group `reading` for every damper.
+
+    With `rear` the rear dampers take the rear curve of the source of the F-v curves (`dampers.variants.rear_curve`).
+    """
     dampers = {name: load(name).with_(**(readings or {})) for name in names()}
+    if rear:
+        dampers = {name: damper.with_(**rear_curve(damper)) for name, damper in dampers.items()}
     warm(dampers, bench)
     for evaluator in EVALUATORS:
         yield evaluator(dampers, bench)

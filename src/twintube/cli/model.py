@@ -210,12 +210,16 @@ def claims(
     freed_gas: Annotated[
         str, typer.Option(help="What freed gas does in every run; if left out: stays, in drives dissolves.")
     ] = "",
+    rear_curve: Annotated[
+        bool, typer.Option("--rear-curve", help="Rear dampers with the rear F-v curve of the source of the front one.")
+    ] = False,
 ) -> None:
     """Evaluate the paper's statements C1 to C17 with its published parameters."""
     from twintube.claims import EVALUATORS, evaluate
 
     readings = dict(parsed_reading(text) for text in reading or [])
-    results = list(tqdm(evaluate(readings, bench(start, freed_gas)), total=len(EVALUATORS), unit="claim", leave=False))
+    claims_one_by_one = evaluate(readings, bench(start, freed_gas), rear=rear_curve)
+    results = list(tqdm(claims_one_by_one, total=len(EVALUATORS), unit="claim", leave=False))
     if json_file is not None:
         write_text(
             json_file, json.dumps([asdict(c) | {"kind": c.kind, "evidence": c.evidence} for c in results], indent=1) + "\n"
@@ -282,7 +286,7 @@ def calibrate(
 def readings(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write every effect to this file.")] = None,
 ) -> None:
-    """Measure what each other reading, start, ride position, amplitude and way of the freed gas does to every claim."""
+    """Measure what each other reading, start, position, amplitude, way of the freed gas and F-v curve does to every claim."""
     from twintube.claims.compare import alternatives, compare
 
     table = []

@@ -21,6 +21,7 @@ SPEEDS = (30.0, 50.0)  # [km/h]
 SEEDS = (1, 2, 3, 4, 5)
 FORCES = (0.75, 1.33)  # of the assumed F-v curve
 LOSSES = (0.05, 0.4)  # oil losses [1] from which cavitation has its full effect (assumed)
+DEAD_LENGTH = "dead length"
 NAMES = {  # of the car's values, for pictures
     "d_links": "links [N s/m]",
     "d_tyre": "tyre damping [N s/m]",
@@ -106,7 +107,7 @@ def assumptions(damper: Damper, car: CarSet) -> dict[str, tuple[Setting, Setting
     }
     ends[f"F-v curve x {FORCES[0]:g}-{FORCES[1]:g}"] = (Setting(forces=FORCES[0]), Setting(forces=FORCES[1]))
     low, high = bounds(damper)
-    ends[f"dead length {1e3 * low:.0f}-{1e3 * high:.0f} mm"] = (dead_length(low), dead_length(high))
+    ends[f"{DEAD_LENGTH} {1e3 * low:.0f}-{1e3 * high:.0f} mm"] = (dead_length(low), dead_length(high))
     if curve := rear_curve(damper):
         ends["rear curve of the F-v source"] = (Setting(), Setting(damper=tuple(curve.items())))
     ends[f"cavitation in full from {LOSSES[0]:g}-{LOSSES[1]:g} of loss"] = (loss(LOSSES[0]), loss(LOSSES[1]))

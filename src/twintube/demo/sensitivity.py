@@ -138,8 +138,8 @@ def page(damper: str, car: str) -> str:
         "", table(rides, rows), "",
         "## Rise over the intact damper", "",
         "The DLC over that of the intact damper in the same car on the same road, in %: smallest and largest of",
-        f"{len(SEEDS)} roads. All settings of the bands: every assumption at its ends, one at a time, and freed gas, links and",
-        f"dead length together. The last row has of every assumption the end with the smaller rise at {100 * MILD_AT:.0f} % oil,",
-        f"all at once, and freed gas `{GENTLEST}`.",
+        f"{len(SEEDS)} roads. All settings of the bands: every assumption at its ends, one at a time, and freed gas, links",
+        "and dead length together. The last row has of every assumption the end with the smaller rise at",
+        f"{100 * MILD_AT:.0f} % oil, all at once, and freed gas `{GENTLEST}`.",
         "", table_of_rises(rides, combined | {"all mild ends at once": [mildest]}), "",
     ])  # fmt: skip
