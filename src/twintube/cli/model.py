@@ -286,7 +286,7 @@ def calibrate(
 def readings(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write every effect to this file.")] = None,
 ) -> None:
-    """Measure what each other reading, start, position, amplitude, way of the freed gas and F-v curve does to every claim."""
+    """Measure what each other reading, start, position, amplitude, way of freed gas and F-v curve does to every claim."""
     from twintube.claims.compare import alternatives, compare
 
     table = []
