@@ -22,7 +22,7 @@ STATES = {"intact": (1.0, 1), "60 %": (0.6, 0), "40 %": (0.4, 0)}
 
 
 def wheel_loads(fmu: Path, car: Car, route: Track, state: tuple[float, int], every: int) -> list[float]:
-    """Wheel loads [N] of the car's steps; stroke and velocity go to the damper every so many of them, its force comes back."""
+    """Wheel loads [N] of the car's steps; motion goes to the damper every so many of them, then its force comes back."""
     level, preload = state
     m, loads = blank(Motion), []
     with DamperFmu(fmu, oil_level=level, gas_preload=preload) as damper:
