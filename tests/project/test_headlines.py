@@ -7,7 +7,8 @@ import pytest
 
 from twintube.dampers import load
 from twintube.dampers.dead_length import bounds, collapse_level
-from twintube.demo.sensitivity import RISES, SPEEDS
+from twintube.demo.bands import SPEEDS
+from twintube.demo.sensitivity import RISES
 
 ROOT = Path(__file__).parents[2]
 LOW = [level for level in RISES if level <= 0.4]  # "40 % of the oil and less"

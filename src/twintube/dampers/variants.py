@@ -22,7 +22,7 @@ def rear_curve(damper: Damper) -> dict[str, tuple[float, ...]]:
     """The parameters that give a rear damper that curve; empty for a front damper or one whose curve is not a stand-in."""
     if "rear" not in damper.title.lower() or "fv" not in damper.assumed:
         return {}
-    changes = {}
+    changes: dict[str, tuple[float, ...]] = {}
     for branch, points in (("rebound", REAR_REBOUND), ("compression", REAR_COMPRESSION)):
         v_name, F_name = BRANCHES[branch]
         v, F = zip(*continued(list(points)), strict=True)
