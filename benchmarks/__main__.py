@@ -17,6 +17,7 @@ from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.identify import bench_identify
 from benchmarks.inspect import bench_inspect
 from benchmarks.kernel import bench_kernel
+from benchmarks.steps import bench_steps
 from twintube.engine import compiled
 
 BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
@@ -26,6 +27,7 @@ BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "car": bench_car,
     "identify": bench_identify,
     "inspect": bench_inspect,
+    "steps": bench_steps,
 }
 SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,

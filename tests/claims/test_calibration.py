@@ -3,8 +3,9 @@
 import pytest
 
 from twintube.claims.calibrate import FLAT, calibrate, deviations
-from twintube.claims.lengths import HIGHEST, LONGEST, SHORTEST, STEP, candidates, pressure
+from twintube.claims.lengths import STEP, candidates
 from twintube.dampers import load, names
+from twintube.dampers.dead_length import HIGHEST, LONGEST, SHORTEST, bounds, pressure
 
 
 @pytest.mark.parametrize("name", ["SA5"])
@@ -42,3 +43,19 @@ def test_deviations_name_the_claims_of_the_damper() -> None:
     assert set(deviations(load("SA2"))) == {"C1", "C2", "C3", "C16"}
     assert set(deviations(load("SA7"))) == {"C1", "C2", "C3", "C4", "C15", "C16"}
     assert {"C5 largest", "C7 first", "C9 40%"} <= set(deviations(load("SA8")))
+
+
+@pytest.mark.parametrize("name", names())
+def test_bounds_are_those_of_the_candidates(name: str) -> None:
+    """The grid of the calibration ends where the bounds do."""
+    low, high = bounds(load(name))
+    lengths = [candidate.parameters.dead_length for candidate in candidates(load(name))]
+    assert lengths[0] == pytest.approx(low) and 0.0 <= high - lengths[-1] < STEP
+    assert pressure(load(name).with_(dead_length=high)) <= HIGHEST
+    if high < LONGEST:
+        assert pressure(load(name).with_(dead_length=high + 2e-3)) > HIGHEST
+
+
+def test_the_own_dead_length_is_within_the_bounds() -> None:
+    assert bounds(load("SA3").with_(dead_length=0.03))[0] == 0.03
+    assert bounds(load("SA3").with_(dead_length=0.13))[1] == 0.13

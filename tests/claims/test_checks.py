@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from twintube.claims import fast, intact, levels, slow, table3_drives, variants
+from twintube.claims import fast, intact, levels, slow, small, table3_drives, variants
 from twintube.claims.claim import BENCH, Bench, Dampers, block
 from twintube.dampers import Damper, load, names
+from twintube.dampers.dead_length import collapse_level
 from twintube.engine.simulate import work_between
 from twintube.rig.signals import harmonic_block
 from twintube.vehicle.maneuvers import MANEUVERS
@@ -45,6 +46,23 @@ FALSE: list[tuple[Callable[..., Any], Dampers, Bench]] = [
 def test_a_false_statement_fails(claim: Callable[..., Any], dampers: Dampers, bench: Bench) -> None:
     result = claim(dampers, bench)
     assert not result.holds and result.reason and result.because
+
+
+def test_small_strokes_do_more_only_where_the_chambers_are_not_full() -> None:
+    """SA8 loses more with small strokes at all its states, SA7 at none: the level of collapse tells the two apart."""
+    assert small.c17(changed("SA8"), BENCH).holds
+    result = small.c17(changed("SA7"), BENCH)
+    assert not result.holds and result.because and "SA7 49.7%" in result.reason
+    shorter = small.c17(changed("SA7", dead_length=0.06), BENCH).figures["effect_below_10_mm"]
+    assert isinstance(shorter, dict) and shorter["SA7 at 50%"] == "more"
+
+
+@pytest.mark.parametrize("name", ["SA1", "SA8"])
+def test_the_level_of_collapse_is_where_a_small_stroke_loses_its_work(name: str) -> None:
+    damper = load(name)
+    collapse = collapse_level(damper)
+    above, below = (small.by_amplitude(damper, collapse + side * 0.02)[-1] for side in (1, -1))
+    assert above > 0.99 and below < 0.1
 
 
 def test_statements_about_sa8_depend_on_its_dead_length() -> None:

@@ -1,18 +1,22 @@
 """The claims are computed, complete and honest about what they rest on."""
 
 import json
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 
 from twintube.claims import EVALUATORS, Claim, evaluate
-from twintube.claims.claim import FRONT, PAPER, READING, STAND_IN, works
+from twintube.claims.claim import ASSUMPTION, CONSTRUCTION, EXPECTATION, FRONT, PAPER, READING, STAND_IN, works
 from twintube.claims.fast import SIGNIFICANTLY_LOWER
 from twintube.dampers import load
 from twintube.rig.signals import BLOCKS
 
-IDS = [f"C{i}" for i in range(1, 17)]
+ROOT = Path(__file__).parents[2]
+WORDS = ("none one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen "
+         "seventeen").split()  # fmt: skip
+IDS = [f"C{i}" for i in range(1, 18)]
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +24,7 @@ def claims() -> dict[str, Claim]:
     return {c.id: c for c in evaluate()}
 
 
-def test_all_sixteen_are_there(claims: dict[str, Claim]) -> None:
+def test_all_seventeen_are_there(claims: dict[str, Claim]) -> None:
     assert list(claims) == IDS
     assert [e.__name__ for e in EVALUATORS] == [i.lower() for i in IDS]
     for claim in claims.values():
@@ -40,18 +44,36 @@ def test_calibrated_claims_are_no_evidence(claims: dict[str, Claim]) -> None:
     assert [c.id for c in claims.values() if c.calibrated] == ["C1", "C2", "C3", "C4", "C5", "C7", "C9", "C15", "C16"]
     assert claims["C4"].calibrated == FRONT and claims["C15"].calibrated == ("SA1", "SA7")
     assert claims["C5"].calibrated == claims["C7"].calibrated == claims["C9"].calibrated == ("SA8",)
-    assert [c.id for c in claims.values() if c.assumed] == ["C11", "C12"]
-    assert [c.id for c in claims.values() if c.evidence] == ["C6", "C8", "C10", "C13", "C14"]
+    others = {kind: [c.id for c in claims.values() if c.kind == kind] for kind in (ASSUMPTION, CONSTRUCTION, EXPECTATION)}
+    assert others == {ASSUMPTION: ["C11", "C12"], CONSTRUCTION: ["C10"], EXPECTATION: ["C17"]}
+    assert [c.id for c in claims.values() if c.evidence] == ["C6", "C8", "C13", "C14"]
 
 
 def test_docs_agree(claims: dict[str, Claim]) -> None:
     """The page names the verdict of every claim."""
-    page = (Path(__file__).parents[2] / "docs" / "claims.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
     for claim in claims.values():
         row = next(line for line in page.splitlines() if line.startswith(f"| {claim.id} |"))
-        kind = "calibrated" if claim.calibrated else "by assumption" if claim.assumed else "evidence"
         verdict = "yes" if claim.holds else f"**no**, {claim.because}"
-        assert [cell.strip() for cell in row.split("|")[2:4]] == [verdict, kind], claim.id
+        assert [cell.strip() for cell in row.split("|")[2:4]] == [verdict, claim.kind], claim.id
+
+
+def by_kind(claims: list[Claim], held: bool) -> Iterator[tuple[str, list[Claim]]]:
+    """The claims of each kind and `all` of them, with `held` only those that hold."""
+    for kind in ("all", "evidence", "calibrated", ASSUMPTION):
+        yield kind, [c for c in claims if kind in ("all", c.kind) and (c.holds or not held)]
+
+
+def test_the_pages_count_the_evidence(claims: dict[str, Claim]) -> None:
+    """Counts in README and on the page are those of the claims themselves."""
+    count, holding = (
+        {kind: WORDS[len(some)] for kind, some in by_kind(list(claims.values()), held)} for held in (False, True)
+    )
+    readme, page = ((ROOT / name).read_text(encoding="utf-8").replace("\n", " ") for name in ("README.md", "docs/claims.md"))
+    assert f"paper's {count['all']} statements**, as written: {holding['all']} hold." in readme
+    assert f"Only {count['evidence']} of them are evidence about the model; {holding['evidence']} of these hold" in readme
+    assert f"Of {count['evidence']} claims that are evidence {holding['evidence']} hold, of {count['calibrated']} " in page
+    assert f"calibrated ones {holding['calibrated']}, of {count[ASSUMPTION]} by assumption" in page
 
 
 def test_figures_of_c4_are_those_of_the_works(claims: dict[str, Claim]) -> None:

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import fmpy
@@ -23,8 +24,11 @@ def test_help_has_an_example(command: str) -> None:
 
 
 def test_dampers_are_listed_and_shown(tmp_path: Path) -> None:
-    assert RUNNER.invoke(app, ["dampers"]).output.count("\n") == 8
+    *listed, meaning = RUNNER.invoke(app, ["dampers"]).output.splitlines()
+    assert len(listed) == 8
+    assert "chambers full down to 58.0% (51%-63%)" in listed[-1] and "(A_1 + A_2) l / 2" in meaning
     shown = RUNNER.invoke(app, ["dampers", "SA8"]).output
+    assert re.search(r"dead_length = 0\.08 # m: .* 58\.0% of the intact oil", shown)
     (tmp_path / "copy.toml").write_text(shown)
     assert RUNNER.invoke(app, ["dampers", str(tmp_path / "copy.toml")]).output == shown
 

@@ -1,15 +1,17 @@
-"""The paper's statements about results, C1 to C16, evaluated with its published parameters.
+"""The paper's statements about results, C1 to C17, evaluated with its published parameters.
 
 `evaluate` returns one `Claim` per statement. A claim that was used to calibrate the dead lengths names the dampers
-concerned. A claim that follows from an assumed value alone is marked `assumed`. Only the other claims are evidence.
+concerned. A claim that an assumed value or the code alone decides, or that nobody measured, says so (`Claim.kind`). Only the
+others are evidence.
 """
 
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 
-from twintube.claims import fast, intact, levels, slow, table3_drives, variants
+from twintube.claims import fast, intact, levels, slow, small, table3_drives, variants
 from twintube.claims.claim import BENCH, Bench, Claim, Dampers, fluid_works, works
 from twintube.dampers import load, names
+from twintube.dampers.variants import rear_curve
 from twintube.rig.plan import oil_levels, velocities
 
 EVALUATORS: tuple[Callable[[Dampers, Bench], Claim], ...] = (
@@ -29,12 +31,18 @@ EVALUATORS: tuple[Callable[[Dampers, Bench], Claim], ...] = (
     variants.c14,
     slow.c15,
     levels.c16,
+    small.c17,
 )
 
 
-def evaluate(readings: Mapping[str, float] | None = None, bench: Bench = BENCH) -> Iterator[Claim]:
-    """All claims in order; `readings` sets parameters of the group `reading` for every damper."""
+def evaluate(readings: Mapping[str, float] | None = None, bench: Bench = BENCH, *, rear: bool = False) -> Iterator[Claim]:
+    """All claims in order; `readings` sets parameters of the group `reading` for every damper.
+
+    With `rear` the rear dampers take the rear curve of the source of the F-v curves (`dampers.variants.rear_curve`).
+    """
     dampers = {name: load(name).with_(**(readings or {})) for name in names()}
+    if rear:
+        dampers = {name: damper.with_(**rear_curve(damper)) for name, damper in dampers.items()}
     warm(dampers, bench)
     for evaluator in EVALUATORS:
         yield evaluator(dampers, bench)

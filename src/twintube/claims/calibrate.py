@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 from twintube.claims import fast, levels, slow, variants
 from twintube.claims.claim import BENCH, FRONT, MODEL_ERROR, VISIBLE, Bench
-from twintube.claims.lengths import HIGHEST, SHORTEST, candidates
+from twintube.claims.lengths import candidates
 from twintube.dampers import Damper, ParameterError
+from twintube.dampers.dead_length import HIGHEST, SHORTEST
 from twintube.rig.plan import oil_levels
 from twintube.rig.signals import FASTEST, ONE_METRE
 

@@ -19,6 +19,8 @@ MODEL_ERROR = 0.10  # largest error of the model on the first oscillation (Secti
 VISIBLE = 0.01  # line width of a diagram over the length of its axis: smaller differences are not visible
 NUMERIC = 1e-3  # relative error of a block's work from its sampling
 PAPER, READING, STAND_IN = "paper", "reading", "stand-in"
+# Why a claim is no evidence: an assumed value alone decides; the code has it written in; nobody measured it.
+ASSUMPTION, CONSTRUCTION, EXPECTATION = "by assumption", "by construction", "expectation"
 FV_STANDIN = "F-v curves (assumed stand-ins)"
 DEAD = "dead lengths (assumed, calibrated)"
 
@@ -51,15 +53,20 @@ class Claim:
     because: str = ""  # cause of the failure: paper, reading or stand-in
     reason: str = ""  # why it does not hold, with the numerical experiment that shows it
     calibrated: tuple[str, ...] = ()  # the dampers whose dead length was chosen on this claim
-    assumed: bool = False
+    no_evidence: str = ""  # ASSUMPTION, CONSTRUCTION or EXPECTATION
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "holds", bool(self.holds))  # numpy's bool cannot be written as JSON
 
     @property
+    def kind(self) -> str:
+        """`evidence`, or why it is none: `calibrated` or one of ASSUMPTION, CONSTRUCTION and EXPECTATION."""
+        return "calibrated" if self.calibrated else self.no_evidence or "evidence"
+
+    @property
     def evidence(self) -> bool:
-        """True where the claim was not used for the calibration and does not follow from an assumed value alone."""
-        return not (self.calibrated or self.assumed)
+        """True where the claim can tell something about the model."""
+        return self.kind == "evidence"
 
 
 class Keyed:

@@ -17,12 +17,13 @@ LOSSES = (0.0, 0.05, 0.1, 0.28, 0.4)  # of cavitation_loss; 0.28: the highest st
 
 @dataclass(frozen=True)
 class Alternative:
-    """One alternative choice: a value of a reading, or a bench setting."""
+    """One alternative choice: a value of a reading, a bench setting, or the rear curve."""
 
     name: str
     value: str
     readings: dict[str, float]
     bench: Bench
+    rear: bool = False  # rear dampers with the rear curve
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,7 @@ def alternatives(bench: Bench = BENCH) -> list[Alternative]:
     choices += [Alternative("position", f"{v * 1e3:+g} mm", {}, replace(bench, position=v)) for v in POSITIONS]
     choices += [Alternative("amplitude", f"{v * 1e3:g} mm", {}, replace(bench, reach=v)) for v in AMPLITUDES]
     choices += [Alternative("freed_gas", v, {}, replace(bench, freed_gas=v)) for v in WAYS]
+    choices.append(Alternative("F-v curve", "rear dampers with the rear one of its source", {}, bench, rear=True))
     return choices
 
 
@@ -61,7 +63,7 @@ def compare(bench: Bench = BENCH) -> Iterator[tuple[Alternative, list[Change]]]:
 def effects(base: list[Claim], choice: Alternative) -> list[Change]:
     """The change of every claim with one alternative."""
     changes = []
-    for claim, varied in zip(base, evaluate(choice.readings, choice.bench), strict=True):
+    for claim, varied in zip(base, evaluate(choice.readings, choice.bench, rear=choice.rear), strict=True):
         a, b = (dict(numbers(c.figures, "")) for c in (claim, varied))
         moves = [(abs(a[k] - b[k]) / max(abs(a[k]), abs(b[k]), 1.0), k) for k in a if k in b]
         size, key = max(moves, default=(0.0, ""))

@@ -7,6 +7,7 @@ import numpy as np
 
 from twintube.claims.claim import (
     BENCH,
+    CONSTRUCTION,
     DEAD,
     FRONT,
     FV_STANDIN,
@@ -207,7 +208,9 @@ def c10(dampers: Dampers, bench: Bench = BENCH) -> Claim:
                 t: {f"{v}": x for v, x in row.items()} for t, row in changed.items()
             }
         },
-        needs=DEAD,
+        needs=f"{DEAD}; the velocities are thresholds of the equations (v_foam, v_cav of Table 9): only that the effect of "
+        "Table 7 rises with the velocity could have failed",
         because="" if not violations else PAPER,
         reason="; ".join(violations),
+        no_evidence=CONSTRUCTION,
     )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from twintube.claims.claim import BENCH, READING, STAND_IN, Bench, Claim, Dampers, condition, rounded, run
+from twintube.claims.claim import ASSUMPTION, BENCH, READING, STAND_IN, Bench, Claim, Dampers, condition, rounded, run
 from twintube.dampers import Damper
 from twintube.engine.simulate import simulate
 from twintube.rig.plan import V_QUASI_STATIC, amplitude, oil_levels
@@ -42,7 +42,7 @@ def c11(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         needs="gas stiffness (assumed from rod area, reserve volume and 5 bar)",
         because="" if holds else STAND_IN,
         reason="" if holds else "the assumed stiffness without preload is too high",
-        assumed=True,
+        no_evidence=ASSUMPTION,
     )
 
 
@@ -81,5 +81,5 @@ def c12(dampers: Dampers, bench: Bench = BENCH) -> Claim:
         needs="nothing; the reading `cavitation_loss` determines it (docs/open_choices.md)",
         because="" if holds else READING,
         reason=reason,
-        assumed=True,
+        no_evidence=ASSUMPTION,
     )

@@ -1,6 +1,5 @@
 """Dead lengths that are physically possible, and those at which a claim would hold."""
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
@@ -8,25 +7,10 @@ import numpy as np
 
 from twintube.claims.claim import Bench
 from twintube.dampers import Damper, ParameterError
+from twintube.dampers.dead_length import HIGHEST, LONGEST, SHORTEST, pressure
 from twintube.rig.signals import STARTS
 
 STEP = 0.005  # [m]
-# Piston with its valves 30-40 mm, foot valve 15-25 mm, rebound stop 15-35 mm and clearances; stops fill the annulus only.
-SHORTEST, LONGEST = 0.060, 0.110  # [m]
-# Absolute pressures [bar]: a twin-tube damper is filled to 6-8 bar (PMG Sinter, 18 Nov 2021) or 3.4-6.9 bar (KYB), a
-# monotube to 20-30 bar (kfz-tech.de). No pressure is published for full compression; a low-pressure seal is assumed to stay
-# below the monotube's filling pressure.
-FILLED, HIGHEST = 6.0, 20.0
-
-
-def pressure(damper: Damper) -> float:
-    """Absolute gas pressure [bar] of the intact damper at full compression; infinite if the oil leaves no volume for it."""
-    p = damper.parameters
-    rod, piston = 0.25 * math.pi * p.D_PR**2, 0.25 * math.pi * p.D_li**2
-    chambers = (2 * piston - rod) * 0.5 * (p.h_l - p.dead_length)
-    gas = 0.25 * math.pi * (p.D_a**2 - p.D_la**2) * p.h_l - (p.V_oil - chambers)
-    gas_compressed = gas - rod * p.stroke_max
-    return FILLED * gas / gas_compressed if gas_compressed > 0.0 else math.inf
 
 
 def candidates(damper: Damper) -> Iterator[Damper]:

@@ -174,6 +174,7 @@ def c9(dampers: Dampers, bench: Bench = BENCH) -> Claim:
             "nineteenth_by_oil_level": table,
             "first_by_oil_level": transition(damper, bench, 0),
             "40_percent_above_the_floor": above,
+            "short_of_the_limit_by": rounded(ALMOST_ZERO - max(above)),
         },
         needs=f"{DEAD}, {FV_STANDIN}",
         because="" if holds else STAND_IN,

@@ -18,6 +18,7 @@ from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_optio
 from twintube.core.effects import Parameters
 from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import ParameterError
+from twintube.dampers.dead_length import bounds, collapse_level
 from twintube.dampers.freed_gas import acting, as_published
 from twintube.engine.simulate import InputError
 from twintube.errors import InputWarning
@@ -35,7 +36,7 @@ FMU_NAMES = {item.name: fmi_name(item) for item in fields(Outputs)}
 
 @app.command("dampers", epilog="Example: twintube dampers SA8")
 def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this damper: a name or a file.")] = None) -> None:
-    """List the named dampers, or show one as TOML with its sources."""
+    """List the named dampers with the oil level at which their chambers fall short, or show one as TOML with its sources."""
     if damper is not None:
         chosen = dampers.load(damper)
         typer.echo(dampers.to_toml(chosen), nl=False)
@@ -43,7 +44,15 @@ def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this da
     for name in dampers.names():
         named = dampers.load(name)
         levels = ", ".join(f"{level:.0%}" for level in named.measured_levels)
-        typer.echo(f"{name}  {named.title:36} {named.parameters.V_oil * 1e6:4.0f} mL, measured at 100%, {levels}")
+        low, high = (collapse_level(named.with_(dead_length=length)) for length in reversed(bounds(named)))
+        typer.echo(
+            f"{name}  {named.title:36} {named.parameters.V_oil * 1e6:4.0f} mL, measured at 100%, {levels}; "
+            f"chambers full down to {collapse_level(named):.1%} ({low:.0%}-{high:.0%})"
+        )
+    typer.echo(
+        "chambers full down to: oil = (A_1 + A_2) l / 2, l = h_l - dead_length; above it a damper that moves little is "
+        "as new. In brackets: within the bounds of the dead length, which is assumed"
+    )
 
 
 @app.command(epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv")
@@ -201,17 +210,22 @@ def claims(
     freed_gas: Annotated[
         str, typer.Option(help="What freed gas does in every run; if left out: stays, in drives dissolves.")
     ] = "",
+    rear_curve: Annotated[
+        bool, typer.Option("--rear-curve", help="Rear dampers with the rear F-v curve of the source of the front one.")
+    ] = False,
 ) -> None:
-    """Evaluate the paper's statements C1 to C16 with its published parameters."""
+    """Evaluate the paper's statements C1 to C17 with its published parameters."""
     from twintube.claims import EVALUATORS, evaluate
 
     readings = dict(parsed_reading(text) for text in reading or [])
-    results = list(tqdm(evaluate(readings, bench(start, freed_gas)), total=len(EVALUATORS), unit="claim", leave=False))
+    claims_one_by_one = evaluate(readings, bench(start, freed_gas), rear=rear_curve)
+    results = list(tqdm(claims_one_by_one, total=len(EVALUATORS), unit="claim", leave=False))
     if json_file is not None:
-        write_text(json_file, json.dumps([asdict(c) | {"evidence": c.evidence} for c in results], indent=1) + "\n")
+        write_text(
+            json_file, json.dumps([asdict(c) | {"kind": c.kind, "evidence": c.evidence} for c in results], indent=1) + "\n"
+        )
     for c in results:
-        mark = "calibrated" if c.calibrated else "by assumption" if c.assumed else "evidence"
-        typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{mark:15}{c.statement} ({c.source})")
+        typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{c.kind:17}{c.statement} ({c.source})")
         typer.echo(f'      the paper: "{c.quote}"')
         typer.echo(f"      tested: {c.tested}")
         for name, value in c.figures.items():
@@ -221,10 +235,9 @@ def claims(
             typer.echo(f"      used for the dead length of: {', '.join(c.calibrated)}")
         if not c.holds:
             typer.echo(f"      why not ({c.because}): {c.reason}")
-    for kind in (True, False):
-        some = [c for c in results if c.evidence is kind]
-        what = "evidence" if kind else "calibrated or by assumption"
-        typer.echo(f"{what}: {sum(c.holds for c in some)} of {len(some)} hold")
+    for kind in dict.fromkeys(["evidence", *(c.kind for c in results)]):
+        some = [c for c in results if c.kind == kind]
+        typer.echo(f"{kind}: {sum(c.holds for c in some)} of {len(some)} hold")
 
 
 def bench(start: str, freed_gas: str = "") -> Any:
@@ -273,7 +286,7 @@ def calibrate(
 def readings(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write every effect to this file.")] = None,
 ) -> None:
-    """Measure what each other reading, start, ride position, amplitude and way of the freed gas does to every claim."""
+    """Measure what each other reading, start, position, amplitude, way of freed gas and F-v curve does to every claim."""
     from twintube.claims.compare import alternatives, compare
 
     table = []

@@ -1,14 +1,15 @@
 """What is possible but hardly meant: admissible values that belong to another unit.
 
-Every limit follows from other values of the same parameter set: forces from friction and tube, the way of the friction from
-the stroke, the gas spring from the gas that compresses.
+Limits follow from other values of the same parameter set: forces from friction and tube, the way of the friction from
+the stroke, the gas spring from the gas that compresses. Those of the dead length are sums of parts.
 """
 
 import math
 
 from twintube.core.effects import Parameters
-from twintube.core.kernel import fluid_force, prepare
-from twintube.core.variables import Derived, blank
+from twintube.core.kernel import fluid_force
+from twintube.core.variables import Derived
+from twintube.dampers.dead_length import LONGEST, SHORTEST, prepared, reserve_gas
 
 V_TYPICAL = 1.0  # [m/s]: at this velocity dampers are compared, and none is weaker than its friction
 STRENGTH = 1e9  # [Pa] tensile strength of the strongest steel of precision tubes
@@ -18,8 +19,7 @@ SLIP = math.sqrt(1000.0)  # beyond this ratio a slip by 1000 (mm for m, N for kN
 
 def doubts(p: Parameters) -> list[str]:
     """Messages about an admissible parameter set, each beginning with the name of the parameter."""
-    d: Derived = blank(Derived)
-    prepare(p, d)
+    d = prepared(p)
     curve = (("rebound", fluid_force(p, V_TYPICAL), d.A_1), ("compression", -fluid_force(p, -V_TYPICAL), d.A_2))
     texts = [text for branch, force, area in curve if (text := doubtful(branch, force, area, p))]
     reversal = 2.0 * p.F_FrS / p.sigma_0  # from one direction to the other, at the slope of the reversal
@@ -27,6 +27,12 @@ def doubts(p: Parameters) -> list[str]:
         texts.append(
             f"friction.sigma_0 = {p.sigma_0:g} N/m: the friction of {p.F_FrS:g} N would need {reversal:.3g} m to turn "
             f"round, more than stroke_max = {p.stroke_max:g} m; check its unit"
+        )
+    if not SHORTEST <= p.dead_length <= LONGEST:  # no error: a damper of another build may be outside
+        texts.append(
+            f"geometry.dead_length = {p.dead_length:g} m: in a car's damper piston with valves (30-40 mm), foot valve "
+            f"(15-25 mm) and rebound stop (15-35 mm) take {SHORTEST:g} to {LONGEST:g} m; it decides at which oil level the "
+            "damper fails"
         )
     return texts + gas(p, d)
 
@@ -44,7 +50,7 @@ def doubtful(branch: str, force: float, area: float, p: Parameters) -> str:
 
 def gas(p: Parameters, d: Derived) -> list[str]:
     """Messages about spring rates that the gas above the oil cannot have: p A_rod^2 / V if it is compressed slowly."""
-    V_gas = (d.A_1 + d.A_2) * d.half_length + d.V_reserve - p.V_oil
+    V_gas = reserve_gas(p, d)
     lost = AMBIENT * d.A_rod**2 / V_gas
     present = (AMBIENT + p.F_0 / d.A_rod) * d.A_rod**2 / V_gas
     texts = []

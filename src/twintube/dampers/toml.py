@@ -16,6 +16,7 @@ from twintube.core.variables import fmi_name
 from twintube.dampers import freed_gas
 from twintube.dampers.curve import BRANCHES, as_listed, given, read_curve
 from twintube.dampers.damper import Damper, ParameterError, explained, refuse, suggestion
+from twintube.dampers.dead_length import collapse_level
 from twintube.dampers.doubts import doubts
 from twintube.dampers.quantity import quantity
 from twintube.errors import InputWarning
@@ -288,6 +289,8 @@ def to_toml(damper: Damper) -> str:
         table[item.name] = getattr(p, item.name)
         if item.metadata["unit"] != "1":
             table[item.name].comment(item.metadata["unit"])
+    level = f"{collapse_level(damper):.1%} of the intact oil"
+    document["geometry"]["dead_length"].comment(f"m: both working chambers are full down to {level}")
     curve = tomlkit.table()
     for branch, (v_name, F_name) in BRANCHES.items():
         rows = tomlkit.array()

@@ -10,16 +10,18 @@ from typing import Any
 from tqdm import tqdm
 
 from twintube.dampers import Damper, ParameterError
-from twintube.dampers.freed_gas import DEFAULT, WAYS, condition
+from twintube.dampers.dead_length import bounds
+from twintube.dampers.freed_gas import DEFAULT, VARIED, WAYS, condition
+from twintube.dampers.variants import rear_curve
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import Drive
 from twintube.vehicle.ride import Track, measures, ride, track
 
 SPEEDS = (30.0, 50.0)  # [km/h]
 SEEDS = (1, 2, 3, 4, 5)
-DEAD_LENGTH = 0.010  # [m] to each side of the calibrated one
 FORCES = (0.75, 1.33)  # of the assumed F-v curve
 LOSSES = (0.05, 0.4)  # oil losses [1] from which cavitation has its full effect (assumed)
+DEAD_LENGTH = "dead length"
 NAMES = {  # of the car's values, for pictures
     "d_links": "links [N s/m]",
     "d_tyre": "tyre damping [N s/m]",
@@ -31,25 +33,20 @@ NAMES = {  # of the car's values, for pictures
 
 @dataclass(frozen=True)
 class Setting:
-    """One set of assumptions: factor of the F-v curve, addition to the dead length [m], changed values of car and damper."""
+    """One set of assumptions: factor of the F-v curve, changed values of car and damper."""
 
     freed_gas: str = DEFAULT
     seed: int = 1
     car: tuple[tuple[str, float], ...] = ()
     forces: float = 1.0
-    dead_length: float = 0.0
-    damper: tuple[tuple[str, float], ...] = field(default=())
+    damper: tuple[tuple[str, Any], ...] = ()
 
 
 def changed(damper: Damper, setting: Setting) -> Damper:
     """The damper with the assumed values of a setting; raises ParameterError if they are not admissible."""
-    p = damper.parameters
-    values: dict[str, Any] = dict(setting.damper)
-    if setting.forces != 1.0:
-        values |= {name: [setting.forces * F for F in getattr(p, name)] for name in ("F_re", "F_co")}
-    if setting.dead_length != 0.0:
-        values["dead_length"] = p.dead_length + setting.dead_length
-    return damper.with_(**values)
+    damper = damper.with_(**dict(setting.damper))
+    p, factor = damper.parameters, setting.forces
+    return damper.with_(**{name: [factor * F for F in getattr(p, name)] for name in ("F_re", "F_co")})
 
 
 @lru_cache(maxsize=64)
@@ -109,7 +106,10 @@ def assumptions(damper: Damper, car: CarSet) -> dict[str, tuple[Setting, Setting
         for name, (low, high) in car.band.items()
     }
     ends[f"F-v curve x {FORCES[0]:g}-{FORCES[1]:g}"] = (Setting(forces=FORCES[0]), Setting(forces=FORCES[1]))
-    ends[f"dead length +-{1e3 * DEAD_LENGTH:g} mm"] = (Setting(dead_length=-DEAD_LENGTH), Setting(dead_length=DEAD_LENGTH))
+    low, high = bounds(damper)
+    ends[f"{DEAD_LENGTH} {1e3 * low:.0f}-{1e3 * high:.0f} mm"] = (dead_length(low), dead_length(high))
+    if curve := rear_curve(damper):
+        ends["rear curve of the F-v source"] = (Setting(), Setting(damper=tuple(curve.items())))
     ends[f"cavitation in full from {LOSSES[0]:g}-{LOSSES[1]:g} of loss"] = (loss(LOSSES[0]), loss(LOSSES[1]))
     return {name: pair for name, pair in ends.items() if all(fits(damper, setting) for setting in pair)}
 
@@ -117,6 +117,11 @@ def assumptions(damper: Damper, car: CarSet) -> dict[str, tuple[Setting, Setting
 def loss(value: float) -> Setting:
     """Full cavitation from an oil loss [1]."""
     return Setting(damper=(("cavitation_loss", value),))
+
+
+def dead_length(value: float) -> Setting:
+    """A dead length [m]."""
+    return Setting(damper=(("dead_length", value),))
 
 
 def fits(damper: Damper, setting: Setting) -> bool:
@@ -144,13 +149,20 @@ def ways() -> list[Setting]:
     return [Setting(freed_gas=name) for name in WAYS]
 
 
-def everything(rides: Rides) -> list[Setting]:
-    """All settings of the bands: one assumption varied at a time, and the two most important ones together."""
-    ends = [end for pair in assumptions(rides.damper, rides.car).values() for end in pair]
-    pairs = [
-        Setting(freed_gas=name, car=(("d_links", links),)) for name in WAYS for links in rides.car.band.get("d_links", ())
+def together(rides: Rides) -> list[Setting]:
+    """What matters most, varied together: ways of the freed gas, damping of the links and dead length."""
+    links = [(("d_links", value),) for value in rides.car.band.get("d_links", ())]
+    lengths = [dead_length(value).damper for value in bounds(rides.damper)]
+    pairs = [Setting(freed_gas=name, car=car) for name in WAYS for car in links]
+    return pairs + [
+        Setting(freed_gas=name, car=car, damper=length) for name in VARIED for car in ((), *links) for length in lengths
     ]
-    return list(dict.fromkeys([*seeds(), *ways(), *ends, *pairs]))
+
+
+def everything(rides: Rides) -> list[Setting]:
+    """All settings of the bands: one assumption varied at a time, and the most important ones together."""
+    ends = [end for pair in assumptions(rides.damper, rides.car).values() for end in pair]
+    return list(dict.fromkeys([*seeds(), *ways(), *ends, *together(rides)]))
 
 
 def rises(rides: Rides, speed: float, level: float, settings: Iterable[Setting]) -> list[float]:

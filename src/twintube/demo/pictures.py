@@ -8,6 +8,7 @@ import numpy as np
 from scipy import signal
 
 from twintube.dampers.freed_gas import AS_PUBLISHED
+from twintube.demo.bands import DEAD_LENGTH
 from twintube.demo.ride import Ride
 from twintube.demo.style import BAND, FULL, INTACT, LEVELS, PAPER, SCALAR, save
 from twintube.vehicle.ride import SETTLED, WINDOW
@@ -27,13 +28,16 @@ def window_name(number: int) -> str:
 
 
 def dlc(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """DLC over the oil level in several windows, with bands over seeds and freed gas, as published, and the factor."""
+    """DLC over the oil level in several windows, with bands over seeds, freed gas and dead length; the factor."""
     figure, axes = plt.subplots(1, len(result["speeds"]), figsize=(12, 5.4), sharey=True)
+    length = next(key for key in result["speeds"][0]["intact"]["bands"]["assumed"] if key.startswith(DEAD_LENGTH))
     for ax, block in zip(axes, result["speeds"], strict=True):
         entries = block["oil_levels"]
         levels = [100 * e["oil_level"] for e in entries]
         low, high = zip(*(e["bands"]["freed_gas_ways"] for e in entries), strict=True)
         ax.fill_between(levels, low, high, color=BAND, alpha=0.35, lw=0, label="all ways of the freed gas, whole ride")
+        low, high = np.sort([e["bands"]["assumed"][length] for e in entries], axis=1).T
+        ax.fill_between(levels, low, high, fc="none", ec=PAPER, hatch="///", alpha=0.5, lw=0, label=f"{length}, whole ride")
         count = len(block["intact"]["dlc_window"])
         for number, colour in zip(sorted({i % count for i in TIMES}), SHADES, strict=False):
             values = [e["dlc_window"][number] for e in entries]

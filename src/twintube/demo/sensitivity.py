@@ -5,28 +5,50 @@ from typing import Any
 
 import numpy as np
 
-from twintube.dampers import load
+from twintube.dampers import Damper, load
+from twintube.dampers.dead_length import bounds, collapse_level
 from twintube.dampers.freed_gas import DEFAULT, WAYS
-from twintube.demo.bands import FORCES, SEEDS, SPEEDS, Rides, Setting, fits, loss
+from twintube.dampers.variants import rear_curve
+from twintube.demo.bands import (
+    FORCES,
+    SEEDS,
+    SPEEDS,
+    Rides,
+    Setting,
+    assumptions,
+    dead_length,
+    everything,
+    fits,
+    loss,
+    rises,
+)
+from twintube.demo.words import percent
 from twintube.vehicle.cars import CarSet, axle, load_car
 from twintube.vehicle.ride import DT
 
-LEVELS = (1.0, 0.9, 0.6, 0.4)
+LEVELS = (1.0, 0.9, 0.6, 0.5, 0.4)
+RISES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # levels of the table of rises
+GENTLEST = "pushes_oil"  # the way of the freed gas with the least effect
+MILD_AT = 0.4  # level by which the mild ends are chosen
 SECONDS = 120.0
 LINKS = (0.0, 70.0, 150.0, 300.0, 450.0)  # [N.s/m]
-LENGTHS = (-0.010, 0.0, 0.010)  # [m]
+LENGTHS = (0.06, 0.07, 0.08, 0.09, 0.1, 0.11)  # [m], within the bounds
 LOSSES = (0.001, 0.05, 0.1, 0.2, 0.4)  # oil losses [1] from which cavitation has its full effect
 
 
-def settings(car: CarSet) -> dict[str, Setting]:
+def settings(damper: Damper, car: CarSet) -> dict[str, Setting]:
     """The settings, by the name of the row."""
     rows = {"default": Setting()}
     rows |= {f"links {value:g} N s/m": Setting(car=(("d_links", value),)) for value in LINKS}
     rows |= {f"freed gas `{name}`: {item.says}": Setting(freed_gas=name) for name, item in WAYS.items()}
-    rows |= {f"dead length {1e3 * value:+.0f} mm": Setting(dead_length=value) for value in LENGTHS if value}
+    low, high = bounds(damper)
+    lengths = sorted({low, high, *(value for value in LENGTHS if low <= value <= high)})
+    rows |= {f"dead length {1e3 * value:.0f} mm": dead_length(value) for value in lengths}
     rows |= {f"full cavitation from {100 * value:g} % of oil loss": loss(value)
              for value in LOSSES}  # fmt: skip
     rows |= {f"F-v curve x {value:g}": Setting(forces=value) for value in FORCES}
+    if curve := rear_curve(damper):
+        rows["rear curve of the F-v source"] = Setting(damper=tuple(curve.items()))
     for name, ends in car.band.items():
         if name != "d_links":
             rows |= {f"{name} {value:g}": Setting(car=((name, value),)) for value in ends}
@@ -50,15 +72,61 @@ def table(rides: Rides, rows: dict[str, Setting]) -> str:
 
 def seeded(setting: Setting, seed: int) -> Setting:
     """The setting on another road."""
-    return Setting(setting.freed_gas, seed, setting.car, setting.forces, setting.dead_length, setting.damper)
+    return Setting(setting.freed_gas, seed, setting.car, setting.forces, setting.damper)
+
+
+def mild(rides: Rides) -> Setting:
+    """Of every assumption the end with the smaller rise at MILD_AT, all at once, and freed gas that only pushes oil."""
+
+    def rise(setting: Setting) -> float:
+        return sum(rises(rides, speed, MILD_AT, [setting])[0] for speed in SPEEDS)
+
+    ends = [min(pair, key=rise) for pair in assumptions(rides.damper, rides.car).values()]
+    return Setting(
+        GENTLEST,
+        car=tuple(value for end in ends for value in end.car),
+        forces=float(np.prod([end.forces for end in ends])),
+        damper=tuple(value for end in ends for value in end.damper),
+    )
+
+
+def table_of_rises(rides: Rides, rows: dict[str, list[Setting]]) -> str:
+    """Markdown table: smallest and largest rise over all roads of each row's settings, by speed and level."""
+    states = [(v, level) for v in SPEEDS for level in RISES]
+    lines = ["| assumption | " + " | ".join(f"{v:.0f} km/h, {100 * level:.0f} %" for v, level in states) + " |"]
+    lines.append("|---" * (len(states) + 1) + "|")
+    for name, several in rows.items():
+        cells = []
+        for state in states:
+            values = rises(rides, *state, (seeded(setting, seed) for setting in several for seed in SEEDS))
+            cells.append(f"{percent(min(values))} to {percent(max(values))}".replace(" %", ""))
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def combinations(rides: Rides) -> dict[str, list[Setting]]:
+    """The rows of the table of rises: what is published, the mildest of the most important ones, and everything."""
+    longest = bounds(rides.damper)[1]
+    length = dead_length(longest).damper
+    rows = {"default": [Setting()], f"freed gas `{GENTLEST}`": [Setting(GENTLEST)]}
+    rows[f"dead length {1e3 * longest:.0f} mm"] = [Setting(damper=length)]
+    rows[f"both: `{GENTLEST}` and {1e3 * longest:.0f} mm"] = [Setting(GENTLEST, damper=length)]
+    for links in rides.car.band.get("d_links", ())[1:]:
+        rows[f"these and links {links:g} N s/m"] = [Setting(GENTLEST, car=(("d_links", links),), damper=length)]
+    return rows | {"**all settings of the bands**": everything(rides)}
 
 
 def page(damper: str, car: str) -> str:
     """The Markdown page; raises ParameterError."""
     loaded, vehicle = load(damper), load_car(car)
-    rows = {name: setting for name, setting in settings(vehicle).items() if fits(loaded, setting)}
+    rows = {name: setting for name, setting in settings(loaded, vehicle).items() if fits(loaded, setting)}
     rides = Rides(loaded, vehicle, SECONDS, DT)
+    combined = combinations(rides)
+    several = dict.fromkeys([setting for group in combined.values() for setting in group])
     rides.drive_all(SPEEDS, LEVELS, [seeded(s, seed) for s in rows.values() for seed in SEEDS], "sensitivity")
+    rides.drive_all(SPEEDS, RISES, [seeded(s, seed) for s in several for seed in SEEDS], "together")
+    mildest = mild(rides)
+    rides.drive_all(SPEEDS, RISES, [seeded(mildest, seed) for seed in SEEDS], "mild ends")
     links, p = vehicle.axles[axle(loaded)]["d_links"], loaded.parameters
     return "\n".join([
         "# Sensitivity of the wheel load", "",
@@ -66,6 +134,12 @@ def page(damper: str, car: str) -> str:
         f"of the wheel load over the static one, from 5 s on) of a quarter car, {vehicle.title}, class D road,",
         f"{SECONDS:.0f} s, gas preload lost, means over {len(SEEDS)} roads. Default: freed gas `{DEFAULT}`, links {links:g}",
         f"N s/m, dead length {1e3 * p.dead_length:g} mm, full cavitation from {100 * p.cavitation_loss:g} % of oil loss.",
-        "All these values are assumed.",
+        f"All these values are assumed. The chambers are full down to {100 * collapse_level(loaded):.1f} % of the oil.",
         "", table(rides, rows), "",
+        "## Rise over the intact damper", "",
+        "The DLC over that of the intact damper in the same car on the same road, in %: smallest and largest of",
+        f"{len(SEEDS)} roads. All settings of the bands: every assumption at its ends, one at a time, and freed gas, links",
+        "and dead length together. The last row has of every assumption the end with the smaller rise at",
+        f"{100 * MILD_AT:.0f} % oil, all at once, and freed gas `{GENTLEST}`.",
+        "", table_of_rises(rides, combined | {"all mild ends at once": [mildest]}), "",
     ])  # fmt: skip

@@ -77,7 +77,7 @@ def sentences(result: dict[str, Any]) -> list[str]:
     """All sentences."""
     texts = [
         "Bands: five roads, every way of the freed gas and both ends of every assumed value, one at "
-        "a time; freed gas and damping of the links also together."
+        "a time; freed gas, damping of the links and dead length also together."
     ]
     for block in result["speeds"]:
         texts += [*speed_sentences(block), failure_sentence(block), model_sentence(block)]

@@ -37,6 +37,8 @@ BASES = {
     "evidence": "published parameters of Table 9; the F-v curve is assumed or that of the stand-in",
     "calibrated": "not evidence: the statement was used to calibrate the dead lengths",
     "by assumption": "not evidence: the result follows from an assumed value",
+    "by construction": "not evidence: the thresholds are written into the code",
+    "expectation": "not evidence: the paper expects it and did not measure it",
     "stand-in": "against the virtual rig, not the paper's measurement",
     "consistency": "the model follows its equations",
     "not checkable": "unpublished data would be needed",

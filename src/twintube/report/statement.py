@@ -18,7 +18,7 @@ class Statement:
     source: str  # section or figure of the paper
     holds: bool | None
     numbers: dict[str, Any]
-    basis: str  # evidence | calibrated | by assumption | stand-in | consistency | not checkable
+    basis: str  # a `Claim.kind`, or stand-in | consistency | not checkable
     criterion: str = ""  # of the verdict: a claim's test, or our own where the paper gives no number
     reason: str = ""  # why it does not hold, or why it cannot be checked
     claim: str = ""  # id in `twintube claims`
@@ -35,13 +35,12 @@ class Statement:
 
 def from_claim(claim: Claim, numbers: dict[str, Any] | None = None) -> Statement:
     """A claim as statement, with all its figures or the given ones."""
-    basis = "calibrated" if claim.calibrated else "by assumption" if claim.assumed else "evidence"
     return Statement(
         text=claim.statement,
         source=claim.source,
         holds=claim.holds,
         numbers=claim.figures if numbers is None else numbers,
-        basis=basis,
+        basis=claim.kind,
         criterion=claim.tested,
         reason=f"{claim.because}: {claim.reason}" if claim.reason else "",
         claim=claim.id,
