@@ -20,7 +20,8 @@ def inspect(
     ] = None,
     methods: Annotated[
         list[str] | None,
-        typer.Option("--method", help="eusama, phase_shift, damping_ratio, push_down or bump; all if left out."),
+        typer.Option("--method", help="eusama, phase_shift, damping_ratio, push_down, bump or tiring; all but tiring if left out, which takes as long as "
+            "they."),
     ] = None,
     levels: Annotated[
         list[float] | None, typer.Option("--oil-level", help="Oil, share of the intact volume; 1.0 to 0.3 if left out.")
@@ -38,7 +39,7 @@ def inspect(
 ) -> None:
     """Put one corner of a car on the inspection benches, and say from which oil level on each method sees the loss."""
     from twintube.dampers.freed_gas import VARIED, known
-    from twintube.inspection import LEVELS, METHODS, conditions, inspected, method, study
+    from twintube.inspection import LEVELS, USUAL, conditions, inspected, method, study
     from twintube.inspection.detection import check_count
     from twintube.report.inspection import Inspection, summary, terminal, write_report
     from twintube.vehicle.cars import load_car
@@ -47,7 +48,7 @@ def inspect(
         check_folder(output, ("report.html",), of_options())
     if scatter:
         check_count(scatter)
-    wanted = tuple(dict.fromkeys(method(name).name for name in methods or METHODS))
+    wanted = tuple(dict.fromkeys(method(name).name for name in methods or USUAL))
     loaded, vehicle = [dampers.load(name) for name in dict.fromkeys(names or ["SA8"])], load_car(car)
     steps = sorted(dict.fromkeys(levels or LEVELS), reverse=True)
     states = conditions(steps, None if gas_lost is None else int(not gas_lost))

@@ -15,8 +15,8 @@ from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.engine.simulate import InputError
 from twintube.inspection.benches import Setting, read
-from twintube.inspection.corner import INTACT, LEAST_FACTOR, Condition, relative, under
-from twintube.inspection.methods import METHODS, Method
+from twintube.inspection.corner import INTACT, LEAST_FACTOR, Condition, over_intact, relative, under
+from twintube.inspection.methods import METHODS, USUAL, Method
 from twintube.inspection.scatter import Sample, samples
 from twintube.processes import pool
 from twintube.vehicle.cars import CarSet
@@ -112,7 +112,7 @@ class Job:
 
     damper: Damper
     sample: Sample
-    reference: dict[str, float]  # figures of the intact damper in the nominal car
+    reference: dict[str, float]  # figures of the intact damper in the nominal car that the others are over
 
 
 def figures(job: Job, vehicle: CarSet, states: tuple[Condition, ...], methods: tuple[str, ...]) -> list[list[float]]:
@@ -136,7 +136,7 @@ def study(
     dampers: Sequence[Damper],
     vehicle: CarSet,
     states: Iterable[Condition],
-    methods: tuple[str, ...] = tuple(METHODS),
+    methods: tuple[str, ...] = USUAL,
     *,
     count: int,
     seed: int = 1,
@@ -157,7 +157,7 @@ def study(
     drawn = samples(count, seed)
     jobs = []
     for damper in dampers:
-        reference = read(intact.applied(damper), vehicle.corner(damper), methods, Setting())
+        reference = read(intact.applied(damper), vehicle.corner(damper), over_intact(methods), Setting())
         jobs += [Job(damper, sample, reference) for sample in drawn]
     work = partial(figures, vehicle=vehicle, states=everything, methods=methods)
     rows = []
