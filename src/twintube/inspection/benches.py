@@ -123,8 +123,9 @@ def read(
         found["bump"] = figures.bump(sensed(2, acceleration, setting.acceleration_noise))
     if "tiring" in methods:
 
-        def measured(velocity: Array) -> Array:
+        def by_sensor(velocity: Array) -> Array:
             return sensed(3, velocity, setting.velocity_noise)
 
-        found["tiring"] = max(run.growth for run in tiring.runs(damper, car, setting.shaker, dt, setting.fade, measured))
+        shaken = tiring.runs(damper, car, setting.shaker, dt, setting.fade, by_sensor)
+        found["tiring"] = max(run.growth for run in shaken)
     return {name: found[name] for name in methods}

@@ -81,8 +81,8 @@ METHODS: Final = MappingProxyType({item.name: item for item in (
 )})  # fmt: skip
 
 
-# Those of `twintube inspect` where none is named: a study of `tiring`, with two or three runs of 20 s for every damper, takes
-# about as long as that of all others.
+# Those of `twintube inspect` where none is named: `tiring`, with two or three runs of 20 s for every damper, takes about as
+# long as all others.
 USUAL: Final = tuple(name for name in METHODS if name != "tiring")
 
 

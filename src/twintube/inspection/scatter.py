@@ -106,17 +106,14 @@ class Sample:
         made = damper.with_(F_re=[share * F for F in p.F_re], F_co=[share * F for F in p.F_co])
         return warm(made, self.values["temperature_degC"])
 
-    @property
-    def setting(self) -> Setting:
-        """The benches of this tester."""
+    def setting(self, plates: Iterable[Plate] = tiring.PLATES) -> Setting:
+        """The benches of this tester, `plates` being those of `tiring` as they are meant to move."""
         v = self.values
         usual = Plate()
         plate = replace(usual, amplitude=v["amplitude"], top=v["top"], coast=v["coast"])
         # Crank and motor are as far off at the plates of `tiring`, and its runs heat the damper.
         off, slip = v["amplitude"] - usual.amplitude, v["top"] / usual.top
-        shaker = tuple(
-            replace(p, amplitude=p.amplitude + off, top=slip * p.top, drift=v["drift"]) for p in tiring.PLATES
-        )
+        shaker = tuple(replace(p, amplitude=p.amplitude + off, top=slip * p.top, drift=v["drift"]) for p in plates)
         names = ("push", "speed_kmh", "force_noise", "height_noise", "acceleration_noise", "phase_error", "velocity_noise")
         return Setting(plate=plate, shaker=shaker, fade=FADE, **{name: v[name] for name in names})
 

@@ -14,6 +14,7 @@ from functools import lru_cache
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from twintube.arrays import Array, freeze_arrays
 from twintube.core.effects.oil_temperature import CAPACITY
@@ -30,16 +31,27 @@ RUN_UP: Final = 3.0 * FREQUENCY / 25.0  # [s] at the acceleration of the EUSAMA 
 COAST: Final = 15.0 * FREQUENCY / 25.0  # [s] at its deceleration
 # [s] of shaking: the middle half-life of freed gas is 8 s, so that an equilibrium is nearly reached; more would only heat.
 HOLD: Final = 20.0
-SETTLING: Final = 2  # cycles, after which the intact SA8's wheel, damping ratio 0.31, keeps exp(-2 pi 0.31 2) = 2 % of a swing
-CYCLES: Final = 6  # half a second: less is unsteady where the wheel hops, after more the SA8 with 80 % oil has lost its force
-PLATES: Final = tuple(Plate(amplitude, FREQUENCY, RUN_UP, HOLD, COAST) for amplitude in AMPLITUDES)
+SETTLING: Final = (
+    2  # cycles, after which the intact SA8's wheel, damping ratio 0.31, keeps exp(-2 pi 0.31 2) = 2 % of a swing
+)
+CYCLES: Final = (
+    6  # half a second: less is unsteady where the wheel hops, after more the SA8 with 80 % oil has lost its force
+)
 HIGHEST: Final = 1.05  # [m/s] v_cav of Table 9, for a tester that does not know the damper
 ENOUGH: Final = HIGHEST / math.sqrt(0.75)  # [m/s] of the first cycles: half of a sine's stroke is faster than HIGHEST
 REST: Final = 30.0  # [s]: freed gas has a half-life of 6 to 10 s, the heat of a damper one of minutes
 RETURNED: Final = 0.5  # of the growth: what has a half-life shorter than the rest has returned by more, heat by less
-# Of the growth. The heat of the run alone lets an intact damper's answer grow by up to 13 %: all eight dampers, 60 draws of the
-# scatter, all plates, 0.3 %/K and CAPACITY. Above that it is not its heat, and every intact damper passes.
+# Of the growth. The heat of the run alone lets an intact damper's answer grow by up to 13 %: all dampers, 60 draws of the
+# scatter, all plates, 0.3 %/K and CAPACITY. Above that it is not such heat, and every intact damper passes.
 LIMIT: Final = 1.15
+
+
+def shaker(amplitudes: Iterable[float] = AMPLITUDES) -> tuple[Plate, ...]:
+    """Plates of these amplitudes [m]; raises InputError for one that no tester has."""
+    return tuple(Plate(amplitude, FREQUENCY, RUN_UP, HOLD, COAST) for amplitude in amplitudes)
+
+
+PLATES: Final = shaker()
 
 
 @dataclass(frozen=True)
@@ -50,7 +62,7 @@ class Shake:
     dt: float  # [s]
     heights: Array
     rates: Array
-    begins: Array  # (m,) samples at which the groups of CYCLES begin, and the end of the last one
+    begins: NDArray[np.intp]  # (m,) samples at which the groups of CYCLES begin, and the end of the last one
 
     def __post_init__(self) -> None:
         """Shared by all who read it."""
@@ -146,8 +158,7 @@ def twice(damper: Damper, car: Car, plate: Plate, dt: float, fade: float = 0.0) 
     run, whole = shake(plate, dt), motion(plate, dt)
     still = np.zeros(round(REST / dt))
     heights, rates = (
-        np.concatenate([once, still, again])
-        for once, again in ((whole.heights, run.heights), (whole.rates, run.rates))
+        np.concatenate([once, still, again]) for once, again in ((whole.heights, run.heights), (whole.rates, run.rates))
     )
     result = drive(heated(damper, fade), car, heights, dt, rates=rates, preconditioned=True)
     ends, begin = len(run.heights), len(heights) - len(run.heights)

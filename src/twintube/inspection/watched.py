@@ -10,7 +10,7 @@ from twintube.inspection.tiring import LIMIT, REST, RETURNED, Tired, not_judged,
 from twintube.vehicle.quarter_car import Car
 
 COMES_BACK = "oil loss: heat would have stayed"
-STAYS = "heat, or freed gas that does not dissolve"
+STAYS = "heat, or freed gas that has not dissolved in the rest"
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def says(first: Tired, again: Tired) -> str:
 
 
 def watched(by_way: Mapping[str, Damper], car: Car, setting: Setting, dt: float) -> Watched:
-    """The damper as each way of the freed gas makes it, the first one first; raises InputError if a piston leaves its tube."""
+    """The damper as each way of the freed gas makes it; raises InputError if a piston leaves its tube."""
     found = {name: runs(damper, car, setting.shaker, dt, setting.fade) for name, damper in by_way.items()}
     first = next(iter(by_way))
     rested = {
