@@ -62,7 +62,7 @@ def test_the_page_has_all_methods_and_pictures(tmp_path: Path) -> None:
     for method in METHODS.values():
         assert method.title in page
     names = {"SA8.png", "plate.png", "SA8_detected.png", "SA8_roc.png"}
-    assert {path.name for path in tmp_path.iterdir()} == names | {"report.html"}
+    assert {path.name for path in tmp_path.iterdir()} == names | {"report.html", "made_from.json"}
     assert page.count("data:image/png") == len(names)
 
 

@@ -17,7 +17,21 @@ from twintube.inspection.benches import DT
 from twintube.inspection.rough_road import road_growth
 from twintube.inspection.scatter import BENCHES, FADE, samples
 from twintube.inspection.tiring import (
-    COAST, CYCLES, ENOUGH, FREQUENCY, HIGHEST, HOLD, LIMIT, PLATES, RUN_UP, not_judged, returned, runs, shake, shaker, twice,
+    COAST,
+    CYCLES,
+    ENOUGH,
+    FREQUENCY,
+    HIGHEST,
+    HOLD,
+    LIMIT,
+    PLATES,
+    RUN_UP,
+    not_judged,
+    returned,
+    runs,
+    shake,
+    shaker,
+    twice,
 )  # fmt: skip
 from twintube.report.inspection_tiring import SPENT, remarks
 from twintube.vehicle.cars import load_car
@@ -49,6 +63,13 @@ def test_a_soft_or_stiff_tyre_does_not_tire(share):
 @pytest.mark.parametrize("freed_gas", ["dissolves", "dissolves_fast", "stays", "half_pushes_oil", "pushes_oil"])
 def test_ten_percent_of_the_oil_tire_sa8(freed_gas):
     assert growth(worn("SA8", 0.9, freed_gas)) > LIMIT
+
+
+def test_the_force_of_the_plate_which_testers_measure_grows_too():
+    car = load_car().corner(load("SA8"))
+    (run,) = runs(worn("SA8", 0.9), car, PLATES[:1], DT)
+    (intact,) = runs(load("SA8"), car, PLATES[:1], DT)
+    assert run.force_growth > 1.3 and intact.force_growth == pytest.approx(1.0, abs=0.01)
 
 
 def test_without_freed_gas_nothing_tires():
@@ -174,7 +195,10 @@ def test_dead_lengths_are_compared_within_their_bounds(tmp_path: Path) -> None:
         (["--method", "tiring", "--plate", "40"], "error: plate.amplitude = 0.04 m: must be a number from 0.0001 to 0.02 m"),
         (["--method", "tiring", "--plate", "nan"], "error: plate.amplitude = nan m: must be a number from 0.0001 to 0.02 m"),
         (["--plate", "6"], "error: --plate: is the plate of --method tiring, which is not among the methods"),
-        (["--dead-length", "45"], "error: --dead-length = 45 mm: must be a number from 60 to 110 mm: piston with its valves"),
+        (
+            ["--dead-length", "45"],
+            "error: --dead-length = 45 mm: must be a number from 60 to 110 mm: piston with its valves",
+        ),
     ],
 )
 def test_a_bad_plate_or_length_ends_with_one_line(arguments: list[str], message: str) -> None:

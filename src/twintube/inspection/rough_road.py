@@ -1,4 +1,4 @@
-"""The figure of `tiring` without a bench: the damper's velocity at the end of a rough stretch of road over that at its begin."""
+"""The figure of `tiring` without a bench: the damper's velocity in the last seconds of a rough road over the first ones."""
 
 from twintube.dampers import Damper
 from twintube.inspection.tiring import rms

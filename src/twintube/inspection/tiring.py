@@ -76,6 +76,7 @@ class Tired:
     plate: Plate
     time: Array  # (m,) [s] from the start, middle of each group of CYCLES
     answer: Array  # (m,) [m/s] root mean square of the damper's velocity in each group
+    force: Array  # (m,) [N] root mean square of the plate's force about its mean, which a tester measures already
     peak: float  # [m/s] largest velocity of the first group
     contact_lost: float  # share of the time at the frequency in which the wheel is off the plate
     work: float  # [J] that heats the damper
@@ -88,6 +89,11 @@ class Tired:
     def growth(self) -> float:
         """Largest answer over the first one."""
         return float(self.answer.max() / self.answer[0])
+
+    @property
+    def force_growth(self) -> float:
+        """The same of the plate's force."""
+        return float(self.force.max() / self.force[0])
 
 
 @lru_cache(maxsize=16)
@@ -106,10 +112,10 @@ def rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def groups(run: Shake, velocity: Array) -> Array:
-    """Root mean square (m,) of a velocity (n,) [m/s] in each group of cycles."""
+def groups(run: Shake, values: Array) -> Array:
+    """Root mean square (m,) of values (n,) in each group of cycles."""
     pairs = zip(run.begins[:-1], run.begins[1:], strict=True)
-    return np.array([rms(velocity[i:j]) for i, j in pairs])
+    return np.array([rms(values[i:j]) for i, j in pairs])
 
 
 def heated(damper: Damper, fade: float) -> Damper:
@@ -124,6 +130,7 @@ def tired(run: Shake, begin: int, velocity: Array, load: Array, work: float) -> 
         plate=run.plate,
         time=0.5 * (run.begins[:-1] + run.begins[1:]) * run.dt,
         answer=groups(run, velocity[begin:]),
+        force=groups(run, load[begin:] - load[first:last].mean()),
         peak=float(np.abs(velocity[first:second]).max()),
         contact_lost=float(np.mean(load[first:last] <= 0.0)),
         work=work,

@@ -29,6 +29,7 @@ class Watched:
             "runs": [
                 {"amplitude_m": run.plate.amplitude, "peak_velocity_m_s": run.peak, "first_m_s": float(run.answer[0]),
                  "largest_m_s": float(run.answer.max()), "last_m_s": float(run.answer[-1]), "growth": run.growth,
+                 "force_growth": run.force_growth,
                  "contact_lost_share": run.contact_lost, "work_J": run.work}
                 for run in self.runs
             ],

@@ -37,7 +37,7 @@ def words(entry: Entry) -> str:
         return entry.not_judged or PASSES
     texts: dict[str, list[str]] = {}
     for name, (first, again) in entry.watched.rested.items():
-        texts.setdefault(says(first, again), []).append(f"{name} {min(1.0, returned(first, again)):.0%}")
+        texts.setdefault(says(first, again), []).append(f"{name} {min(1.0, max(0.0, returned(first, again))):.0%}")
     rested = "; ".join(f"{', '.join(shares)}: {text}" for text, shares in texts.items())
     return f"fails; of the growth has returned after {REST:g} s of rest, with freed gas {rested}"
 
@@ -86,7 +86,9 @@ def course(damper: Damper, corner: Car, entries: Sequence[Entry]) -> Figure:
         ax.set_ylim(bottom=0.0)
     reached = damper.parameters.v_cav / np.sqrt(2.0)
     before.axhline(reached, color=style.GREY, lw=1, ls=":")
-    before.text(21.0, reached, "a sine that just reaches v_cav", color=style.GREY, ha="right", va="top", size=style.NOTE_SIZE)
+    before.text(
+        21.0, reached, "a sine that just reaches v_cav", color=style.GREY, ha="right", va="top", size=style.NOTE_SIZE
+    )
     before.set_ylabel(f"damper velocity [m/s], root mean square of {CYCLES} cycles")
     style.legend_above(figure, before)
     return figure
@@ -99,12 +101,14 @@ def table(entries: Sequence[Entry]) -> Table:
         assert entry.watched is not None, "entries of `tiring`"
         run = max(entry.watched.runs, key=lambda each: each.growth)
         rows.append([
-            f"{entry.condition.oil_level:.0%}", f"{run.plate.amplitude * 1e3:g}", f"{run.peak:.2f}", f"{run.answer[0]:.2f}",
-            f"{run.answer.max():.2f}", f"{run.growth:.2f}", f"{run.contact_lost:.0%}", f"{run.work / 1e3:.0f}", words(entry),
+            f"{entry.condition.oil_level:.0%}", f"{run.plate.amplitude * 1e3:g}",
+            *(f"{x:.2f}" for x in (run.peak, run.answer[0], run.answer.max(), run.growth, run.force_growth)),
+            f"{run.contact_lost:.0%}", f"{run.work / 1e3:.0f}", words(entry),
         ])  # fmt: skip
-    head = ["oil", "plate [mm]", "fastest [m/s]", "first [m/s]", "largest [m/s]", "growth", "off the plate", "work [kJ]",
-            "verdict"]  # fmt: skip
-    return Table(head, rows, "Fastest: of the first half second. Work: the heat of the run", numeric=range(1, 8))
+    head = ["oil", "plate [mm]", "fastest [m/s]", "first [m/s]", "largest [m/s]", "growth", "of the force", "off the plate",
+            "work [kJ]", "verdict"]  # fmt: skip
+    caption = "Fastest: of the first half second. Of the force: growth of the plate's force. Work: the heat of the run"
+    return Table(head, rows, caption, numeric=range(1, 9))
 
 
 def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[Section, bytes]:
