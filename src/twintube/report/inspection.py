@@ -88,6 +88,7 @@ def summary(result: Inspection) -> dict[str, Any]:
         "first_seen": [
             {"damper": damper.name, "method": m.name, "oil_level": seen_under(result, damper, m)[result.ways[0]],
              "freed_gas_ways": seen_under(result, damper, m),
+             "seen_at": {name: seen_at(result, damper, m, name) for name in result.ways},
              "scalar_factor": first_seen(result.detections, damper.name, m.name, scalar=True)}
             for damper in result.dampers
             for m in result.methods
@@ -99,6 +100,16 @@ def summary(result: Inspection) -> dict[str, Any]:
 def seen_under(result: Inspection, damper: Damper, method: Method) -> dict[str, float | None]:
     """From which oil level on a method sees the loss, by what freed gas does."""
     return {name: first_seen(result.detections, damper.name, method.name, name) for name in result.ways}
+
+
+def seen_at(result: Inspection, damper: Damper, method: Method, freed_gas: str) -> list[float]:
+    """All oil levels at which a method sees the loss; what tires early is spent at lower levels, and not seen there."""
+    return [
+        d.condition.oil_level
+        for d in result.detections
+        if (d.damper, d.method, d.condition.scalar, d.condition.freed_gas) == (damper.name, method, False, freed_gas)
+        and d.share >= SEEN
+    ]
 
 
 def by_way(texts: Mapping[str, str]) -> str:
@@ -116,6 +127,9 @@ def by_way(texts: Mapping[str, str]) -> str:
 
 def seen_in_words(result: Inspection, damper: Damper, method: Method) -> str:
     """From which oil level on a method sees the loss, and under which ways from another one."""
+    if method.name == "tiring":
+        levels = {name: seen_at(result, damper, method, name) for name in result.ways}
+        return by_way({name: listed(f"{x:.0%}" for x in at) if at else "not seen" for name, at in levels.items()})
     return by_way({name: share_or(level, "not seen") for name, level in seen_under(result, damper, method).items()})
 
 
@@ -188,11 +202,11 @@ def terminal(result: Inspection) -> str:
         lines.append(sentence(result, damper))
         lines += inspection_tiring.remarks(result.of(damper, METHODS["tiring"]))
         if result.detections:
-            lines += [
-                f"{m.name}: {SEEN:.0%} detected at {FALSE_ALARMS:.0%} false alarms from oil level "
-                f"{seen_in_words(result, damper, m)} (scalar factor: {factor_seen(result, damper, m)})"
-                for m in result.methods
-            ]
+            for m in result.methods:
+                seen, factor = seen_in_words(result, damper, m), factor_seen(result, damper, m)
+                text = f"{SEEN:.0%} detected at {FALSE_ALARMS:.0%} false alarms"
+                place = "at" if m.name == "tiring" else "from"
+                lines.append(f"{m.name}: {text} {place} oil level {seen} (scalar factor: {factor})")
     return "\n".join(lines)
 
 
@@ -205,7 +219,8 @@ def seen_table(result: Inspection) -> Table:
     ]
     return Table(
         ["damper", "method", MODEL, FACTOR], rows,
-        f"Highest of the oil levels from which on down {SEEN:.0%} are detected at {FALSE_ALARMS:.0%} false alarms",
+        f"Highest of the oil levels from which on down {SEEN:.0%} are detected at {FALSE_ALARMS:.0%} false alarms; of "
+        f"{METHODS['tiring'].title} all such levels, as below them a damper may be spent",
     )  # fmt: skip
 
 
