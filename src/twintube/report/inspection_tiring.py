@@ -42,13 +42,19 @@ def words(entry: Entry) -> str:
     return f"fails; of the growth has returned after {REST:g} s of rest, with freed gas {rested}"
 
 
+def verdicts(entries: Sequence[Entry]) -> list[str]:
+    """`words` of each entry, from the highest oil level down; one that passes below one that fails may be spent."""
+    texts, failed = [], False
+    for entry in entries:
+        texts.append(SPENT if failed and entry.passed else words(entry))
+        failed |= entry.passed is False
+    return texts
+
+
 def remarks(entries: Sequence[Entry]) -> list[str]:
     """What the terminal says below the figures: once each, with the oil levels to which it applies."""
     levels: dict[str, list[str]] = {}
-    failed = False
-    for entry in entries:
-        text = SPENT if failed and entry.passed else words(entry)
-        failed |= entry.passed is False
+    for entry, text in zip(entries, verdicts(entries), strict=True):
         if text != PASSES:
             levels.setdefault(text, []).append(f"{entry.condition.oil_level:.0%}")
     return [f"tiring at {', '.join(at)} oil: {text}" for text, at in levels.items()]
@@ -97,13 +103,13 @@ def course(damper: Damper, corner: Car, entries: Sequence[Entry]) -> Figure:
 def table(entries: Sequence[Entry]) -> Table:
     """One row per oil level."""
     rows = []
-    for entry in entries:
+    for entry, text in zip(entries, verdicts(entries), strict=True):
         assert entry.watched is not None, "entries of `tiring`"
         run = max(entry.watched.runs, key=lambda each: each.growth)
         rows.append([
             f"{entry.condition.oil_level:.0%}", f"{run.plate.amplitude * 1e3:g}",
             *(f"{x:.2f}" for x in (run.peak, run.answer[0], run.answer.max(), run.growth, run.force_growth)),
-            f"{run.contact_lost:.0%}", f"{run.work / 1e3:.0f}", words(entry),
+            f"{run.contact_lost:.0%}", f"{run.work / 1e3:.0f}", text,
         ])  # fmt: skip
     head = ["oil", "plate [mm]", "fastest [m/s]", "first [m/s]", "largest [m/s]", "growth", "of the force", "off the plate",
             "work [kJ]", "verdict"]  # fmt: skip
