@@ -8,10 +8,12 @@ from typer.testing import CliRunner
 
 from twintube.cli import app
 from twintube.cli.outputs import MARK
+from twintube.dampers import load
 from twintube.dampers.freed_gas import DEFAULT, VARIED
-from twintube.inspection import METHODS
+from twintube.inspection import METHODS, conditions, inspected
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, markdown, method_rows, range_rows
 from twintube.report.inspection import by_way
+from twintube.vehicle.cars import load_car
 
 RUNNER = CliRunner()
 ROOT = Path(__file__).parents[2]
@@ -118,3 +120,13 @@ def test_what_flips_from_way_to_way_is_said() -> None:
     assert by_way({"dissolves": "60%", "stays": "60%"}) == "60% whatever freed gas does"
     texts = {"dissolves": "60%", "stays": "50%", "pushes_oil": "not seen", "limited": "50%"}
     assert by_way(texts) == "60%, but 50% with freed gas stays, limited, not seen with freed gas pushes_oil"
+
+
+def test_the_page_about_tiring_says_its_limit_and_what_the_command_prints() -> None:
+    page = (ROOT / "docs" / "inspection.md").read_text(encoding="utf-8")
+    assert "A damper fails above\n1.15." in page or "A damper fails above 1.15." in page
+    (row,) = [line for line in page.splitlines() if line.startswith("| SA8 | 1.00 |")]
+    entries = inspected(load("SA8"), load_car(), conditions((0.9, 0.6), None), ("tiring",), ways=VARIED)
+    for entry in entries:
+        texts = [f"{figure:.2f}" for figure in entry.readings.values()]
+        assert f"| **{texts[0]}** / {' / '.join(texts[1:])} |" in row

@@ -1,6 +1,8 @@
 """The command about inspection: one corner of a car on the benches of a workshop."""
 
 import json
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +12,23 @@ from tqdm import tqdm
 from twintube import dampers
 from twintube.cli.base import app
 from twintube.cli.outputs import check_folder, mark_folder, of_options
+from twintube.dampers import Damper
+from twintube.engine.simulate import InputError
 from twintube.files import write_text
+
+
+def at_dead_lengths(damper: Damper, lengths_mm: Sequence[float] | None) -> list[Damper]:
+    """The damper with each of these dead lengths, which its name then says; raises InputError outside their bounds."""
+    from twintube.claims.lengths import LONGEST, SHORTEST
+    from twintube.core.checks import outside
+
+    changed = []
+    for length in lengths_mm or []:
+        message = outside("--dead-length", length, SHORTEST * 1e3, LONGEST * 1e3, "mm")
+        if message:
+            raise InputError(f"{message}: piston with its valves, foot valve and rebound stop take that much of the tube")
+        changed.append(replace(damper.with_(dead_length=length * 1e-3), name=f"{damper.name}_{length:g}mm"))
+    return changed or [damper]
 
 
 @app.command(epilog="Example: twintube inspect SA8 SA1 --method eusama --oil-level 1 --oil-level 0.5 --json inspect.json")
@@ -20,7 +38,11 @@ def inspect(
     ] = None,
     methods: Annotated[
         list[str] | None,
-        typer.Option("--method", help="eusama, phase_shift, damping_ratio, push_down or bump; all if left out."),
+        typer.Option(
+            "--method",
+            help="eusama, phase_shift, damping_ratio, push_down, bump or tiring; if left out all but tiring, which takes "
+            "about as long as they do.",
+        ),
     ] = None,
     levels: Annotated[
         list[float] | None, typer.Option("--oil-level", help="Oil, share of the intact volume; 1.0 to 0.3 if left out.")
@@ -28,8 +50,16 @@ def inspect(
     gas_lost: Annotated[
         bool | None, typer.Option("--gas-lost/--with-preload", help="Gas preload; lost below 100 % oil if left out.")
     ] = None,
+    dead_lengths: Annotated[
+        list[float] | None,
+        typer.Option("--dead-length", help="Dead length [mm] in place of the damper's, 60 to 110; several are compared."),
+    ] = None,
     car: Annotated[str, typer.Option(help="A named car or a car's file.")] = "passat_b8",
     freed_gas: Annotated[str | None, typer.Option(help="What freed gas does; several ways, as a band, if left out.")] = None,
+    plate: Annotated[
+        list[float] | None,
+        typer.Option(help="Amplitude [mm] of the plate of tiring; several in turn; 6, 8 and 10 if left out."),
+    ] = None,
     scatter: Annotated[int, typer.Option(help="Cars and testers drawn for the detection; 0 for none.", min=0)] = 100,
     seed: Annotated[int, typer.Option(help="Seed of the scatter.", min=0)] = 1,
     processes: Annotated[int | None, typer.Option(help="Processes; all cores if left out.", min=1)] = None,
@@ -38,8 +68,9 @@ def inspect(
 ) -> None:
     """Put one corner of a car on the inspection benches, and say from which oil level on each method sees the loss."""
     from twintube.dampers.freed_gas import VARIED, known
-    from twintube.inspection import LEVELS, METHODS, conditions, inspected, method, study
+    from twintube.inspection import LEVELS, USUAL, Setting, conditions, inspected, method, study
     from twintube.inspection.detection import check_count
+    from twintube.inspection.tiring import AMPLITUDES, shaker
     from twintube.report.inspection import Inspection, summary, terminal, write_report
     from twintube.vehicle.cars import load_car
 
@@ -47,12 +78,18 @@ def inspect(
         check_folder(output, ("report.html",), of_options())
     if scatter:
         check_count(scatter)
-    wanted = tuple(dict.fromkeys(method(name).name for name in methods or METHODS))
-    loaded, vehicle = [dampers.load(name) for name in dict.fromkeys(names or ["SA8"])], load_car(car)
+    wanted = tuple(dict.fromkeys(method(name).name for name in methods or USUAL))
+    if plate and "tiring" not in wanted:
+        raise InputError("--plate: is the plate of --method tiring, which is not among the methods")
+    plates = shaker(sorted(x * 1e-3 for x in dict.fromkeys(plate)) if plate else AMPLITUDES)
+    chosen = [dampers.load(name) for name in dict.fromkeys(names or ["SA8"])]
+    lengths = list(dict.fromkeys(dead_lengths or []))
+    loaded, vehicle = [each for damper in chosen for each in at_dead_lengths(damper, lengths)], load_car(car)
     steps = sorted(dict.fromkeys(levels or LEVELS), reverse=True)
     states = conditions(steps, None if gas_lost is None else int(not gas_lost))
     ways = VARIED if freed_gas is None else (known(freed_gas, "--freed-gas").name,)
-    entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, ways=ways)]
+    setting = Setting(shaker=plates)
+    entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, ways=ways, setting=setting)]
     detections = []
     if scatter:
         with tqdm(total=scatter * len(loaded), unit="car", leave=False) as bar:
@@ -64,10 +101,11 @@ def inspect(
                 count=scatter,
                 seed=seed,
                 ways=ways,
+                plates=plates,
                 processes=processes,
                 progress=bar.update,
             )
-    result = Inspection(loaded, vehicle, entries, detections, ways, seed)
+    result = Inspection(loaded, vehicle, entries, detections, ways, seed, [each.amplitude for each in plates])
     if json_file is not None:
         write_text(json_file, json.dumps(summary(result), indent=1) + "\n")
     typer.echo(terminal(result))

@@ -6,7 +6,7 @@
 from twintube.inspection.benches import Setting, read
 from twintube.inspection.corner import INTACT, LEVELS, Condition, Entry, conditions, inspected
 from twintube.inspection.detection import Detection, first_seen, study
-from twintube.inspection.methods import METHODS, Method, method
+from twintube.inspection.methods import METHODS, USUAL, Method, method
 from twintube.inspection.plate import Plate
 from twintube.inspection.scatter import RANGES
 
@@ -15,6 +15,7 @@ __all__ = [
     "LEVELS",
     "METHODS",
     "RANGES",
+    "USUAL",
     "Condition",
     "Detection",
     "Entry",

@@ -8,7 +8,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
-from twintube.inspection import figures
+from twintube.inspection import figures, tiring
 from twintube.inspection.plate import Motion, Plate, motion
 from twintube.vehicle.drive import Drive, drive
 from twintube.vehicle.maneuvers import BUMP_LENGTH, MANEUVERS
@@ -35,6 +35,9 @@ class Setting:
     height_noise: float = 0.0  # [m] root mean square
     acceleration_noise: float = 0.0  # [m/s2] root mean square
     phase_error: float = 0.0  # [deg]
+    shaker: tuple[Plate, ...] = tiring.PLATES  # in turn, of `tiring`
+    velocity_noise: float = 0.0  # [m/s] root mean square, of the damper's velocity
+    fade: float = 0.0  # [1/K] of the fluid force, by the heat of the run of `tiring`
 
 
 @lru_cache(maxsize=8)
@@ -118,4 +121,11 @@ def read(
     if "bump" in methods:
         acceleration = after_bump(damper, car, setting.speed_kmh, dt)
         found["bump"] = figures.bump(sensed(2, acceleration, setting.acceleration_noise))
+    if "tiring" in methods:
+
+        def by_sensor(velocity: Array) -> Array:
+            return sensed(3, velocity, setting.velocity_noise)
+
+        shaken = tiring.runs(damper, car, setting.shaker, dt, setting.fade, by_sensor)
+        found["tiring"] = max(run.growth for run in shaken)
     return {name: found[name] for name in methods}

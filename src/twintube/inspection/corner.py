@@ -9,7 +9,8 @@ from twintube.dampers.freed_gas import DEFAULT, with_freed_gas
 from twintube.dampers.variants import scalar_factor
 from twintube.inspection.benches import DT, ON_PLATE, Setting, on_plate, plate_motion, read
 from twintube.inspection.figures import WINDOWS, measured_cycles, phase_shift
-from twintube.inspection.methods import METHODS, eusama_class
+from twintube.inspection.methods import METHODS, USUAL, eusama_class
+from twintube.inspection.watched import Watched, watched
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.quarter_car import Car
 
@@ -47,15 +48,21 @@ class Entry:
     scalar_figure: float | None = None  # with the oil level as factor; None below LEAST_FACTOR
     readings: Mapping[str, float] = field(default_factory=dict)  # the figure under every way, that of `figure` included
     windows: Mapping[str, float] = field(default_factory=dict)  # [deg] the phase shift in other windows
+    watched: Watched | None = None  # what else `tiring` found
 
     @property
-    def passed(self) -> bool:
-        """Whether the damper passes."""
-        return METHODS[self.method].passed(self.figure)
+    def not_judged(self) -> str:
+        """Why the bench cannot judge this damper; empty where it can."""
+        return self.watched.not_judged if self.watched else ""
 
-    def passes_under(self, freed_gas: str) -> bool:
-        """Whether it passes under a way of `readings`."""
-        return METHODS[self.method].passed(self.readings[freed_gas])
+    @property
+    def passed(self) -> bool | None:
+        """Whether the damper passes; None where the bench cannot judge it."""
+        return None if self.not_judged else METHODS[self.method].passed(self.figure)
+
+    def passes_under(self, freed_gas: str) -> bool | None:
+        """The same under a way of `readings`."""
+        return None if self.not_judged else METHODS[self.method].passed(self.readings[freed_gas])
 
     @property
     def as_json(self) -> dict[str, Any]:
@@ -79,6 +86,8 @@ class Entry:
             entry["class"] = eusama_class(self.figure)
         if self.windows:
             entry["windows"] = dict(self.windows)
+        if self.watched:
+            entry |= self.watched.as_json
         return entry
 
 
@@ -97,7 +106,7 @@ def inspected(
     damper: Damper,
     vehicle: CarSet,
     states: Iterable[Condition],
-    methods: tuple[str, ...] = tuple(METHODS),
+    methods: tuple[str, ...] = USUAL,
     *,
     ways: Sequence[str] = (DEFAULT,),
     setting: Setting | None = None,
@@ -112,7 +121,7 @@ def inspected(
     def figures(state: Condition) -> dict[str, float]:
         return read(state.applied(damper), corner, methods, bench, dt=dt)
 
-    reference = figures(replace(INTACT, freed_gas=ways[0]))
+    reference = read(replace(INTACT, freed_gas=ways[0]).applied(damper), corner, over_intact(methods), bench, dt=dt)
     entries = []
     for state in under(ways[:1], states):
         models = {each.freed_gas: relative(figures(each), reference) for each in under(ways, [state])}
@@ -121,7 +130,11 @@ def inspected(
         for name in methods:
             readings = {freed_gas: model[name] for freed_gas, model in models.items()}
             windows = in_windows(state.applied(damper), corner, bench, dt) if name == "phase_shift" else {}
-            entries.append(Entry(damper.name, state, name, readings[state.freed_gas], factor.get(name), readings, windows))
+            entry = Entry(damper.name, state, name, readings[state.freed_gas], factor.get(name), readings, windows)
+            if name == "tiring":
+                by_way = {each.freed_gas: each.applied(damper) for each in under(ways, [state])}
+                entry = replace(entry, watched=watched(by_way, corner, bench, dt))
+            entries.append(entry)
     return entries
 
 
@@ -130,7 +143,12 @@ def relative(figures: Mapping[str, float], reference: Mapping[str, float]) -> di
     return {name: value / reference[name] if name not in COMPLETE else value for name, value in figures.items()}
 
 
-COMPLETE = (*ON_PLATE, "push_down")  # methods that need no intact damper
+COMPLETE = (*ON_PLATE, "push_down", "tiring")  # methods that need no intact damper
+
+
+def over_intact(methods: Iterable[str]) -> tuple[str, ...]:
+    """Those of the methods whose figure is one over the intact damper's."""
+    return tuple(name for name in methods if name not in COMPLETE)
 
 
 def in_windows(damper: Damper, car: Car, setting: Setting, dt: float = DT) -> dict[str, float]:

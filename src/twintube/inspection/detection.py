@@ -15,9 +15,11 @@ from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.engine.simulate import InputError
 from twintube.inspection.benches import Setting, read
-from twintube.inspection.corner import INTACT, LEAST_FACTOR, Condition, relative, under
-from twintube.inspection.methods import METHODS, Method
+from twintube.inspection.corner import INTACT, LEAST_FACTOR, Condition, over_intact, relative, under
+from twintube.inspection.methods import METHODS, USUAL, Method
+from twintube.inspection.plate import Plate
 from twintube.inspection.scatter import Sample, samples
+from twintube.inspection.tiring import PLATES
 from twintube.processes import pool
 from twintube.vehicle.cars import CarSet
 
@@ -112,13 +114,15 @@ class Job:
 
     damper: Damper
     sample: Sample
-    reference: dict[str, float]  # figures of the intact damper in the nominal car
+    reference: dict[str, float]  # figures of the intact damper in the nominal car that the others are over
 
 
-def figures(job: Job, vehicle: CarSet, states: tuple[Condition, ...], methods: tuple[str, ...]) -> list[list[float]]:
+def figures(
+    job: Job, vehicle: CarSet, states: tuple[Condition, ...], methods: tuple[str, ...], plates: tuple[Plate, ...]
+) -> list[list[float]]:
     """The figures by state and method."""
     rows = []
-    car, setting, made = job.sample.corner(job.damper, vehicle), job.sample.setting, job.sample.made(job.damper)
+    car, setting, made = job.sample.corner(job.damper, vehicle), job.sample.setting(plates), job.sample.made(job.damper)
     for state in states:
         # The same noise for every state: what differs is the damper.
         row = relative(read(state.applied(made), car, methods, setting, job.sample.seed), job.reference)
@@ -136,18 +140,19 @@ def study(
     dampers: Sequence[Damper],
     vehicle: CarSet,
     states: Iterable[Condition],
-    methods: tuple[str, ...] = tuple(METHODS),
+    methods: tuple[str, ...] = USUAL,
     *,
     count: int,
     seed: int = 1,
     ways: Sequence[str] = (DEFAULT,),
+    plates: tuple[Plate, ...] = PLATES,
     processes: int | None = None,
     progress: Callable[[], None] = lambda: None,
 ) -> list[Detection]:
     """The detection of every state under every way, and of the oil level as a scalar factor, over `count` samples.
 
     `progress` is called after each sample of each damper. `processes` is by default the number of cores; the result does not
-    depend on it. Raises InputError for a number of samples outside FEWEST to MOST.
+    depend on it. `plates` are those of `tiring`. Raises InputError for a number of samples outside FEWEST to MOST.
     """
     check_count(count)
     levels = under(ways[:1], states)
@@ -157,9 +162,9 @@ def study(
     drawn = samples(count, seed)
     jobs = []
     for damper in dampers:
-        reference = read(intact.applied(damper), vehicle.corner(damper), methods, Setting())
+        reference = read(intact.applied(damper), vehicle.corner(damper), over_intact(methods), Setting())
         jobs += [Job(damper, sample, reference) for sample in drawn]
-    work = partial(figures, vehicle=vehicle, states=everything, methods=methods)
+    work = partial(figures, vehicle=vehicle, states=everything, methods=methods, plates=plates)
     rows = []
     with ExitStack() as stack:
         workers = min(processes or os.cpu_count() or 1, len(jobs))

@@ -5,6 +5,7 @@ from types import MappingProxyType
 from typing import Final
 
 from twintube.dampers import ParameterError
+from twintube.inspection import tiring
 from twintube.words import listed
 
 EUSAMA_CLASSES = ((20.0, "poor"), (40.0, "weak"), (60.0, "fair"), (float("inf"), "good"))  # up to, and its name
@@ -68,7 +69,21 @@ METHODS: Final = MappingProxyType({item.name: item for item in (
         "Schramm, Zwosta and Prokop, measurement 3 of Table 3 at 8 km/h, proposed there for inspection",
         "a proposal, in no regulation; bump of 50 mm assumed, limit assumed so that about 5 % of intact dampers fail",
     ),
+    Method(
+        "tiring", "tiring of the damper",
+        "root mean square of the damper's velocity on a plate at 12 Hz: largest of the half seconds of 20 s over the first; "
+        "plates of 6, 8 and 10 mm in turn",
+        "", tiring.LIMIT, False,
+        "proposed here; no tester has it",
+        "unsure: rests on the speed of cavitation and on how much gas it frees; limit: above what the heat of the run does "
+        "to an intact damper",
+    ),
 )})  # fmt: skip
+
+
+# Those of `twintube inspect` where none is named: `tiring`, with two or three runs of 20 s for every damper, takes about as
+# long as all others.
+USUAL: Final = tuple(name for name in METHODS if name != "tiring")
 
 
 def method(name: str) -> Method:

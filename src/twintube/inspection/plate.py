@@ -23,6 +23,7 @@ BOUNDS = {  # of a plate's values: smallest, largest, unit
     "run_up": (0.5, 30.0, "s"),
     "hold": (0.0, 30.0, "s"),
     "coast": (3.0, 600.0, "s"),
+    "drift": (-0.05, 0.05, "1"),
 }
 
 
@@ -35,6 +36,7 @@ class Plate:
     run_up: float = 3.0  # [s] in which the motor reaches it (assumed)
     hold: float = 2.0  # [s] at the highest frequency (assumed)
     coast: float = 15.0  # [s] to rest without the motor (assumed)
+    drift: float = 0.0  # share by which the frequency changes while it is held
 
     def __post_init__(self) -> None:
         """Refuse what no tester does."""
@@ -89,7 +91,7 @@ def motion(plate: Plate, dt: float) -> Motion:
     """The plate run up, held and coasting to rest at a constant deceleration (assumed: friction, not air, brakes it)."""
     corners = np.cumsum([0.0, plate.run_up, plate.hold, plate.coast])
     time = np.arange(0.0, corners[-1] + 0.5 * dt, dt)
-    frequency = np.interp(time, corners, [0.0, plate.top, plate.top, 0.0])
+    frequency = np.interp(time, corners, [0.0, plate.top, plate.top * (1.0 + plate.drift), 0.0])
     angle = 2 * np.pi * np.concatenate([[0.0], np.cumsum(0.5 * (frequency[1:] + frequency[:-1])) * dt])
     return Motion(
         plate=plate,

@@ -4,12 +4,14 @@ All ranges are uniform and independent. They describe one type of car on testers
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
 from twintube.dampers import Damper
+from twintube.inspection import tiring
 from twintube.inspection.benches import Setting
 from twintube.inspection.plate import Plate
 from twintube.vehicle.cars import CarSet
@@ -34,7 +36,7 @@ class Range:
     reason: str
 
 
-RANGES: Final = (
+BENCHES: Final = (
     Range("tyre", "tyre stiffness over the car file's", 0.8, 1.2, "", "assumed",
           "pressure up to 20 % off, stiffness in proportion to it; public data of car tyres go from 158 to 348 N/mm"),
     Range("load", "sprung mass of the corner over the car file's", 0.85, 1.25, "", "assumed",
@@ -58,6 +60,14 @@ RANGES: Final = (
     Range("acceleration_noise", "noise of the axle's acceleration, root mean square", 0.0, 0.5, "m/s2", "assumed",
           "MEMS sensor"),
 )  # fmt: skip
+# Drawn after the others, whose draws so stay as they are without them.
+OF_TIRING: Final = (
+    Range("drift", "change of the frequency of the plate of tiring within its 20 s", -0.005, 0.005, "1", "assumed",
+          "slip of a motor that gets warm"),
+    Range("velocity_noise", "noise of the damper's velocity, root mean square", 0.0, 0.02, "m/s", "assumed",
+          "optical sensor between wheel and wing, 0.25 mm at 12 Hz"),
+)  # fmt: skip
+RANGES: Final = (*BENCHES, *OF_TIRING)
 
 
 def warm(damper: Damper, degC: float) -> Damper:
@@ -96,13 +106,21 @@ class Sample:
         made = damper.with_(F_re=[share * F for F in p.F_re], F_co=[share * F for F in p.F_co])
         return warm(made, self.values["temperature_degC"])
 
-    @property
-    def setting(self) -> Setting:
-        """The benches of this tester."""
+    def setting(self, plates: Iterable[Plate] = tiring.PLATES) -> Setting:
+        """The benches of this tester, `plates` being those of `tiring` as they are meant to move."""
         v = self.values
-        plate = replace(Plate(), amplitude=v["amplitude"], top=v["top"], coast=v["coast"])
-        names = ("push", "speed_kmh", "force_noise", "height_noise", "acceleration_noise", "phase_error")
-        return Setting(plate=plate, **{name: v[name] for name in names})
+        usual = Plate()
+        plate = replace(usual, amplitude=v["amplitude"], top=v["top"], coast=v["coast"])
+        # Crank and motor are as far off at the plates of `tiring`, and its runs heat the damper.
+        off, slip = v["amplitude"] - usual.amplitude, v["top"] / usual.top
+        shaker = tuple(replace(p, amplitude=p.amplitude + off, top=slip * p.top, drift=v["drift"]) for p in plates)
+        names = ("push", "speed_kmh", "force_noise", "height_noise", "acceleration_noise", "phase_error", "velocity_noise")
+        return Setting(plate=plate, shaker=shaker, fade=FADE, **{name: v[name] for name in names})
+
+
+def drawn(ranges: Iterable[Range], random: np.random.Generator) -> dict[str, float]:
+    """One draw from each range."""
+    return {item.name: float(random.uniform(item.low, item.high)) for item in ranges}
 
 
 def samples(count: int, seed: int) -> list[Sample]:
@@ -110,6 +128,7 @@ def samples(count: int, seed: int) -> list[Sample]:
     made = []
     for i in range(count):
         random = np.random.default_rng([seed, i])
-        values = {item.name: float(random.uniform(item.low, item.high)) for item in RANGES}
-        made.append(Sample(values, int(random.integers(2**32))))
+        values = drawn(BENCHES, random)
+        noise = int(random.integers(2**32))
+        made.append(Sample(values | drawn(OF_TIRING, random), noise))
     return made

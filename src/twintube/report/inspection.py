@@ -11,7 +11,8 @@ from twintube.inspection import METHODS, RANGES, Detection, Entry, Method, Setti
 from twintube.inspection.detection import CONFIDENCE, FALSE_ALARMS, SEEN
 from twintube.inspection.figures import READING, WINDOWS
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, method_rows, range_rows
-from twintube.report import style
+from twintube.inspection.tiring import AMPLITUDES
+from twintube.report import inspection_tiring, style
 from twintube.report.inspection_pictures import figures_over_oil, roc_curves, shares, spanned, sweep
 from twintube.report.page import Headline, Picture, Section, Table, html
 from twintube.vehicle.cars import CarSet, axle
@@ -34,6 +35,7 @@ class Inspection:
     detections: Sequence[Detection]
     ways: Sequence[str]  # of the freed gas; the first is that of the figures
     seed: int
+    plates: Sequence[float] = AMPLITUDES  # [m] of `tiring`
 
     @property
     def methods(self) -> list[Method]:
@@ -51,6 +53,11 @@ class Inspection:
         return [entry for entry in self.entries if (entry.damper, entry.method) == (damper.name, method.name)]
 
 
+def verdict(entry: Entry) -> str:
+    """What stands behind a figure."""
+    return " not judged" if entry.not_judged else "" if entry.passed else " fails"
+
+
 def digits(value: float | None, method: Method) -> str:
     """A figure with the digits that its unit asks for."""
     return "" if value is None else f"{value:.0f}" if method.unit else f"{value:.2f}"
@@ -64,6 +71,8 @@ def summary(result: Inspection) -> dict[str, Any]:
         "freed_gas": result.ways[0],
         "freed_gas_ways": list(result.ways),
         "plate": {"amplitude_m": plate.amplitude, "top_Hz": plate.top, "coast_s": plate.coast},
+        "plates_of_tiring_m": list(result.plates),
+        "dead_lengths_m": {damper.name: damper.parameters.dead_length for damper in result.dampers},
         "methods": {
             m.name: {"figure": m.figure, "unit": m.unit, "limit": m.limit, "rule": m.rule, "source": m.source,
                      "how_sure": m.certainty}
@@ -79,6 +88,7 @@ def summary(result: Inspection) -> dict[str, Any]:
         "first_seen": [
             {"damper": damper.name, "method": m.name, "oil_level": seen_under(result, damper, m)[result.ways[0]],
              "freed_gas_ways": seen_under(result, damper, m),
+             "seen_at": {name: seen_at(result, damper, m, name) for name in result.ways},
              "scalar_factor": first_seen(result.detections, damper.name, m.name, scalar=True)}
             for damper in result.dampers
             for m in result.methods
@@ -90,6 +100,16 @@ def summary(result: Inspection) -> dict[str, Any]:
 def seen_under(result: Inspection, damper: Damper, method: Method) -> dict[str, float | None]:
     """From which oil level on a method sees the loss, by what freed gas does."""
     return {name: first_seen(result.detections, damper.name, method.name, name) for name in result.ways}
+
+
+def seen_at(result: Inspection, damper: Damper, method: Method, freed_gas: str) -> list[float]:
+    """All oil levels at which a method sees the loss; what tires early is spent at lower levels, and not seen there."""
+    return [
+        d.condition.oil_level
+        for d in result.detections
+        if (d.damper, d.method, d.condition.scalar, d.condition.freed_gas) == (damper.name, method, False, freed_gas)
+        and d.share >= SEEN
+    ]
 
 
 def by_way(texts: Mapping[str, str]) -> str:
@@ -107,6 +127,9 @@ def by_way(texts: Mapping[str, str]) -> str:
 
 def seen_in_words(result: Inspection, damper: Damper, method: Method) -> str:
     """From which oil level on a method sees the loss, and under which ways from another one."""
+    if method.name == "tiring":
+        levels = {name: seen_at(result, damper, method, name) for name in result.ways}
+        return by_way({name: listed(f"{x:.0%}" for x in at) if at else "not seen" for name, at in levels.items()})
     return by_way({name: share_or(level, "not seen") for name, level in seen_under(result, damper, method).items()})
 
 
@@ -121,11 +144,11 @@ def share_or(level: float | None, otherwise: str) -> str:
 
 
 def passed_down_to(result: Inspection, damper: Damper, freed_gas: str) -> float | None:
-    """The lowest oil level down to which the damper passes every method under a way."""
+    """The lowest oil level down to which the damper passes every method under a way; what is not judged does not count."""
     passed = None
     for level in sorted({e.condition.oil_level for e in result.entries}, reverse=True):
         own = (e for e in result.entries if (e.damper, e.condition.oil_level) == (damper.name, level))
-        if not all(e.passes_under(freed_gas) for e in own):
+        if any(e.passes_under(freed_gas) is False for e in own):
             break
         passed = level
     return passed
@@ -133,7 +156,11 @@ def passed_down_to(result: Inspection, damper: Damper, freed_gas: str) -> float 
 
 def sentence(result: Inspection, damper: Damper) -> str:
     """Down to which oil level the damper passes every method, and under which ways down to another one."""
+    open_ones = {e.method: e.not_judged for e in result.entries if e.damper == damper.name and e.not_judged}
+    if len(open_ones) == len(result.methods):
+        return f"{damper.name} is not judged by {result.methods[0].title}."
     names = "every method" if len(result.methods) > 1 else result.methods[0].title
+    names += "".join(f" but {METHODS[name].title}, which does not judge it," for name in open_ones)
     levels = {freed_gas: passed_down_to(result, damper, freed_gas) for freed_gas in result.ways}
     texts = {name: "at none of these oil levels" if x is None else f"down to {x:.0%} oil" for name, x in levels.items()}
     return f"{damper.name} passes {names} {by_way(texts)}."
@@ -147,7 +174,7 @@ def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
         row = [f"{state.oil_level:.0%}", "yes" if state.gas_preload else "no"]
         for entry, m in zip(entries, result.methods, strict=True):
             row.append(
-                f"{digits(entry.figure, m)}{'' if entry.passed else ' fails'}{other_ways(entry, m)} "
+                f"{digits(entry.figure, m)}{verdict(entry)}{other_ways(entry, m)} "
                 f"({digits(entry.scalar_figure, m) or 'none'})"
             )
         rows.append(row)
@@ -173,12 +200,13 @@ def terminal(result: Inspection) -> str:
         widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
         lines += ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
         lines.append(sentence(result, damper))
+        lines += inspection_tiring.remarks(result.of(damper, METHODS["tiring"]))
         if result.detections:
-            lines += [
-                f"{m.name}: {SEEN:.0%} detected at {FALSE_ALARMS:.0%} false alarms from oil level "
-                f"{seen_in_words(result, damper, m)} (scalar factor: {factor_seen(result, damper, m)})"
-                for m in result.methods
-            ]
+            for m in result.methods:
+                seen, factor = seen_in_words(result, damper, m), factor_seen(result, damper, m)
+                text = f"{SEEN:.0%} detected at {FALSE_ALARMS:.0%} false alarms"
+                place = "at" if m.name == "tiring" else "from"
+                lines.append(f"{m.name}: {text} {place} oil level {seen} (scalar factor: {factor})")
     return "\n".join(lines)
 
 
@@ -191,7 +219,8 @@ def seen_table(result: Inspection) -> Table:
     ]
     return Table(
         ["damper", "method", MODEL, FACTOR], rows,
-        f"Highest of the oil levels from which on down {SEEN:.0%} are detected at {FALSE_ALARMS:.0%} false alarms",
+        f"Highest of the oil levels from which on down {SEEN:.0%} are detected at {FALSE_ALARMS:.0%} false alarms; of "
+        f"{METHODS['tiring'].title} all such levels, as below them a damper may be spent",
     )  # fmt: skip
 
 
@@ -248,21 +277,30 @@ def damper_section(result: Inspection, damper: Damper, png: bytes) -> Section:
     )
 
 
-def write_report(result: Inspection, folder: Path) -> list[Path]:
-    """Write report.html and its pictures; returns the files."""
-    pictures = {damper.name: style.png(figures_over_oil(result.of, damper, result.methods)) for damper in result.dampers}
-    sections = [damper_section(result, damper, pictures[damper.name]) for damper in result.dampers]
+def plate_section(result: Inspection) -> tuple[Section, bytes]:
+    """The coast of the EUSAMA plate of the first damper, and its picture."""
     first = result.dampers[0]
-    states = [entry.condition for entry in result.of(first, result.methods[0])]
-    pictures["plate"] = style.png(sweep(first, result.vehicle, states))
+    png = style.png(sweep(first, result.vehicle, [entry.condition for entry in result.of(first, result.methods[0])]))
     caption = (
         "Force per height of the plate over tyre stiffness, and the angle by which the force leads, one value per cycle."
     )
     tables = [windows_table(result)] if any(entry.windows for entry in result.entries) else []
-    sections.append(Section(
-        "plate", f"The plate run of {first.name}", text=[caption], pictures=[Picture(pictures["plate"], caption)],
-        tables=tables,
-    ))  # fmt: skip
+    return Section(
+        "plate", f"The plate run of {first.name}", text=[caption], pictures=[Picture(png, caption)], tables=tables
+    ), png
+
+
+def write_report(result: Inspection, folder: Path) -> list[Path]:
+    """Write report.html and its pictures; returns the files."""
+    pictures = {damper.name: style.png(figures_over_oil(result.of, damper, result.methods)) for damper in result.dampers}
+    sections = [damper_section(result, damper, pictures[damper.name]) for damper in result.dampers]
+    for damper in result.dampers:
+        if watched := result.of(damper, METHODS["tiring"]):
+            section, pictures[f"{damper.name}_tiring"] = inspection_tiring.section(damper, result.vehicle, watched)
+            sections.append(section)
+    if [m.name for m in result.methods] != ["tiring"]:
+        section, pictures["plate"] = plate_section(result)
+        sections.append(section)
     summaries = []
     if result.detections:
         summaries.append(seen_table(result))

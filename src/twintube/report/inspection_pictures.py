@@ -17,13 +17,14 @@ from twintube.vehicle.cars import CarSet
 PALETTE = (style.INK, style.BLUE, style.GREEN, style.ORANGE, style.RED, style.VIOLET)
 MOST_CURVES = 6
 COLUMNS = 3
+LEGEND = 7.4  # [inch] its width
 
 
 def grid(methods: Sequence[Method], height: float = 2.9) -> tuple[Figure, list[tuple[Method, Axes]]]:
     """One panel per method."""
     columns = min(COLUMNS, len(methods))
     rows = -(-len(methods) // columns)
-    figure, axes = style.canvas(rows, columns, (3.7 * columns, height * rows + 0.5))
+    figure, axes = style.canvas(rows, columns, (max(3.7 * columns, LEGEND), height * rows + 0.5))
     for ax in axes.flat[len(methods) :]:
         ax.set_visible(False)
     pairs = list(zip(methods, axes.flat, strict=False))

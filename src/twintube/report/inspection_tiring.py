@@ -1,0 +1,132 @@
+"""What the page of `twintube inspect` says of `tiring`: the course of the runs, the rest, what it rests on."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from twintube.dampers import Damper
+from twintube.inspection import INTACT, Condition, Entry
+from twintube.inspection.benches import DT
+from twintube.inspection.scatter import FADE
+from twintube.inspection.tiring import CYCLES, FREQUENCY, HOLD, LIMIT, REST, Tired, returned, twice
+from twintube.inspection.watched import says
+from twintube.report import style
+from twintube.report.page import Picture, Section, Table
+from twintube.vehicle.cars import CarSet
+from twintube.vehicle.quarter_car import Car
+
+HALF = 0.5  # scalar factor of the weak curve in the picture
+RESTS_ON = (
+    "Rests on: v_cav, Y of Table 9, and the ramp `cavitation_loss`, which is calibrated by the abstract of the paper. "
+    "No damper has been measured on such a plate. Refuted by: a damper with 10 to 20 % of its oil drained whose velocity "
+    "does not grow within 20 s above its v_cav, or an intact one whose velocity grows by more than heat explains."
+)
+PASSES = "passes"
+SPENT = "passes, as it lost its force before it was read, or loses none: see the other benches"
+BLIND = (
+    "A damper that has lost its force before the first half second ends does not tire any more, and passes here: it fails "
+    "on the other benches. A damper whose velocity stays below v_cav is not judged."
+)
+
+
+def words(entry: Entry) -> str:
+    """The verdict with what the rest tells, or why there is none."""
+    if entry.not_judged or entry.passed or entry.watched is None:
+        return entry.not_judged or PASSES
+    texts: dict[str, list[str]] = {}
+    for name, (first, again) in entry.watched.rested.items():
+        texts.setdefault(says(first, again), []).append(f"{name} {min(1.0, max(0.0, returned(first, again))):.0%}")
+    rested = "; ".join(f"{', '.join(shares)}: {text}" for text, shares in texts.items())
+    return f"fails; of the growth has returned after {REST:g} s of rest, with freed gas {rested}"
+
+
+def verdicts(entries: Sequence[Entry]) -> list[str]:
+    """`words` of each entry, from the highest oil level down; one that passes below one that fails may be spent."""
+    texts, failed = [], False
+    for entry in entries:
+        texts.append(SPENT if failed and entry.passed else words(entry))
+        failed |= entry.passed is False
+    return texts
+
+
+def remarks(entries: Sequence[Entry]) -> list[str]:
+    """What the terminal says below the figures: once each, with the oil levels to which it applies."""
+    levels: dict[str, list[str]] = {}
+    for entry, text in zip(entries, verdicts(entries), strict=True):
+        if text != PASSES:
+            levels.setdefault(text, []).append(f"{entry.condition.oil_level:.0%}")
+    return [f"tiring at {', '.join(at)} oil: {text}" for text, at in levels.items()]
+
+
+def plate_of(entries: Sequence[Entry]) -> Tired:
+    """The run that the picture shows: the last of the highest oil level that fails, else of the highest."""
+    watched = next((entry for entry in entries if entry.passed is False), entries[0]).watched
+    assert watched is not None, "entries of `tiring`"
+    return watched.runs[-1]
+
+
+def course(damper: Damper, corner: Car, entries: Sequence[Entry]) -> Figure:
+    """Velocity of the damper over the time on the plate, before and after the rest."""
+    figure, ((before, after),) = style.canvas(1, 2, (11.0, 4.4), sharey=True)
+    plate = plate_of(entries).plate
+    failing = [entry for entry in entries if entry.passed is False]
+    shown = dict.fromkeys(entry.condition for entry in [entries[0], *failing[:2], entries[-1]])
+
+    def line(state: Condition, label: str, colour: str, dashes: str = "-", fade: float = 0.0) -> None:
+        for ax, run in zip((before, after), twice(state.applied(damper), corner, plate, DT, fade), strict=True):
+            ax.plot(run.time, run.answer, dashes, color=colour, lw=1.4, label=label)
+
+    for state, colour in zip(shown, (style.INK, style.RED, style.ORANGE, style.GREEN), strict=False):
+        line(state, f"{state.oil_level:.0%} oil", colour)
+    line(INTACT, f"intact, heated by the run ({FADE:.1%} per kelvin)", style.GREY, "--", FADE)
+    line(Condition(HALF, 0, scalar=True), f"scalar factor {HALF:g}", style.BLUE, ":")
+    axes: tuple[tuple[Axes, str], ...] = (
+        (before, f"{damper.name} on the plate: {plate.amplitude * 1e3:g} mm, {FREQUENCY:g} Hz"),
+        (after, f"after {REST:g} s of rest"),
+    )
+    for ax, text in axes:
+        style.title(ax, text)
+        ax.set_xlabel("time since the plate starts [s]")
+        ax.set_ylim(bottom=0.0)
+    reached = damper.parameters.v_cav / np.sqrt(2.0)
+    before.axhline(reached, color=style.GREY, lw=1, ls=":")
+    before.text(
+        21.0, reached, "a sine that just reaches v_cav", color=style.GREY, ha="right", va="top", size=style.NOTE_SIZE
+    )
+    before.set_ylabel(f"damper velocity [m/s], root mean square of {CYCLES} cycles")
+    style.legend_above(figure, before)
+    return figure
+
+
+def table(entries: Sequence[Entry]) -> Table:
+    """One row per oil level."""
+    rows = []
+    for entry, text in zip(entries, verdicts(entries), strict=True):
+        assert entry.watched is not None, "entries of `tiring`"
+        run = max(entry.watched.runs, key=lambda each: each.growth)
+        rows.append([
+            f"{entry.condition.oil_level:.0%}", f"{run.plate.amplitude * 1e3:g}",
+            *(f"{x:.2f}" for x in (run.peak, run.answer[0], run.answer.max(), run.growth, run.force_growth)),
+            f"{run.contact_lost:.0%}", f"{run.work / 1e3:.0f}", text,
+        ])  # fmt: skip
+    head = ["oil", "plate [mm]", "fastest [m/s]", "first [m/s]", "largest [m/s]", "growth", "of the force", "off the plate",
+            "work [kJ]", "verdict"]  # fmt: skip
+    caption = "Fastest: of the first half second. Of the force: growth of the plate's force. Work: the heat of the run"
+    return Table(head, rows, caption, numeric=range(1, 9))
+
+
+def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[Section, bytes]:
+    """The section of one damper, and its picture."""
+    png = style.png(course(damper, vehicle.corner(damper), entries))
+    text = [
+        f"The plate shakes the wheel for {HOLD:g} s. A weak curve or a stiff tyre answers every cycle alike; oil loss frees "
+        f"gas in every fast stroke, and the damper tires. Fails above {LIMIT:g}, more than the heat of the run does to an "
+        f"intact damper. Then the plate stands for {REST:g} s and runs again: gas dissolves, heat stays. ",
+        BLIND,
+        RESTS_ON,
+    ]
+    name = f"{damper.name}_tiring"
+    return Section(f"tiring-{damper.name}", f"Does {damper.name} tire?", text=text, pictures=[Picture(png, name)],
+                   tables=[table(entries)]), png  # fmt: skip
