@@ -19,8 +19,8 @@ from twintube.files import write_text
 
 def at_dead_lengths(damper: Damper, lengths_mm: Sequence[float] | None) -> list[Damper]:
     """The damper with each of these dead lengths, which its name then says; raises InputError outside their bounds."""
-    from twintube.claims.lengths import LONGEST, SHORTEST
     from twintube.core.checks import outside
+    from twintube.dampers.dead_length import LONGEST, SHORTEST
 
     changed = []
     for length in lengths_mm or []:

@@ -41,8 +41,8 @@ HIGHEST: Final = 1.05  # [m/s] v_cav of Table 9, for a tester that does not know
 ENOUGH: Final = HIGHEST / math.sqrt(0.75)  # [m/s] of the first cycles: half of a sine's stroke is faster than HIGHEST
 REST: Final = 30.0  # [s]: freed gas has a half-life of 6 to 10 s, the heat of a damper one of minutes
 RETURNED: Final = 0.5  # of the growth: what has a half-life shorter than the rest has returned by more, heat by less
-# Of the growth. The heat of the run alone lets an intact damper's answer grow by up to 13 %: all dampers, 60 draws of the
-# scatter, all plates, 0.3 %/K and CAPACITY. Above that it is not such heat, and every intact damper passes.
+# Of the growth. The heat of the run alone lets an intact damper's answer grow by up to 13 %: the six that cavitate, 60 draws
+# of the scatter, all plates, 0.3 %/K and CAPACITY. Above that it is not such heat, and every intact damper passes.
 LIMIT: Final = 1.15
 
 
