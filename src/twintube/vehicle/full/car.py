@@ -157,6 +157,7 @@ class WheelMotion:
     e_y: float = var("wheel", "e_y", "m", "deflection of the tyre aside", default=0.0)
     de_x: float = var("wheel", "", "m/s", "its rate", default=0.0)
     de_y: float = var("wheel", "", "m/s", "its rate", default=0.0)
+    grip: float = var("wheel", "", "1", "factor of all tyre forces", default=1.0)
     load: float = var("wheel", "F_z", "N", "wheel load", default=0.0)
     F_x: float = var("wheel", "F_x", "N", "tyre force along the wheel", default=0.0)
     F_y: float = var("wheel", "F_y", "N", "tyre force aside", default=0.0)

@@ -19,7 +19,7 @@ def hold_speed(b: BodyMotion, radius: float, speed: float, wanted: float, dt: fl
 def drive_step(
     c: Body, b: BodyMotion, k1: Wheel, k2: Wheel, k3: Wheel, k4: Wheel,
     w1: WheelMotion, w2: WheelMotion, w3: WheelMotion, w4: WheelMotion, h: Brakes,
-    steer: float, pressure: float, wanted: float, torque: float, grip: float, dt: float,
+    steer: float, pressure: float, wanted: float, torque: float, dt: float,
 ) -> None:  # fmt: skip
     """One step of car, brakes and driver; road and damper forces stand in `w1` to `w4`.
 
@@ -32,4 +32,4 @@ def drive_step(
     control_brake(h, k3, w3, speed, pressure, dt)
     control_brake(h, k4, w4, speed, pressure, dt)
     whole = torque + hold_speed(b, k1.radius, speed, wanted, dt)
-    car_step(c, b, k1, k2, k3, k4, w1, w2, w3, w4, steer, whole, grip, dt)
+    car_step(c, b, k1, k2, k3, k4, w1, w2, w3, w4, steer, whole, dt)

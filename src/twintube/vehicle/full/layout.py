@@ -22,3 +22,4 @@ def start_wheel(k: Wheel, w: WheelMotion, speed: float) -> None:
     """A wheel that rolls freely at a `speed` [m/s] on a flat road; its brake may be applied."""
     w.spin = speed / k.radius
     w.order = 1.0
+    w.grip = 1.0

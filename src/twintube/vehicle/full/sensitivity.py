@@ -11,7 +11,8 @@ from twintube.core.checks import outside
 from twintube.dampers import Damper, ParameterError
 from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED
 from twintube.vehicle.cars import METAS, CarSet
-from twintube.vehicle.full.study import HEADLINES, Case, dampers_of, driven_all
+from twintube.vehicle.full.catalogue import MANEUVERS, Case
+from twintube.vehicle.full.study import dampers_of, driven_all
 
 SPEED = 80.0  # [km/h]
 DRIVES: Final = (
@@ -127,7 +128,9 @@ def wanted(level: float, seeds: Sequence[int], models: Sequence[str]) -> list[Ca
 def growth(entries: Sequence[Mapping[str, Any]]) -> dict[tuple[str, str, str], list[float]]:
     """Worn over intact less 1 of the headlines, seed by seed, by manoeuvre, road and model; what was not driven is NaN."""
     figures = {
-        (e["maneuver"], e["road"], e["seed"], e["model"] if e["oil_level"] < 1.0 else ""): e.get(HEADLINES[e["maneuver"]][0])
+        (e["maneuver"], e["road"], e["seed"], e["model"] if e["oil_level"] < 1.0 else ""): e.get(
+            MANEUVERS[e["maneuver"]].headline[0]
+        )
         for e in entries
     }
     found: dict[tuple[str, str, str], list[float]] = {}
