@@ -125,8 +125,15 @@ def test_a_car_file_is_refused_with_quantity_value_range_and_line(tmp_path: Path
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--maneuver", "drift"], "maneuver drift: must be one of ride, braking, cornering, table3"),
+        (["--maneuver", "drift"], "maneuver drift: must be one of ride, braking, cornering, step_steer, "),
         (["--road-class", "Z"], "road class Z: must be one of smooth, A"),
+        (["--grip", "slick"], "grip slick: must be one number, or two for left and right"),
+        (["--grip", "1,0"], "grip 0 on the right: must be from 0.05 to 1.5"),
+        (["--maneuver", "circle", "--road-class", "D"], "nothing to drive: a circle is not driven on the road class D"),
+        (
+            ["--maneuver", "ride", "--road-class", "smooth"],
+            "nothing to drive: a ride is not driven on the road class smooth",
+        ),
         (["--speed", "nan"], "speed nan km/h: must be from 1 to 250 km/h"),
         (["--speed", "0"], "speed 0 km/h: must be from 1 to 250 km/h"),
         (["--worn", "left"], "worn left: must be one of all, front, rear, front_left"),

@@ -12,8 +12,8 @@ from twintube.dampers import ParameterError, load
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.vehicle.cars import FOLDER, METAS, load_car
 from twintube.vehicle.full import sensitivity as study
-from twintube.vehicle.full.sensitivity import ASSUMED, FORCES, Assumed, Variant, growth, plus, times
 from twintube.vehicle.full.catalogue import MANEUVERS
+from twintube.vehicle.full.sensitivity import ASSUMED, FORCES, Assumed, Variant, growth, plus, times
 
 
 @pytest.fixture

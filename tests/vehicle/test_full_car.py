@@ -14,10 +14,10 @@ from twintube.vehicle import maneuvers as table3
 from twintube.vehicle.cars import FOLDER, load_car
 from twintube.vehicle.full import body
 from twintube.vehicle.full.car import WHEELS
+from twintube.vehicle.full.catalogue import Case
 from twintube.vehicle.full.figures import braking_figures, cornering_figures, ride_figures
 from twintube.vehicle.full.maneuvers import APPROACH, Road, braking, cornering, ride, table3_drive
 from twintube.vehicle.full.run import DT, FullCar, drive_car, full_car, started
-from twintube.vehicle.full.catalogue import Case
 from twintube.vehicle.full.study import cases, compared, dampers_of, drive_all
 from twintube.vehicle.road import SPACING
 

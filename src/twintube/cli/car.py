@@ -26,8 +26,8 @@ def car(
     maneuver: Annotated[
         list[str] | None,
         typer.Option(
-            help="ride, braking, cornering, step_steer, sine_with_dwell, lane_change, circle, braking_in_turn, or table3 for "
-            "the ten drives of the paper; repeat for several."
+            help="ride, braking, cornering, step_steer, sine_with_dwell, lane_change, circle, braking_in_turn, or table3 "
+            "for the ten drives of the paper; repeat for several."
         ),
     ] = None,
     front: FRONT = "SA7",
@@ -38,9 +38,7 @@ def car(
         list[float] | None, typer.Option(help="Speed [km/h], else the manoeuvre's own; repeat for several.")
     ] = None,
     road_class: Annotated[list[str] | None, typer.Option(help="smooth, or a class of ISO 8608; repeat for several.")] = None,
-    grip: Annotated[
-        str, typer.Option(help="Grip over that of a dry road: 0.7 where it is wet, 1,0.3 left and right.")
-    ] = "1",
+    grip: Annotated[str, typer.Option(help="Grip over that of a dry road: 0.7 for a wet one; 1,0.3 left, right.")] = "1",
     seeds: Annotated[int, typer.Option(help="Roads of each class.", min=1, max=1000)] = 5,
     car_file: CAR_FILE = "passat_b8",
     inspection: Annotated[
@@ -92,10 +90,11 @@ def car(
         if shown := picture(rows):
             write_bytes(output / "car.png", shown)
         typer.echo(f"{output / 'car.html'}")
+    width = max(10, *map(len, names))
     for row in rows:
-        drive = f"{row['maneuver']:10} {row['road']:7}{row['speed_kmh']:4.0f} km/h"
+        drive = f"{row['maneuver']:{width}} {row['road']:7}{row['speed_kmh']:4.0f} km/h"
         if row["change"] is None:
-            typer.echo(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}not driven")
+            typer.echo(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}{MANEUVERS[row['maneuver']].without}")
             continue
         low, high = row["change_band"]
         others = " and all ways of the freed gas" if row["model"] == FULL else ""
@@ -104,8 +103,9 @@ def car(
             f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g} {row['unit']} ({row['change']:+.0%}, "
             f"{low:+.0%} to {high:+.0%} over {counted(row['seeds'], 'seed')}{others})"
         )
-        if row["beside"]:
-            typer.echo("    " + "; ".join(beside(item) for item in row["beside"]))
+        known_beside = [beside(item) for item in row["beside"] if item["worn"] is not None]
+        if known_beside:
+            typer.echo("    " + "; ".join(known_beside))
     for reason in dict.fromkeys(entry["failed"] for entry in entries if "failed" in entry):
         typer.echo(f"not driven: {reason}", err=True)
 

@@ -85,7 +85,8 @@ def page(
         f"Whole car: {car.title}",
         [
             f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
-            f"without gas preload; grip {conditions['grip']} of a dry road's. Each figure is that of the worn car over that of the intact car on the same road; the "
+            f"without gas preload; grip {conditions['grip']} of a dry road's. Each figure is that of the "
+            "worn car over that of the intact car on the same road; the "
             f"band is that of {counted(conditions['seeds'], 'seed')}: other roads of the class, and a slip control whose "
             "thresholds and rates scatter by a quarter; of the full model also that of four ways of the gas that "
             "cavitation frees. F-v curves are stand-ins (assumed)."
@@ -129,7 +130,7 @@ def table(rows: Sequence[Mapping[str, Any]]) -> Table:
         over = counted(row["seeds"], "seed") + ("" if row["model"] == SCALAR else " and the ways of the freed gas")
         cells.append([
             f"{row['speed_kmh']:.0f}", row["road"], f"{row['oil_level']:.0%}", row["model"],
-            "not driven" if band is None else f"{row['change']:+.1%}",
+            MANEUVERS[row["maneuver"]].without if band is None else f"{row['change']:+.1%}",
             "" if band is None else f"{band[0]:+.1%} to {band[1]:+.1%}", over, str(row["failed"] or ""),
         ])  # fmt: skip
     head = ("km/h", "road", "oil", "model", "change", "band", "over", "left out")

@@ -10,8 +10,8 @@ from twintube.inspection.tables import markdown
 from twintube.readable import unit_of
 from twintube.report.page import Headline, Picture, Section, Table, html
 from twintube.report.style import BLUE, FAINT, INK, RED, canvas, legend_above, png, title
-from twintube.vehicle.full.sensitivity import ASSUMED, DRIVES, SPEED, Assumed, Sensitivity, mean
 from twintube.vehicle.full.catalogue import MANEUVERS
+from twintube.vehicle.full.sensitivity import ASSUMED, DRIVES, SPEED, Assumed, Sensitivity, mean
 from twintube.words import counted
 
 SHORT = {"ride": "DLC", "braking": "stop", "cornering": "bend"}

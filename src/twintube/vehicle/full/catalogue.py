@@ -52,16 +52,21 @@ class Maneuver:
     beside: tuple[tuple[str, str, str], ...] = ()
     speeds: tuple[float, ...] = (80.0,)  # [km/h] where none are given
     standard: str = ""
-    even: bool = True  # whether it is driven on a smooth road, too
+    smooth: bool = True  # whether it is driven on smooth roads
+    uneven: bool = True  # and on uneven ones
+    without: str = "not driven"  # what no figure means, where it was driven
     seeded: bool = False  # whether seeds differ on a smooth road, by the slip control
 
 
-def cornering_figures(car: FullCar, case: Case, run: CarRun) -> dict[str, Any]:
-    """Those of a bend; a few seconds of an uneven road give no gradient."""
-    figures = shown.cornering_figures(car, run)
+# Endings of the figures that a few seconds of an uneven road do not give: gradients, responses, steady values.
+OF_SMOOTH_ROADS = ("per_g", "t90_s", "peak_ratio", "peak_time_s", "gain_1_s")
+
+
+def readable(figures: dict[str, Any], case: Case) -> dict[str, Any]:
+    """The figures that the road allows."""
     if case.road == SMOOTH:
         return figures
-    return {name: value for name, value in figures.items() if not name.endswith("per_g")}
+    return {name: value for name, value in figures.items() if not name.endswith(OF_SMOOTH_ROADS)}
 
 
 DLC = ("dlc_worst", "largest DLC of a wheel", "1")
@@ -73,22 +78,24 @@ MANEUVERS: Final = {
     "ride": Maneuver(
         "Ride", DLC,
         lambda car, case: driven.ride(car, case.speed_kmh, RIDE_SECONDS, case.ground),
-        lambda car, case, run: shown.ride_figures(car, run), speeds=(50.0, 80.0), even=False,
+        lambda car, case, run: shown.ride_figures(car, run), speeds=(50.0, 80.0), smooth=False,
     ),
     "braking": Maneuver(
         "Braking", STOP,
         lambda car, case: driven.braking(car, case.speed_kmh, case.ground),
         lambda car, case, run: shown.braking_figures(car, run),
-        (YAW, ("heading_max_deg", "largest heading", "deg"), ("side_offset_max_m", "largest side offset", "m")), speeds=(50.0, 80.0), seeded=True,
+        (YAW, ("heading_max_deg", "largest heading", "deg"), ("side_offset_max_m", "largest side offset", "m")),
+        speeds=(50.0, 80.0), seeded=True,
     ),
     "cornering": Maneuver(
         "Cornering", ("lateral_acceleration_max_m_s2", "largest lateral acceleration", "m/s2"),
-        lambda car, case: driven.cornering(car, case.speed_kmh, case.ground), cornering_figures, speeds=(50.0, 80.0),
+        lambda car, case: driven.cornering(car, case.speed_kmh, case.ground),
+        lambda car, case, run: readable(shown.cornering_figures(car, run), case), speeds=(50.0, 80.0),
     ),
     "step_steer": Maneuver(
         "Step steer", ROLL,
         lambda car, case: standards.step_steer(car, case.speed_kmh, case.ground),
-        lambda car, case, run: judged.step_figures(car, run),
+        lambda car, case, run: readable(judged.step_figures(car, run), case),
         (
             ("yaw_rate_t90_s", "response time of the yaw rate", "s"),
             ("yaw_rate_peak_ratio", "peak of the yaw rate over steady", "1"),
@@ -98,15 +105,17 @@ MANEUVERS: Final = {
         standard="ISO 7401:2011, clause 10: step to a steady 4 m/s2",
     ),
     "sine_with_dwell": Maneuver(
-        "Sine with dwell", SLIP,
+        "Sine with dwell", ("amplitude_passed_A", "largest steering passed", "A"),
         lambda car, case: standards.sine_with_dwell(car, case.speed_kmh, case.ground),
-        lambda car, case, run: judged.sine_figures(car, run),
+        lambda car, case, run: judged.sine_figures(car, run, case.speed_kmh, case.ground),
         (
             ("yaw_ratio_1_s", "yaw rate 1 s after the steering over its peak", "1"),
             ("yaw_ratio_1.75_s", "1.75 s after it", "1"),
-            ("displacement_1.07_s_m", "displacement after 1.07 s", "m"),
+            ("displacement_1.07_s_m", "displacement after 1.07 s", "m"), SLIP,
         ),
-        standard="49 CFR 571.126 (FMVSS 126) S5.2, S7.9: 5 A, without the stability control that it asks for",
+        standard="49 CFR 571.126 (FMVSS 126) S5.2, S7.9, by steps of 0.5 A, figures beside it at 5 A; without the stability "
+        "control that it asks for",
+        without="no steering passed",
     ),
     "lane_change": Maneuver(
         "Obstacle avoidance", ("entry_speed_max_kmh", "highest entry speed passed", "km/h"),
@@ -116,7 +125,7 @@ MANEUVERS: Final = {
             ("out_of_lane_m", "out of the lanes, below 0 the room left", "m"),
             ("steer_rate_rms_deg_s", "steering work: rate, rms", "deg/s"), SLIP,
         ),
-        speeds=(60.0,), standard="ISO 3888-2:2011, Table 1",
+        speeds=(60.0,), standard="ISO 3888-2:2011, Table 1", without="no entry passed",
     ),
     "circle": Maneuver(
         "Steady circle", ("understeer_deg_per_g", "understeer gradient", "deg/g"),
@@ -126,10 +135,10 @@ MANEUVERS: Final = {
             ("roll_deg_per_g", "roll gradient", "deg/g"),
             ("lateral_acceleration_max_m_s2", "largest lateral acceleration", "m/s2"),
         ),
-        speeds=(120.0,), standard="ISO 4138:2021, constant radius of 100 m, faster and faster",
+        speeds=(120.0,), standard="ISO 4138:2021, constant radius of 100 m, faster and faster", uneven=False,
     ),
     "braking_in_turn": Maneuver(
-        "Braking in a turn", ("yaw_ratio_max", "largest yaw rate over that of the circle", "1"),
+        "Braking in a turn", ("yaw_ratio_braked", "yaw rate 1 s after the brakes over that of the circle", "1"),
         lambda car, case: standards.braking_in_turn(car, case.speed_kmh, case.ground),
         lambda car, case, run: judged.turn_figures(car, run),
         (

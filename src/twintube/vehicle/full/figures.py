@@ -67,7 +67,7 @@ def ride_figures(car: FullCar, run: CarRun, settled: float = SETTLED) -> dict[st
 
 
 def swerve(run: CarRun, begin: int, end: int) -> dict[str, float]:
-    """Where a straight drive goes astray from sample `begin` to `end`: largest yaw rate [deg/s], heading [deg] and offset [m].
+    """Where a straight drive goes from sample `begin` to `end`: largest yaw rate [deg/s], heading [deg] and side offset [m].
 
     Heading and offset, to the left positive, are those against the direction of travel at `begin`; amounts end with `max`.
     """

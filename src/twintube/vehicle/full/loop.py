@@ -23,7 +23,8 @@ def road_step(
 
     The dampers' forces stand in `ws`, which receives the strokes and velocities under which they do their step. `road`
     (2, m) [m] are the heights under left and right wheels every `spacing` [m], position 0 is at the rear axle at the start.
-    `grips` (2,) are the factors of the tyre forces on either of them. `steer` [rad], brake pressure `wanted` [Pa] and `held` speed [m/s], 0 where he coasts, are the driver's.
+    `grips` (2,) are the factors of the tyre forces on either of them. `steer` [rad], brake pressure `wanted` [Pa] and `held`
+    speed [m/s], 0 where he coasts, are the driver's.
     """
     speed = b.v_x + 0.5 * b.dv_x
     for i in range(4):

@@ -9,25 +9,29 @@ from twintube.vehicle.full.figures import LINEAR, STANDING, loads, smoothed
 from twintube.vehicle.full.lane_change import entry_of, excess, highest_entry
 from twintube.vehicle.full.maneuvers import APPROACH, Road
 from twintube.vehicle.full.run import CarRun, FullCar
-from twintube.vehicle.full.standards import RADIUS, SINE_SECONDS, TURN_APPROACH
+from twintube.vehicle.full.standards import RADIUS, SINE_AMPLITUDE, SINE_SECONDS, TURN_APPROACH, sine_with_dwell
 from twintube.vehicle.quarter_car import GRAVITY
 
 STEADY = 2.0  # [s] at the end of a step over which the steady values are averaged
 SHARE = 0.9  # of the steady value, at which the response time ends; it begins at half of the steer angle
 AFTER_STEER = (1.0, 1.75)  # [s] after the steering is completed, FMVSS 126 S5.2.1 and S5.2.2
+RATIOS = (0.35, 0.20)  # the largest that pass
+LEAST_DISPLACED = 1.83  # [m] from SINE_AMPLITUDE on
+AMPLITUDES = tuple(np.arange(1.5, 6.51, 0.5).tolist())  # [A], S7.9.2 to S7.9.4; the 270 degrees of S7.9.4 need a steering ratio
 DISPLACED = 1.07  # [s] after the steering begins, S5.2.3
-MOVING = 3.0  # [m/s] below which a turn is no longer judged: the slip angle loses its sense
+MOVING = 3.0  # [m/s] below which the slip angle loses its sense and a turn is no longer judged
 RISING = 0.2  # [s] over which a turn's yaw rate is averaged: an uneven road's shocks are not the turn's
 
 
 def side_slip(run: CarRun) -> Array:
-    """Side slip angle (n,) [rad] of the body's centre of gravity, while the car moves."""
-    return np.where(run.v_x > MOVING, np.arctan2(run.v_y, np.maximum(run.v_x, MOVING)), 0.0)
+    """Side slip angle (n,) [rad] of the body's centre of gravity; NaN where the car hardly moves."""
+    moves = np.hypot(run.v_x, run.v_y) > MOVING
+    return np.where(moves, np.arctan2(run.v_y, run.v_x), np.nan)
 
 
 def peak(values: Array) -> float:
-    """Largest amount in degrees."""
-    return float(np.degrees(np.abs(values).max()))
+    """Largest amount in degrees, of the values that are there."""
+    return float(np.degrees(np.nanmax(np.abs(values))))
 
 
 def step_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
@@ -51,8 +55,32 @@ def step_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
     }
 
 
-def sine_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
-    """FMVSS 126: yaw rate after the steering over its second peak, lateral displacement [m], side slip and roll [deg]."""
+def sine_figures(car: FullCar, run: CarRun, speed_kmh: float, road: Road) -> dict[str, Any]:
+    """FMVSS 126: the largest amplitude passed [A]; of the given one `sine_response`, side slip and roll [deg]."""
+    begin = int(np.searchsorted(run.time, APPROACH))
+    return sine_response(run) | {
+        "amplitude_passed_A": largest_passed(car, speed_kmh, road),
+        "yaw_rate_max_deg_s": peak(run.yaw_rate[begin:]),
+        "side_slip_max_deg": peak(side_slip(run)[begin:]),
+        "roll_max_deg": peak(run.roll[begin:]),
+        **loads(car, run.load[begin:]),
+    }
+
+
+def largest_passed(car: FullCar, speed_kmh: float, road: Road) -> float | None:
+    """Largest amplitude [A] that passes, as all smaller ones do; None if none does."""
+    passed = None
+    for amplitude in AMPLITUDES:
+        response = sine_response(sine_with_dwell(car, speed_kmh, road, amplitude))
+        stable = all(response[f"yaw_ratio_{after:g}_s"] <= most for after, most in zip(AFTER_STEER, RATIOS, strict=True))
+        if not stable or (amplitude >= SINE_AMPLITUDE and response["displacement_1.07_s_m"] < LEAST_DISPLACED):
+            break
+        passed = amplitude
+    return passed
+
+
+def sine_response(run: CarRun) -> dict[str, float]:
+    """Yaw rate after the steering over its second peak, and the lateral displacement [m]."""
     dt = float(run.time[1] - run.time[0])
     begin, end = (int(np.searchsorted(run.time, t)) for t in (APPROACH, APPROACH + SINE_SECONDS))
     back = begin + int(np.argmax(run.steer[begin:end] < 0.0))
@@ -60,13 +88,7 @@ def sine_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
     at = begin + round(DISPLACED / dt)
     dx, dy = run.x[at] - run.x[begin], run.y[at] - run.y[begin]
     after = {f"yaw_ratio_{seconds:g}_s": float(-run.yaw_rate[end + round(seconds / dt)] / second) for seconds in AFTER_STEER}
-    return after | {
-        "yaw_rate_max_deg_s": peak(run.yaw_rate[begin:]),
-        "displacement_1.07_s_m": float(np.cos(run.yaw[begin]) * dy - np.sin(run.yaw[begin]) * dx),
-        "side_slip_max_deg": peak(side_slip(run)[begin:]),
-        "roll_max_deg": peak(run.roll[begin:]),
-        **loads(car, run.load[begin:]),
-    }
+    return after | {"displacement_1.07_s_m": float(np.cos(run.yaw[begin]) * dy - np.sin(run.yaw[begin]) * dx)}
 
 
 def lane_figures(car: FullCar, run: CarRun, speed_kmh: float, road: Road) -> dict[str, Any]:
@@ -122,8 +144,7 @@ def turn_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
     off = np.hypot(run.x[begin:end] - middle[0], run.y[begin:end] - middle[1]) - RADIUS
     first = min(round(1.0 / float(run.time[1])), len(slip) - 1)
     return {
-        "yaw_ratio_max": float(ratio.max()),
-        "yaw_ratio_1_s": float(ratio[first]),
+        "yaw_ratio_braked": float(ratio[first]),
         "yaw_rate_max_deg_s": peak(yaw_rate),
         "side_slip_change_deg": peak(slip - slip[0]),
         "off_circle_m": float(off[np.argmax(np.abs(off))]),

@@ -58,7 +58,7 @@ def step_steer(car: FullCar, speed_kmh: float, road: Road, dt: float = DT) -> Ca
 
 
 def sine_with_dwell(car: FullCar, speed_kmh: float, road: Road, amplitude: float = SINE_AMPLITUDE, dt: float = DT) -> CarRun:
-    """FMVSS 126: the car coasts from APPROACH on and is steered left, then right, by `amplitude` times A; raises InputError."""
+    """FMVSS 126: the car coasts from APPROACH on, steered left and then right by `amplitude` times A; raises InputError."""
     speed = checked_speed(speed_kmh)
     time, inputs = straight_inputs(speed, APPROACH + SINE_SECONDS + AFTER, dt)
     since, dwells = time - APPROACH, 0.75 / SINE_FREQUENCY
@@ -98,7 +98,7 @@ def circle(car: FullCar, speed_kmh: float, road: Road, dt: float = DT) -> CarRun
 
 
 def braking_in_turn(car: FullCar, speed_kmh: float, road: Road, dt: float = DT) -> CarRun:
-    """ISO 7975: from TURN_APPROACH on the steering stands still and the car is stopped as by `braking`; raises InputError."""
+    """ISO 7975: from TURN_APPROACH on the steering is held and the car stopped as by `braking`; raises InputError."""
     speed = checked_speed(speed_kmh)
     slow = min(1.0, float(np.mean(road.grips)))
     seconds = TURN_APPROACH + 1.0 + speed / (3.0 * slow)

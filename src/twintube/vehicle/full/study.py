@@ -3,7 +3,7 @@
 import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -86,7 +86,7 @@ def cases(
                 (speed, road, road != SMOOTH or maneuver.seeded)
                 for speed in speeds or maneuver.speeds
                 for road in roads
-                if road != SMOOTH or maneuver.even
+                if (maneuver.smooth if road == SMOOTH else maneuver.uneven)
             ]
         wanted += [
             Case(name, speed, road, seed, level, model, grips)
@@ -96,7 +96,7 @@ def cases(
             for model in ((DEFAULT,) if level == 1.0 else (*VARIED, SCALAR))
         ]
     if not wanted:
-        raise InputError(f"nothing to drive: a {', '.join(maneuvers)} needs a road class other than {', '.join(roads)}")
+        raise InputError(f"nothing to drive: a {', '.join(maneuvers)} is not driven on the road class {', '.join(roads)}")
     return wanted
 
 
