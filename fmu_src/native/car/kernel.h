@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 6d93d58b75934a9c, body 7a398418afd87527; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 6e11e9daebff33dd, body 031fafab9c85f8d3; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -53,6 +53,7 @@ struct kernel_BodyMotion {
     double a_x;
     double a_y;
     double way;
+    double seen;
     double behind;
     double work;
 };
@@ -138,11 +139,17 @@ struct kernel_WheelMotion {
     double waiting;
     double controlled;
     double order;
+    double rim;
 };
 
 struct kernel_Brakes {
     double slip_release;
     double slip_build;
+    double fall;
+    double rise;
+    double drift;
+    double catch;
+    double regain;
     double build;
     double release;
     double apply;
@@ -243,6 +250,7 @@ static void kernel_set_up_car(struct kernel_Body* c, struct kernel_Wheel* k1, st
 static void kernel_start_wheel(struct kernel_Wheel* k, struct kernel_WheelMotion* w, double speed)
 {
     w->spin = speed / k->radius;
+    w->rim = speed;
     w->order = 1.0;
     w->grip = 1.0;
 }
@@ -251,6 +259,7 @@ static void kernel_start_wheel(struct kernel_Wheel* k, struct kernel_WheelMotion
 static void kernel_start_car(struct kernel_BodyMotion* b, struct kernel_Wheel* k1, struct kernel_Wheel* k2, struct kernel_Wheel* k3, struct kernel_Wheel* k4, struct kernel_WheelMotion* w1, struct kernel_WheelMotion* w2, struct kernel_WheelMotion* w3, struct kernel_WheelMotion* w4, struct kernel_WheelInputs* j1, struct kernel_WheelInputs* j2, struct kernel_WheelInputs* j3, struct kernel_WheelInputs* j4, double speed)
 {
     b->v_x = speed;
+    b->seen = speed;
     kernel_start_wheel(k1, w1, speed);
     kernel_start_wheel(k2, w2, speed);
     kernel_start_wheel(k3, w3, speed);
@@ -307,42 +316,71 @@ static void kernel_meet_road(struct kernel_WheelMotion* w, struct kernel_WheelIn
     w->acting = w->damper + ahead * (w->damper - w->before);
 }
 
-/* Carry the pressure of a wheel's brake over `dt` [s]; the driver wants `wanted` [Pa], the car goes at `speed` [m/s]. */
-static void kernel_control_brake(struct kernel_Brakes* h, struct kernel_Wheel* k, struct kernel_WheelMotion* w, double speed, double wanted, double dt)
+/* Carry the speed that the control takes for the car's over `dt` [s], by those of the rims [m/s].
+   The second fastest counts, and only so fast: on an uneven road rims run ahead of the car again and again. */
+static void kernel_seen_speed(struct kernel_Brakes* h, struct kernel_BodyMotion* b, double r1, double r2, double r3, double r4, double dt)
 {
-    double slip;
+    double leading;
+    double second;
+    double foreseen;
+    leading = double_min(2, double_max(2, r1, r2), double_max(2, r3, r4));
+    second = double_max(3, leading, double_min(2, r1, r2), double_min(2, r3, r4));
+    foreseen = b->seen + b->a_x * dt;
+    b->seen = double_min(2, double_max(2, second, foreseen - h->drift * dt), foreseen + h->catch * dt);
+}
+
+/* What follows on an order, by the slip of a wheel and the acceleration of its rim [m/s2]. */
+static double kernel_next_order(struct kernel_Brakes* h, double order, double slip, double rate)
+{
+    if (order == 2.0)
+    {
+        return (rate > h->rise ? 3.0 : 2.0);
+    }
+    if ((slip > h->slip_release) && (rate <= h->rise))
+    {
+        return 2.0;
+    }
+    if (order == 3.0)
+    {
+        return ((slip < h->slip_build) || (rate < h->rise) ? 1.0 : 3.0);
+    }
+    return (rate < -h->fall ? 0.0 : 1.0);
+}
+
+/* Carry the pressure of a wheel's brake over `dt` [s]; `wanted` [Pa] is the driver's, `seen` [m/s] the estimate. */
+static void kernel_control_brake(struct kernel_Brakes* h, struct kernel_Wheel* k, struct kernel_WheelMotion* w, double seen, double wanted, double dt)
+{
+    double rim;
     double rate;
+    double order;
+    bool slow;
+    double growth;
     w->waiting -= dt;
     if (w->waiting <= 0.0)
     {
         w->waiting += h->cycle;
-        slip = 1.0 - k->radius * w->spin / double_max(2, speed, 0.1);
-        if ((speed < h->slowest) || (w->pressure <= 0.0))
-        {
-            w->order = 1.0;
-        }
-        else if (slip > h->slip_release)
-        {
-            w->order = -1.0;
-            w->controlled = 1.0;
-        }
-        else if (slip < h->slip_build)
+        rim = k->radius * w->spin;
+        rate = (rim - w->rim) / h->cycle;
+        w->rim = rim;
+        if ((seen < h->slowest) || (w->pressure <= 0.0))
         {
             w->order = 1.0;
         }
         else
         {
-            w->order = 0.0;
+            order = kernel_next_order(h, w->order, 1.0 - rim / seen, rate);
+            w->order = order;
         }
     }
-    if (w->order < 0.0)
+    if (w->order == 2.0)
     {
         w->pressure = double_max(2, 0.0, w->pressure - h->release * dt);
     }
-    else if (w->order > 0.0)
+    else if (w->order == 1.0)
     {
-        rate = ((w->controlled > 0.0) && (speed >= h->slowest) ? h->build : h->apply);
-        w->pressure = double_min(2, wanted, w->pressure + rate * dt);
+        slow = (seen >= h->slowest) && (w->controlled > 0.0) && (w->pressure >= h->regain * w->controlled);
+        growth = (slow ? h->build : h->apply);
+        w->pressure = double_min(2, wanted, w->pressure + growth * dt);
     }
     w->pressure = double_min(2, w->pressure, wanted);
 }
@@ -758,10 +796,11 @@ static void kernel_drive_step(struct kernel_Body* c, struct kernel_BodyMotion* b
     double speed;
     double whole;
     speed = b->v_x + 0.5 * b->dv_x;
-    kernel_control_brake(h, k1, w1, speed, pressure, dt);
-    kernel_control_brake(h, k2, w2, speed, pressure, dt);
-    kernel_control_brake(h, k3, w3, speed, pressure, dt);
-    kernel_control_brake(h, k4, w4, speed, pressure, dt);
+    kernel_seen_speed(h, b, k1->radius * w1->spin, k2->radius * w2->spin, k3->radius * w3->spin, k4->radius * w4->spin, dt);
+    kernel_control_brake(h, k1, w1, b->seen, pressure, dt);
+    kernel_control_brake(h, k2, w2, b->seen, pressure, dt);
+    kernel_control_brake(h, k3, w3, b->seen, pressure, dt);
+    kernel_control_brake(h, k4, w4, b->seen, pressure, dt);
     whole = torque + kernel_hold_speed(b, k1->radius, speed, wanted, dt);
     kernel_car_step(c, b, k1, k2, k3, k4, w1, w2, w3, w4, steer, whole, dt);
 }

@@ -140,6 +140,7 @@ class BodyMotion(Sums):
     a_x: float = var("motion", "a_x", "m/s2", "acceleration forward of the centre of gravity", default=0.0)
     a_y: float = var("motion", "a_y", "m/s2", "acceleration to the left", default=0.0)
     way: float = var("motion", "", "m", "way along the road since the start", default=0.0)
+    seen: float = var("motion", "", "m/s", "speed that the slip control takes for the car's", default=0.0)
     behind: float = var("motion", "", "m", "way by which the held speed was missed", default=0.0)
     work: float = var("motion", "", "J", "work of road, drive, brakes, damping and friction on the car", default=0.0)
 
@@ -174,5 +175,6 @@ class WheelMotion:
     acting: float = var("wheel", "", "N", "damper force at the start of the step to come", default=0.0)
     pressure: float = var("wheel", "p", "Pa", "brake pressure", default=0.0)
     waiting: float = var("wheel", "", "s", "time until the slip control decides again", default=0.0)
-    controlled: float = var("wheel", "", "1", "1 once the slip control has acted", default=0.0)
-    order: float = var("wheel", "", "1", "its order: 1 build up, 0 hold, -1 release", default=1.0)
+    controlled: float = var("wheel", "", "Pa", "brake pressure at which the slip control last began a release", default=0.0)
+    order: float = var("wheel", "", "1", "its order: 0 hold, 1 build up, 2 release, 3 let recover", default=1.0)
+    rim: float = var("wheel", "", "m/s", "speed of the rim at its last decision", default=0.0)

@@ -35,6 +35,7 @@ def start_car(
 ) -> None:  # fmt: skip
     """Let the car roll straight ahead at a `speed` [m/s]; its records hold zeros."""
     b.v_x = speed
+    b.seen = speed
     start_wheel(k1, w1, speed)
     start_wheel(k2, w2, speed)
     start_wheel(k3, w3, speed)

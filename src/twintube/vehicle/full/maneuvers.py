@@ -19,7 +19,7 @@ MOST_STEER = 40.0  # [deg] at the wheel
 MOST_LATERAL, MOST_SLIP = 11.0, 6.0  # [m/s2], [deg] of the front tyres: where the steering ends, beyond the largest force
 SMOOTH = "smooth"
 CLASSES = (SMOOTH, *GD_N0)
-GRIPS = (0.05, 1.5)  # wet ice to a racing tyre
+GRIPS = (0.1, 1.5)  # ice to a racing tyre
 
 
 @dataclass(frozen=True)

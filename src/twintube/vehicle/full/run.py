@@ -132,7 +132,7 @@ def together(records: Sequence[Any]) -> np.ndarray[Any, Any]:
 def started(car: FullCar, speed: float) -> tuple[BodyMotion, list[WheelMotion]]:
     """The car rolling straight ahead at a `speed` [m/s] on a flat road."""
     body = blank(BodyMotion)
-    body.v_x = speed
+    body.v_x, body.seen = speed, speed
     wheels = [blank(WheelMotion) for _ in WHEELS]
     for motion, wheel in zip(wheels, car.wheels, strict=True):
         start_wheel(wheel, motion, speed)

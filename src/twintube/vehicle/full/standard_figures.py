@@ -17,7 +17,9 @@ SHARE = 0.9  # of the steady value, at which the response time ends; it begins a
 AFTER_STEER = (1.0, 1.75)  # [s] after the steering is completed, FMVSS 126 S5.2.1 and S5.2.2
 RATIOS = (0.35, 0.20)  # the largest that pass
 LEAST_DISPLACED = 1.83  # [m] from SINE_AMPLITUDE on
-AMPLITUDES = tuple(np.arange(1.5, 6.51, 0.5).tolist())  # [A], S7.9.2 to S7.9.4; the 270 degrees of S7.9.4 need a steering ratio
+AMPLITUDES = tuple(
+    np.arange(1.5, 6.51, 0.5).tolist()
+)  # [A], S7.9.2 to S7.9.4; the 270 degrees of S7.9.4 need a steering ratio
 DISPLACED = 1.07  # [s] after the steering begins, S5.2.3
 MOVING = 3.0  # [m/s] below which the slip angle loses its sense and a turn is no longer judged
 RISING = 0.2  # [s] over which a turn's yaw rate is averaged: an uneven road's shocks are not the turn's

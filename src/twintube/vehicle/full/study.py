@@ -46,7 +46,7 @@ def varied(brakes: Brakes, seed: int) -> Brakes:
     if seed == 1:
         return brakes
     rng = np.random.default_rng([seed, 7])
-    names = ("slip_release", "slip_build", "build", "release", "cycle")
+    names = ("slip_release", "slip_build", "fall", "build", "release", "cycle")
     values = {name: getattr(brakes, name) * float(rng.uniform(1 - SCATTER, 1 + SCATTER)) for name in names}
     values["slip_build"] = min(values["slip_build"], 0.8 * values["slip_release"])
     return replace(brakes, **values)
