@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 6e11e9daebff33dd, body 031fafab9c85f8d3; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations a02d1d4106f45640, body 7160496b0dffe64d; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -321,10 +321,12 @@ static void kernel_meet_road(struct kernel_WheelMotion* w, struct kernel_WheelIn
 static void kernel_seen_speed(struct kernel_Brakes* h, struct kernel_BodyMotion* b, double r1, double r2, double r3, double r4, double dt)
 {
     double leading;
+    double behind;
     double second;
     double foreseen;
     leading = double_min(2, double_max(2, r1, r2), double_max(2, r3, r4));
-    second = double_max(3, leading, double_min(2, r1, r2), double_min(2, r3, r4));
+    behind = double_max(2, double_min(2, r1, r2), double_min(2, r3, r4));
+    second = double_max(2, leading, behind);
     foreseen = b->seen + b->a_x * dt;
     b->seen = double_min(2, double_max(2, second, foreseen - h->drift * dt), foreseen + h->catch * dt);
 }

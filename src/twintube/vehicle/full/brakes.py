@@ -66,7 +66,8 @@ def seen_speed(h: Brakes, b: BodyMotion, r1: float, r2: float, r3: float, r4: fl
     The second fastest counts, and only so fast: on an uneven road rims run ahead of the car again and again.
     """
     leading = min(max(r1, r2), max(r3, r4))
-    second = max(leading, min(r1, r2), min(r3, r4))
+    behind = max(min(r1, r2), min(r3, r4))
+    second = max(leading, behind)
     foreseen = b.seen + b.a_x * dt
     b.seen = min(max(second, foreseen - h.drift * dt), foreseen + h.catch * dt)
 
