@@ -100,7 +100,7 @@ def car(
         others = " and all ways of the freed gas" if row["model"] == FULL else ""
         typer.echo(
             f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}"
-            f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g} {row['unit']} ({row['change']:+.0%}, "
+            f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g}{'' if row['unit'] == '1' else ' ' + row['unit']} ({row['change']:+.0%}, "
             f"{low:+.0%} to {high:+.0%} over {counted(row['seeds'], 'seed')}{others})"
         )
         known_beside = [beside(item) for item in row["beside"] if item["worn"] is not None]
@@ -128,7 +128,8 @@ def car_sensitivity(
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.run import full_car
     from twintube.vehicle.full.sensitivity import Variant, sensitivity
-    from twintube.vehicle.full.study import Case, dampers_of
+    from twintube.vehicle.full.catalogue import Case
+    from twintube.vehicle.full.study import dampers_of
 
     if output is not None:
         check_folder(output, ("sensitivity.html",), of_options())

@@ -41,7 +41,8 @@ class Pursuer:
 def off_path(b: Any, path: Any, j: int) -> float:
     """Square of the distance [m2] to a point of the path."""
     x, y = path[j, 0] - b.x, path[j, 1] - b.y
-    return x * x + y * y
+    squares: float = x * x + y * y
+    return squares
 
 
 def follow_path(q: Any, b: Any, path: Any, time: float, dt: float) -> float:
@@ -50,8 +51,9 @@ def follow_path(q: Any, b: Any, path: Any, time: float, dt: float) -> float:
     `path` (m, 4) are places [m], direction [rad] and curvature [1/m], a point every PATH_SPACING.
     """
     last = len(path) - 1
+    steer: float = q.steer
     if last < 0 or time >= q.until:
-        return q.steer
+        return steer
     near = int(q.at)
     while near < last and off_path(b, path, near + 1) <= off_path(b, path, near):
         near += 1
@@ -66,6 +68,7 @@ def follow_path(q: Any, b: Any, path: Any, time: float, dt: float) -> float:
     curvature = path[to_come, 3] - 2.0 * (off + ahead * away) / (ahead * ahead)
     wanted = (q.wheelbase + q.understeer / GRAVITY * speed * speed) * curvature
     wanted = max(-q.most, min(q.most, wanted))
-    rate = max(-q.most_rate, min(q.most_rate, (wanted - q.steer) / q.lag))
-    q.steer += dt * rate
-    return q.steer
+    rate = max(-q.most_rate, min(q.most_rate, (wanted - steer) / q.lag))
+    steer += dt * rate
+    q.steer = steer
+    return steer
