@@ -97,10 +97,11 @@ def car(
             typer.echo(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}{MANEUVERS[row['maneuver']].without}")
             continue
         low, high = row["change_band"]
+        unit = "" if row["unit"] == "1" else f" {row['unit']}"
         others = " and all ways of the freed gas" if row["model"] == FULL else ""
         typer.echo(
             f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}"
-            f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g}{'' if row['unit'] == '1' else ' ' + row['unit']} ({row['change']:+.0%}, "
+            f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g}{unit} ({row['change']:+.0%}, "
             f"{low:+.0%} to {high:+.0%} over {counted(row['seeds'], 'seed')}{others})"
         )
         known_beside = [beside(item) for item in row["beside"] if item["worn"] is not None]
@@ -126,9 +127,9 @@ def car_sensitivity(
     """Vary every assumed value of the car and its brakes, and see how the effect of the worn dampers moves."""
     from twintube.report.car_sensitivity import as_json, page, text, tornado
     from twintube.vehicle.cars import load_car
+    from twintube.vehicle.full.catalogue import Case
     from twintube.vehicle.full.run import full_car
     from twintube.vehicle.full.sensitivity import Variant, sensitivity
-    from twintube.vehicle.full.catalogue import Case
     from twintube.vehicle.full.study import dampers_of
 
     if output is not None:

@@ -138,12 +138,13 @@ MANEUVERS: Final = {
         speeds=(120.0,), standard="ISO 4138:2021, constant radius of 100 m, faster and faster", uneven=False,
     ),
     "braking_in_turn": Maneuver(
-        "Braking in a turn", ("yaw_ratio_braked", "yaw rate 1 s after the brakes over that of the circle", "1"),
+        "Braking in a turn", STOP,
         lambda car, case: standards.braking_in_turn(car, case.speed_kmh, case.ground),
         lambda car, case, run: judged.turn_figures(car, run),
         (
-            YAW, ("side_slip_change_deg", "change of the side slip angle", "deg"),
-            ("off_circle_m", "off the circle, outside positive", "m"), STOP,
+            ("yaw_ratio_braked", "yaw rate 1 s after the brakes over that of the circle", "1"), YAW,
+            ("side_slip_change_deg", "change of the side slip angle", "deg"),
+            ("off_circle_m", "off the circle, outside positive", "m"),
         ),
         standard="ISO 7975:2019: circle of 100 m, steering held, here an emergency stop", seeded=True,
     ),
