@@ -103,7 +103,7 @@ def test_a_car_that_nothing_holds_on_the_road_is_a_line(tmp_path: Path) -> None:
             "slip_release = nan",
             "line 117: brakes.slip_release = nan: must be a number from 0.01 to 1",
         ),
-        ("slip_build = 0.05", "slip_build = 0.5", "line 118: brakes.slip_build = 0.5: must be below slip_release = 0.1"),
+        ("slip_build = 0.02", "slip_build = 0.5", "line 118: brakes.slip_build = 0.5: must be below slip_release = 0.1"),
         ("s_slide_x = 0.95", "s_slide_x = 0.05", "line 68: front_tyre.s_slide_x = 0.05: must not be below s_most_x = 0.106"),
         ("drive = 1.0", "drive = 0.5", "line 55: rear_axle.drive: the shares of both axles, 0.5 + 0, must add up to 1"),
         ("steers = 1.0", "steers = 0.0", "line 44: front_axle.steers = 0: must be above 0 at one axle at least"),
@@ -125,8 +125,15 @@ def test_a_car_file_is_refused_with_quantity_value_range_and_line(tmp_path: Path
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--maneuver", "drift"], "maneuver drift: must be one of ride, braking, cornering, table3"),
+        (["--maneuver", "drift"], "maneuver drift: must be one of ride, braking, cornering, step_steer, "),
         (["--road-class", "Z"], "road class Z: must be one of smooth, A"),
+        (["--grip", "slick"], "grip slick: must be one number, or two for left and right"),
+        (["--grip", "1,0"], "grip 0 on the right: must be from 0.1 to 1.5"),
+        (["--maneuver", "circle", "--road-class", "D"], "nothing to drive: a circle is not driven on the road class D"),
+        (
+            ["--maneuver", "ride", "--road-class", "smooth"],
+            "nothing to drive: a ride is not driven on the road class smooth",
+        ),
         (["--speed", "nan"], "speed nan km/h: must be from 1 to 250 km/h"),
         (["--speed", "0"], "speed 0 km/h: must be from 1 to 250 km/h"),
         (["--worn", "left"], "worn left: must be one of all, front, rear, front_left"),

@@ -12,8 +12,8 @@ from twintube.dampers import ParameterError, load
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.vehicle.cars import FOLDER, METAS, load_car
 from twintube.vehicle.full import sensitivity as study
+from twintube.vehicle.full.catalogue import MANEUVERS
 from twintube.vehicle.full.sensitivity import ASSUMED, FORCES, Assumed, Variant, growth, plus, times
-from twintube.vehicle.full.study import HEADLINES
 
 
 @pytest.fixture
@@ -44,7 +44,7 @@ def test_a_value_out_of_its_range_is_refused(passat: Variant) -> None:
 
 
 def test_growth_is_worn_over_intact_on_the_same_road_and_nan_where_it_was_not_driven() -> None:
-    name = HEADLINES["braking"][0]
+    name = MANEUVERS["braking"].headline[0]
     common = {"maneuver": "braking", "road": "D"}
     entries = [
         common | {"seed": seed, "oil_level": oil, "model": DEFAULT} | figures

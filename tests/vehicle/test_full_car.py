@@ -14,10 +14,11 @@ from twintube.vehicle import maneuvers as table3
 from twintube.vehicle.cars import FOLDER, load_car
 from twintube.vehicle.full import body
 from twintube.vehicle.full.car import WHEELS
+from twintube.vehicle.full.catalogue import Case
 from twintube.vehicle.full.figures import braking_figures, cornering_figures, ride_figures
 from twintube.vehicle.full.maneuvers import APPROACH, Road, braking, cornering, ride, table3_drive
 from twintube.vehicle.full.run import DT, FullCar, drive_car, full_car, started
-from twintube.vehicle.full.study import Case, cases, compared, dampers_of, drive_all
+from twintube.vehicle.full.study import cases, compared, dampers_of, drive_all
 from twintube.vehicle.road import SPACING
 
 C_DAMPER = 1500.0  # [N.s/m]
@@ -77,13 +78,13 @@ def test_free_oscillations_have_the_frequencies_of_linear_theory() -> None:
         motion, wheels = started(car, 0.0)
         motion.z, motion.pitch, motion.roll = 1e-3 * shape[:3]
         for w, z in zip(wheels, 1e-3 * shape[3:], strict=True):
-            w.z = z
+            w.z, w.grip = z, ice
         dt = 0.002 / wanted
         along = []
         for _ in range(1500):
             along.append(motion.z * shape[0] + motion.pitch * shape[1] + motion.roll * shape[2]
                          + sum(w.z * s for w, s in zip(wheels, shape[3:], strict=True)))  # fmt: skip
-            body.car_step(car.body, motion, *car.wheels, *wheels, 0.0, 0.0, ice, dt)
+            body.car_step(car.body, motion, *car.wheels, *wheels, 0.0, 0.0, dt)
         signs = np.flatnonzero(np.diff(np.sign(along)))
         crossings = signs + np.array(along)[signs] / (np.array(along)[signs] - np.array(along)[signs + 1])
         period = 2 * dt * float(np.diff(crossings).mean())
@@ -108,7 +109,7 @@ def test_the_energy_balance_closes_with_the_time_step() -> None:
             before = motion.work
             for w, height, rate in zip(wheels, road, rates, strict=True):
                 w.road, w.road_rate = height, rate
-            body.car_step(car.body, motion, *car.wheels, *wheels, 0.03, 300.0, 1.0, dt)
+            body.car_step(car.body, motion, *car.wheels, *wheels, 0.03, 300.0, dt)
         gaps.append(last - first - before)
         assert abs(gaps[-1]) < 2e-3 * abs(last - first)
     assert abs(gaps[1]) < 0.6 * abs(gaps[0])

@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 6ebbbdf455bd40d9, body 816c48e3b67cd450; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations a02d1d4106f45640, body 7160496b0dffe64d; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -53,6 +53,7 @@ struct kernel_BodyMotion {
     double a_x;
     double a_y;
     double way;
+    double seen;
     double behind;
     double work;
 };
@@ -119,6 +120,7 @@ struct kernel_WheelMotion {
     double e_y;
     double de_x;
     double de_y;
+    double grip;
     double load;
     double F_x;
     double F_y;
@@ -137,11 +139,17 @@ struct kernel_WheelMotion {
     double waiting;
     double controlled;
     double order;
+    double rim;
 };
 
 struct kernel_Brakes {
     double slip_release;
     double slip_build;
+    double fall;
+    double rise;
+    double drift;
+    double catch;
+    double regain;
     double build;
     double release;
     double apply;
@@ -242,13 +250,16 @@ static void kernel_set_up_car(struct kernel_Body* c, struct kernel_Wheel* k1, st
 static void kernel_start_wheel(struct kernel_Wheel* k, struct kernel_WheelMotion* w, double speed)
 {
     w->spin = speed / k->radius;
+    w->rim = speed;
     w->order = 1.0;
+    w->grip = 1.0;
 }
 
 /* Let the car roll straight ahead at a `speed` [m/s]; its records hold zeros. */
 static void kernel_start_car(struct kernel_BodyMotion* b, struct kernel_Wheel* k1, struct kernel_Wheel* k2, struct kernel_Wheel* k3, struct kernel_Wheel* k4, struct kernel_WheelMotion* w1, struct kernel_WheelMotion* w2, struct kernel_WheelMotion* w3, struct kernel_WheelMotion* w4, struct kernel_WheelInputs* j1, struct kernel_WheelInputs* j2, struct kernel_WheelInputs* j3, struct kernel_WheelInputs* j4, double speed)
 {
     b->v_x = speed;
+    b->seen = speed;
     kernel_start_wheel(k1, w1, speed);
     kernel_start_wheel(k2, w2, speed);
     kernel_start_wheel(k3, w3, speed);
@@ -296,50 +307,82 @@ static void kernel_change_part(struct kernel_BodyMotion* b, struct kernel_WheelM
     kernel_change_wheel(w4, factor);
 }
 
-/* Road and damper force `at` [s] within a step; the force is carried on by `ahead` mean steps. */
-static void kernel_meet_road(struct kernel_WheelMotion* w, struct kernel_WheelInputs* j, double ahead, double at)
+/* Road, its grip and damper force `at` [s] within a step; the force is carried on by `ahead` mean steps. */
+static void kernel_meet_road(struct kernel_WheelMotion* w, struct kernel_WheelInputs* j, double grip, double ahead, double at)
 {
+    w->grip = grip;
     w->road = j->road + at * j->road_rate;
     w->road_rate = j->road_rate;
     w->acting = w->damper + ahead * (w->damper - w->before);
 }
 
-/* Carry the pressure of a wheel's brake over `dt` [s]; the driver wants `wanted` [Pa], the car goes at `speed` [m/s]. */
-static void kernel_control_brake(struct kernel_Brakes* h, struct kernel_Wheel* k, struct kernel_WheelMotion* w, double speed, double wanted, double dt)
+/* Carry the speed that the control takes for the car's over `dt` [s], by those of the rims [m/s].
+   The second fastest counts, and only so fast: on an uneven road rims run ahead of the car again and again. */
+static void kernel_seen_speed(struct kernel_Brakes* h, struct kernel_BodyMotion* b, double r1, double r2, double r3, double r4, double dt)
 {
-    double slip;
+    double leading;
+    double behind;
+    double second;
+    double foreseen;
+    leading = double_min(2, double_max(2, r1, r2), double_max(2, r3, r4));
+    behind = double_max(2, double_min(2, r1, r2), double_min(2, r3, r4));
+    second = double_max(2, leading, behind);
+    foreseen = b->seen + b->a_x * dt;
+    b->seen = double_min(2, double_max(2, second, foreseen - h->drift * dt), foreseen + h->catch * dt);
+}
+
+/* What follows on an order, by the slip of a wheel and the acceleration of its rim [m/s2]. */
+static double kernel_next_order(struct kernel_Brakes* h, double order, double slip, double rate)
+{
+    if (order == 2.0)
+    {
+        return (rate > h->rise ? 3.0 : 2.0);
+    }
+    if ((slip > h->slip_release) && (rate <= h->rise))
+    {
+        return 2.0;
+    }
+    if (order == 3.0)
+    {
+        return ((slip < h->slip_build) || (rate < h->rise) ? 1.0 : 3.0);
+    }
+    return (rate < -h->fall ? 0.0 : 1.0);
+}
+
+/* Carry the pressure of a wheel's brake over `dt` [s]; `wanted` [Pa] is the driver's, `seen` [m/s] the estimate. */
+static void kernel_control_brake(struct kernel_Brakes* h, struct kernel_Wheel* k, struct kernel_WheelMotion* w, double seen, double wanted, double dt)
+{
+    double rim;
     double rate;
+    double order;
+    bool slow;
+    double growth;
     w->waiting -= dt;
     if (w->waiting <= 0.0)
     {
         w->waiting += h->cycle;
-        slip = 1.0 - k->radius * w->spin / double_max(2, speed, 0.1);
-        if ((speed < h->slowest) || (w->pressure <= 0.0))
-        {
-            w->order = 1.0;
-        }
-        else if (slip > h->slip_release)
-        {
-            w->order = -1.0;
-            w->controlled = 1.0;
-        }
-        else if (slip < h->slip_build)
+        rim = k->radius * w->spin;
+        rate = (rim - w->rim) / h->cycle;
+        w->rim = rim;
+        if ((seen < h->slowest) || (w->pressure <= 0.0))
         {
             w->order = 1.0;
         }
         else
         {
-            w->order = 0.0;
+            order = kernel_next_order(h, w->order, 1.0 - rim / seen, rate);
+            w->order = order;
         }
     }
-    if (w->order < 0.0)
+    if (w->order == 2.0)
     {
         w->pressure = double_max(2, 0.0, w->pressure - h->release * dt);
     }
-    else if (w->order > 0.0)
+    else if (w->order == 1.0)
     {
-        rate = ((w->controlled > 0.0) && (speed >= h->slowest) ? h->build : h->apply);
-        w->pressure = double_min(2, wanted, w->pressure + rate * dt);
+        slow = (seen >= h->slowest) && (w->controlled > 0.0) && (w->pressure >= h->regain * w->controlled);
+        growth = (slow ? h->build : h->apply);
+        w->pressure = double_min(2, wanted, w->pressure + growth * dt);
     }
     w->pressure = double_min(2, w->pressure, wanted);
 }
@@ -441,12 +484,13 @@ static double kernel_force_over_slip(double slip, double rise, double s_most, do
 
 /* One step of `dt` [s] of the deflections; writes the forces `F_x`, `F_y` [N] and slips at the start of the step.
    `v_x`, `v_y` [m/s] are the speeds of the contact over the ground in the wheel's directions, rolling not counted; `w.load`
-   is the vertical load [N] and `grip` the road's factor of all forces. */
-static void kernel_roll_tyre(struct kernel_Wheel* k, struct kernel_WheelMotion* w, double v_x, double v_y, double grip, double dt)
+   is the vertical load [N] and `w.grip` the road's factor of all forces. */
+static void kernel_roll_tyre(struct kernel_Wheel* k, struct kernel_WheelMotion* w, double v_x, double v_y, double dt)
 {
     double rolling;
     double slide_x;
     double slide_y;
+    double grip;
     double speed;
     double load;
     double secant_x;
@@ -473,6 +517,7 @@ static void kernel_roll_tyre(struct kernel_Wheel* k, struct kernel_WheelMotion* 
     rolling = k->radius * (w->spin + 0.5 * w->d_spin);
     slide_x = v_x - rolling;
     slide_y = v_y;
+    grip = w->grip;
     speed = double_max(2, fabs(rolling), 0.1);
     load = double_min(2, w->load / k->F_nominal, 3.5);
     secant_x = 0.0;
@@ -545,7 +590,7 @@ static double kernel_stop_force(struct kernel_Wheel* car, double compression, do
 
 /* Forces of a wheel and its suspension, its tyre and spin carried over `dt` [s]; adds what it does to the body.
    `other` is the wheel at the axle's other end, `side` 1 for a left wheel and -1 for a right one. */
-static void kernel_push_wheel(struct kernel_Body* c, struct kernel_BodyMotion* b, struct kernel_Wheel* k, struct kernel_WheelMotion* w, struct kernel_WheelMotion* other, double side, double steer, double torque, double grip, double dt)
+static void kernel_push_wheel(struct kernel_Body* c, struct kernel_BodyMotion* b, struct kernel_Wheel* k, struct kernel_WheelMotion* w, struct kernel_WheelMotion* other, double side, double steer, double torque, double dt)
 {
     double v_x;
     double v_y;
@@ -610,7 +655,7 @@ static void kernel_push_wheel(struct kernel_Body* c, struct kernel_BodyMotion* b
     angle = k->steers * steer - k->steer_compliance * w->F_y;
     cosine = cos(angle);
     sine = sin(angle);
-    kernel_roll_tyre(k, w, cosine * at_x + sine * at_y, cosine * at_y - sine * at_x, grip, dt);
+    kernel_roll_tyre(k, w, cosine * at_x + sine * at_y, cosine * at_y - sine * at_x, dt);
     f_x = cosine * w->F_x - sine * w->F_y;
     f_y = sine * w->F_x + cosine * w->F_y;
     drive = 0.5 * k->drive * torque;
@@ -719,14 +764,14 @@ static void kernel_move_body(struct kernel_Body* c, struct kernel_BodyMotion* b,
 
 /* One leapfrog step of `dt` [s]; records of the wheels in the order of WHEELS.
    `steer` [rad] is the angle of the steered wheels, `torque` [N.m] that of the drive. Heights and rates of the road, the
-   damper forces at the step's start (`acting`) and the brake pressures stand in `w1` to `w4`. */
-static void kernel_car_step(struct kernel_Body* c, struct kernel_BodyMotion* b, struct kernel_Wheel* k1, struct kernel_Wheel* k2, struct kernel_Wheel* k3, struct kernel_Wheel* k4, struct kernel_WheelMotion* w1, struct kernel_WheelMotion* w2, struct kernel_WheelMotion* w3, struct kernel_WheelMotion* w4, double steer, double torque, double grip, double dt)
+   damper forces at the step's start (`acting`), grip and brake pressures stand in `w1` to `w4`. */
+static void kernel_car_step(struct kernel_Body* c, struct kernel_BodyMotion* b, struct kernel_Wheel* k1, struct kernel_Wheel* k2, struct kernel_Wheel* k3, struct kernel_Wheel* k4, struct kernel_WheelMotion* w1, struct kernel_WheelMotion* w2, struct kernel_WheelMotion* w3, struct kernel_WheelMotion* w4, double steer, double torque, double dt)
 {
     kernel_begin_sums(c, b);
-    kernel_push_wheel(c, b, k1, w1, w2, 1.0, steer, torque, grip, dt);
-    kernel_push_wheel(c, b, k2, w2, w1, -1.0, steer, torque, grip, dt);
-    kernel_push_wheel(c, b, k3, w3, w4, 1.0, steer, torque, grip, dt);
-    kernel_push_wheel(c, b, k4, w4, w3, -1.0, steer, torque, grip, dt);
+    kernel_push_wheel(c, b, k1, w1, w2, 1.0, steer, torque, dt);
+    kernel_push_wheel(c, b, k2, w2, w1, -1.0, steer, torque, dt);
+    kernel_push_wheel(c, b, k3, w3, w4, 1.0, steer, torque, dt);
+    kernel_push_wheel(c, b, k4, w4, w3, -1.0, steer, torque, dt);
     kernel_lift_wheel(k1, w1, w2, dt);
     kernel_lift_wheel(k2, w2, w1, dt);
     kernel_lift_wheel(k3, w3, w4, dt);
@@ -748,17 +793,18 @@ static double kernel_hold_speed(struct kernel_BodyMotion* b, double radius, doub
 /* One step of car, brakes and driver; road and damper forces stand in `w1` to `w4`.
    The driver steers by `steer` [rad], wants the brake `pressure` [Pa] and the `wanted` speed [m/s]; `torque` [N.m] comes on
    top of what holds the speed. */
-static void kernel_drive_step(struct kernel_Body* c, struct kernel_BodyMotion* b, struct kernel_Wheel* k1, struct kernel_Wheel* k2, struct kernel_Wheel* k3, struct kernel_Wheel* k4, struct kernel_WheelMotion* w1, struct kernel_WheelMotion* w2, struct kernel_WheelMotion* w3, struct kernel_WheelMotion* w4, struct kernel_Brakes* h, double steer, double pressure, double wanted, double torque, double grip, double dt)
+static void kernel_drive_step(struct kernel_Body* c, struct kernel_BodyMotion* b, struct kernel_Wheel* k1, struct kernel_Wheel* k2, struct kernel_Wheel* k3, struct kernel_Wheel* k4, struct kernel_WheelMotion* w1, struct kernel_WheelMotion* w2, struct kernel_WheelMotion* w3, struct kernel_WheelMotion* w4, struct kernel_Brakes* h, double steer, double pressure, double wanted, double torque, double dt)
 {
     double speed;
     double whole;
     speed = b->v_x + 0.5 * b->dv_x;
-    kernel_control_brake(h, k1, w1, speed, pressure, dt);
-    kernel_control_brake(h, k2, w2, speed, pressure, dt);
-    kernel_control_brake(h, k3, w3, speed, pressure, dt);
-    kernel_control_brake(h, k4, w4, speed, pressure, dt);
+    kernel_seen_speed(h, b, k1->radius * w1->spin, k2->radius * w2->spin, k3->radius * w3->spin, k4->radius * w4->spin, dt);
+    kernel_control_brake(h, k1, w1, b->seen, pressure, dt);
+    kernel_control_brake(h, k2, w2, b->seen, pressure, dt);
+    kernel_control_brake(h, k3, w3, b->seen, pressure, dt);
+    kernel_control_brake(h, k4, w4, b->seen, pressure, dt);
     whole = torque + kernel_hold_speed(b, k1->radius, speed, wanted, dt);
-    kernel_car_step(c, b, k1, k2, k3, k4, w1, w2, w3, w4, steer, whole, grip, dt);
+    kernel_car_step(c, b, k1, k2, k3, k4, w1, w2, w3, w4, steer, whole, dt);
 }
 
 /* A communication step of `span` [s] in parts of at most 0.001; inputs are those at its start. */
@@ -792,11 +838,11 @@ static void kernel_communication_step(struct kernel_Body* c, struct kernel_BodyM
     {
         at = n * dt;
         ahead = ((apart > 0.0) && (span <= 0.004) ? (0.5 * t->span + at) / apart : 0.0);
-        kernel_meet_road(w1, j1, ahead, at);
-        kernel_meet_road(w2, j2, ahead, at);
-        kernel_meet_road(w3, j3, ahead, at);
-        kernel_meet_road(w4, j4, ahead, at);
-        kernel_drive_step(c, b, k1, k2, k3, k4, w1, w2, w3, w4, h, i->steer, i->brake_pressure, i->speed, i->torque, i->grip, dt);
+        kernel_meet_road(w1, j1, i->grip, ahead, at);
+        kernel_meet_road(w2, j2, i->grip, ahead, at);
+        kernel_meet_road(w3, j3, i->grip, ahead, at);
+        kernel_meet_road(w4, j4, i->grip, ahead, at);
+        kernel_drive_step(c, b, k1, k2, k3, k4, w1, w2, w3, w4, h, i->steer, i->brake_pressure, i->speed, i->torque, dt);
     }
     t->earlier = t->span;
     t->span = span;

@@ -1,8 +1,9 @@
 """The command about the whole car."""
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -24,14 +25,20 @@ JSON_FILE = Annotated[Path | None, typer.Option("--json", help="Write all figure
 def car(
     maneuver: Annotated[
         list[str] | None,
-        typer.Option(help="ride, braking, cornering, or table3 for the ten drives of the paper; repeat for several."),
+        typer.Option(
+            help="ride, braking, cornering, step_steer, sine_with_dwell, lane_change, circle, braking_in_turn, or table3 "
+            "for the ten drives of the paper; repeat for several."
+        ),
     ] = None,
     front: FRONT = "SA7",
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
     oil_level: Annotated[list[float] | None, typer.Option(help="Oil of the worn dampers; repeat for several.")] = None,
-    speed: Annotated[list[float] | None, typer.Option(help="Speed [km/h]; repeat for several.")] = None,
+    speed: Annotated[
+        list[float] | None, typer.Option(help="Speed [km/h], else the manoeuvre's own; repeat for several.")
+    ] = None,
     road_class: Annotated[list[str] | None, typer.Option(help="smooth, or a class of ISO 8608; repeat for several.")] = None,
+    grip: Annotated[str, typer.Option(help="Grip over that of a dry road: 0.7 for a wet one; 1,0.3 left, right.")] = "1",
     seeds: Annotated[int, typer.Option(help="Roads of each class.", min=1, max=1000)] = 5,
     car_file: CAR_FILE = "passat_b8",
     inspection: Annotated[
@@ -42,10 +49,12 @@ def car(
 ) -> None:
     """Drive the whole car with worn dampers and compare it with the intact car, and with a scalar factor in their place."""
     from twintube.report.car import page, picture
+    from twintube.report.car_courses import pictures
     from twintube.report.conclusion import read_inspection
     from twintube.vehicle.cars import load_car
+    from twintube.vehicle.full.catalogue import MANEUVERS
     from twintube.vehicle.full.maneuvers import CLASSES, checked_speed
-    from twintube.vehicle.full.study import FULL, HEADLINES, USUAL, cases, compared, dampers_of, drive_all
+    from twintube.vehicle.full.study import FULL, USUAL, cases, compared, dampers_of, drive_all
 
     if output is not None:
         check_folder(output, ("car.html",), of_options())
@@ -53,14 +62,14 @@ def car(
     loaded = load_car(car_file)
     both = dampers.load(front), dampers.load(rear)
     names, levels = maneuver or list(USUAL), oil_level or [0.7, 0.5, 0.3]
-    roads, speeds = road_class or ["smooth", "C", "D"], speed or [50.0, 80.0]
+    roads, speeds = road_class or ["smooth", "C", "D"], speed or None
     for name in names:
-        known("maneuver", name, HEADLINES)
+        known("maneuver", name, MANEUVERS)
     for road in roads:
         known("road class", road, CLASSES)
-    for value in speeds:
+    for value in speeds or ():
         checked_speed(value)
-    wanted = cases(names, speeds, roads, levels, seeds)
+    wanted = cases(names, speeds, roads, levels, seeds, grips_of(grip))
     for case in wanted[:2]:
         dampers_of(*both, worn, case)
     entries = drive_all(loaded, *both, worn, wanted)
@@ -68,7 +77,7 @@ def car(
         raise InputError(entries[0]["failed"])
     rows = compared(entries)
     conditions = {
-        "car": loaded.name, "front": both[0].name, "rear": both[1].name, "worn": worn, "seeds": seeds,
+        "car": loaded.name, "front": both[0].name, "rear": both[1].name, "worn": worn, "seeds": seeds, "grip": grip,
         "gas_preload": "lost in the worn dampers",
     }  # fmt: skip
     if json_file is not None:
@@ -76,22 +85,28 @@ def car(
     if output is not None:
         output.mkdir(exist_ok=True)
         mark_folder(output, of_options())
-        write_text(output / "car.html", page(loaded, conditions, rows, entries, seen))
+        courses = {name: pictures(loaded, both, worn, wanted, name) for name in names}
+        write_text(output / "car.html", page(loaded, conditions, rows, entries, seen, courses))
         if shown := picture(rows):
             write_bytes(output / "car.png", shown)
         typer.echo(f"{output / 'car.html'}")
+    width = max(10, *map(len, names))
     for row in rows:
-        drive = f"{row['maneuver']:10}{row['road']:7}{row['speed_kmh']:4.0f} km/h"
+        drive = f"{row['maneuver']:{width}} {row['road']:7}{row['speed_kmh']:4.0f} km/h"
         if row["change"] is None:
-            typer.echo(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}not driven")
+            typer.echo(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}{MANEUVERS[row['maneuver']].without}")
             continue
         low, high = row["change_band"]
+        unit = "" if row["unit"] == "1" else f" {row['unit']}"
         others = " and all ways of the freed gas" if row["model"] == FULL else ""
         typer.echo(
             f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}"
-            f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g} {row['unit']} ({row['change']:+.0%}, "
+            f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g}{unit} ({row['change']:+.0%}, "
             f"{low:+.0%} to {high:+.0%} over {counted(row['seeds'], 'seed')}{others})"
         )
+        known_beside = [beside(item) for item in row["beside"] if item["worn"] is not None]
+        if known_beside:
+            typer.echo("    " + "; ".join(known_beside))
     for reason in dict.fromkeys(entry["failed"] for entry in entries if "failed" in entry):
         typer.echo(f"not driven: {reason}", err=True)
 
@@ -112,9 +127,10 @@ def car_sensitivity(
     """Vary every assumed value of the car and its brakes, and see how the effect of the worn dampers moves."""
     from twintube.report.car_sensitivity import as_json, page, text, tornado
     from twintube.vehicle.cars import load_car
+    from twintube.vehicle.full.catalogue import Case
     from twintube.vehicle.full.run import full_car
     from twintube.vehicle.full.sensitivity import Variant, sensitivity
-    from twintube.vehicle.full.study import Case, dampers_of
+    from twintube.vehicle.full.study import dampers_of
 
     if output is not None:
         check_folder(output, ("sensitivity.html",), of_options())
@@ -133,6 +149,25 @@ def car_sensitivity(
         write_text(output / "sensitivity.html", page(result, conditions))
         write_bytes(output / "sensitivity.png", tornado(result))
         typer.echo(f"{output / 'sensitivity.html'}")
+
+
+def beside(item: Mapping[str, Any]) -> str:
+    """A figure beside the headline, intact and worn: means over the seeds."""
+    intact, worn = ("none" if item[state] is None else f"{item[state]:.3g}" for state in ("intact", "worn"))
+    return f"{item['figure']} {intact} -> {worn}{'' if item['unit'] == '1' else ' ' + item['unit']}"
+
+
+def grips_of(text: str) -> tuple[float, float]:
+    """Grip of the left and the right track from one number or two; raises InputError."""
+    from twintube.vehicle.full.maneuvers import SMOOTH, Road
+
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) not in (1, 2):
+        raise InputError(f"grip {text}: must be one number, or two for left and right, as 1,0.3")
+    return Road(SMOOTH, grips=(values[0], values[-1])).grips
 
 
 def known(what: str, value: str, allowed: object) -> None:

@@ -23,8 +23,9 @@ PLATFORM = Annotated[
 
 def four(front: str, rear: str, worn: str, oil_level: float, published: bool) -> list[Damper]:
     """The dampers in the order of the wheels; raises ParameterError and InputError."""
+    from twintube.vehicle.full.catalogue import Case
     from twintube.vehicle.full.maneuvers import SMOOTH
-    from twintube.vehicle.full.study import Case, dampers_of
+    from twintube.vehicle.full.study import dampers_of
 
     both = load(front, as_published=published), load(rear, as_published=published)
     return list(dampers_of(*both, worn, Case("ride", 50.0, SMOOTH, 1, oil_level)))

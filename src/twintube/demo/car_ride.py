@@ -12,8 +12,8 @@ from twintube.vehicle.full.run import DT, CarRun, FullCar, as_run, started, toge
 
 
 def drive_car_with_fmus(
-    car: FullCar, dampers: FourDampers, road: Array, spacing: float, inputs: Array, speed: float, *, grip: float = 1.0,
-    dt: float = DT, preconditioned: bool = True,
+    car: FullCar, dampers: FourDampers, road: Array, spacing: float, inputs: Array, speed: float, *,
+    grips: tuple[float, float] = (1.0, 1.0), dt: float = DT, preconditioned: bool = True,
 ) -> CarRun:  # fmt: skip
     """As `drive_car`, but the dampers are FMUs, just initialised; of `car.dampers` only preload and stroke are used.
 
@@ -29,12 +29,12 @@ def drive_car_with_fmus(
     before = np.array(dampers.works())
     out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
     work = BODY_COLUMNS + 10 + WHEEL_COLUMNS * np.arange(len(WHEELS))
-    ground = np.array(road, dtype=float)
+    ground, sides = np.array(road, dtype=float), np.array(grips, dtype=float)
     for n, (steer, wanted, held) in enumerate(np.asarray(inputs, dtype=float).tolist()):
         module.write_body(b, out[n])
-        if not module.road_step(c, b, ks, ws, h, ground, spacing, steer, wanted, held, grip, dt):
+        if not module.road_step(c, b, ks, ws, h, ground, spacing, sides, steer, wanted, held, dt):
             raise InputError(f"time {n * dt:g} s: the road of {(road.shape[1] - 1) * spacing:g} m ends")
-        module.write_step(b, ws, out[n], dt)
+        module.write_step(b, ws, out[n], steer, dt)
         out[n, work] = dampers.works()
         ws["before"] = ws["damper"]
         ws["damper"] = dampers.step(ws["stroke"].tolist(), ws["velocity"].tolist(), dt)

@@ -30,6 +30,7 @@ LOOPS = (
     "vehicle/full/brakes.py",
     "vehicle/full/body.py",
     "vehicle/full/driver.py",
+    "vehicle/full/steering.py",
     "vehicle/full/loop.py",
 )
 LOADING = Lock()

@@ -9,10 +9,11 @@ from twintube.report.car_figures import tables
 from twintube.report.page import Headline, Picture, Section, Table, html
 from twintube.report.style import BLUE, GREEN, GREY, ORANGE, RED, VIOLET, canvas, legend_above, png, title
 from twintube.vehicle.cars import CarSet
+from twintube.vehicle.full.catalogue import MANEUVERS
 from twintube.words import counted
 
 COLOURS = {"smooth": GREY, "A": VIOLET, "B": GREEN, "C": BLUE, "D": RED, "E": ORANGE}
-TITLES = {"ride": "Ride", "braking": "Braking", "cornering": "Cornering", "table3": "Drives of Table 3"}
+TITLES = {name: each.title for name, each in MANEUVERS.items()}
 
 
 def picture(rows: Sequence[Mapping[str, Any]]) -> bytes:
@@ -54,15 +55,23 @@ def page(
     rows: Sequence[Mapping[str, Any]],
     entries: Sequence[Mapping[str, Any]],
     seen: Mapping[str, Any] | None = None,
+    courses: Mapping[str, Sequence[Picture]] | None = None,
 ) -> str:
-    """The page as HTML; `rows` compare the `entries` of the drives, `seen` holds the figures of an inspection study."""
+    """The page as HTML; `rows` compare the `entries` of the drives, `seen` holds the figures of an inspection study.
+
+    `courses` are pictures of drives, by manoeuvre.
+    """
     sections = [conclusion.section(seen, rows)] if seen is not None else []
     for name, words in TITLES.items():
         own = [entry for entry in entries if entry["maneuver"] == name]
         if own:
+            compared = table([row for row in rows if row["maneuver"] == name])
             sections.append(
-                Section(name, words, tables=[table([row for row in rows if row["maneuver"] == name]), *tables(own)])
-            )
+                Section(
+                    name, words, text=[text for text in (MANEUVERS[name].standard,) if text],
+                    pictures=(courses or {}).get(name, ()), tables=[compared, *tables(own)],
+                )
+            )  # fmt: skip
     failed = [(f"seed {entry['seed']}, {entry['model']}", entry["failed"]) for entry in entries if "failed" in entry]
     if failed:
         sections.append(
@@ -76,7 +85,8 @@ def page(
         f"Whole car: {car.title}",
         [
             f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
-            "without gas preload. Each figure is that of the worn car over that of the intact car on the same road; the "
+            f"without gas preload; grip {conditions['grip']} of a dry road's. Each figure is that of the "
+            "worn car over that of the intact car on the same road; the "
             f"band is that of {counted(conditions['seeds'], 'seed')}: other roads of the class, and a slip control whose "
             "thresholds and rates scatter by a quarter; of the full model also that of four ways of the gas that "
             "cavitation frees. F-v curves are stand-ins (assumed)."
@@ -120,7 +130,7 @@ def table(rows: Sequence[Mapping[str, Any]]) -> Table:
         over = counted(row["seeds"], "seed") + ("" if row["model"] == SCALAR else " and the ways of the freed gas")
         cells.append([
             f"{row['speed_kmh']:.0f}", row["road"], f"{row['oil_level']:.0%}", row["model"],
-            "not driven" if band is None else f"{row['change']:+.1%}",
+            MANEUVERS[row["maneuver"]].without if band is None else f"{row['change']:+.1%}",
             "" if band is None else f"{band[0]:+.1%} to {band[1]:+.1%}", over, str(row["failed"] or ""),
         ])  # fmt: skip
     head = ("km/h", "road", "oil", "model", "change", "band", "over", "left out")

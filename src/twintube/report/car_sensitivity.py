@@ -10,8 +10,8 @@ from twintube.inspection.tables import markdown
 from twintube.readable import unit_of
 from twintube.report.page import Headline, Picture, Section, Table, html
 from twintube.report.style import BLUE, FAINT, INK, RED, canvas, legend_above, png, title
+from twintube.vehicle.full.catalogue import MANEUVERS
 from twintube.vehicle.full.sensitivity import ASSUMED, DRIVES, SPEED, Assumed, Sensitivity, mean
-from twintube.vehicle.full.study import HEADLINES
 from twintube.words import counted
 
 SHORT = {"ride": "DLC", "braking": "stop", "cornering": "bend"}
@@ -119,7 +119,7 @@ def tornado(result: Sensitivity) -> bytes:
         ax.axvline(centre, color=INK, lw=0.8)
         ax.axvline(0.0, color=INK, lw=0.8, ls=":")
         title(ax, name_of(drive))
-        ax.set_xlabel(f"{HEADLINES[drive[0]][1]} against intact [%]", fontsize=8.5)
+        ax.set_xlabel(f"{MANEUVERS[drive[0]].headline[1]} against intact [%]", fontsize=8.5)
     legend_above(figure, *axes.flat)
     return png(figure)
 

@@ -52,7 +52,8 @@ def section(inspection: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) ->
     return Section(
         "conclusion", "Seen in an inspection, felt on the road",
         text=[f"Inspections: share of {', '.join(dampers)} detected at 5 % false alarms, over {samples} cars and testers. "
-              "Drives: change of the stopping distance and of the largest lateral acceleration, with the band over seeds."],
+              "Drives: change of the stopping distance, the largest lateral acceleration or what else a manoeuvre is "
+              "compared by, with the band over seeds."],
         tables=[Table(head, cells)], notes=[(f"Literature: {who}", what) for who, what in LITERATURE],
     )  # fmt: skip
 

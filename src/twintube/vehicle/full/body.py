@@ -32,18 +32,18 @@ def corner_velocity(b: BodyMotion, k: Wheel, w: WheelMotion) -> float:
 def car_step(
     c: Body, b: BodyMotion, k1: Wheel, k2: Wheel, k3: Wheel, k4: Wheel,
     w1: WheelMotion, w2: WheelMotion, w3: WheelMotion, w4: WheelMotion,
-    steer: float, torque: float, grip: float, dt: float,
+    steer: float, torque: float, dt: float,
 ) -> None:  # fmt: skip
     """One leapfrog step of `dt` [s]; records of the wheels in the order of WHEELS.
 
     `steer` [rad] is the angle of the steered wheels, `torque` [N.m] that of the drive. Heights and rates of the road, the
-    damper forces at the step's start (`acting`) and the brake pressures stand in `w1` to `w4`.
+    damper forces at the step's start (`acting`), grip and brake pressures stand in `w1` to `w4`.
     """
     begin_sums(c, b)
-    push_wheel(c, b, k1, w1, w2, 1.0, steer, torque, grip, dt)
-    push_wheel(c, b, k2, w2, w1, -1.0, steer, torque, grip, dt)
-    push_wheel(c, b, k3, w3, w4, 1.0, steer, torque, grip, dt)
-    push_wheel(c, b, k4, w4, w3, -1.0, steer, torque, grip, dt)
+    push_wheel(c, b, k1, w1, w2, 1.0, steer, torque, dt)
+    push_wheel(c, b, k2, w2, w1, -1.0, steer, torque, dt)
+    push_wheel(c, b, k3, w3, w4, 1.0, steer, torque, dt)
+    push_wheel(c, b, k4, w4, w3, -1.0, steer, torque, dt)
     lift_wheel(k1, w1, w2, dt)
     lift_wheel(k2, w2, w1, dt)
     lift_wheel(k3, w3, w4, dt)
@@ -64,7 +64,7 @@ def begin_sums(c: Body, b: BodyMotion) -> None:
 
 def push_wheel(
     c: Body, b: BodyMotion, k: Wheel, w: WheelMotion, other: WheelMotion, side: float,
-    steer: float, torque: float, grip: float, dt: float,
+    steer: float, torque: float, dt: float,
 ) -> None:  # fmt: skip
     """Forces of a wheel and its suspension, its tyre and spin carried over `dt` [s]; adds what it does to the body.
 
@@ -94,7 +94,7 @@ def push_wheel(
     at_y = u_y + k.h_roll * axle_roll
     angle = k.steers * steer - k.steer_compliance * w.F_y
     cosine, sine = math.cos(angle), math.sin(angle)
-    roll_tyre(k, w, cosine * at_x + sine * at_y, cosine * at_y - sine * at_x, grip, dt)
+    roll_tyre(k, w, cosine * at_x + sine * at_y, cosine * at_y - sine * at_x, dt)
     f_x = cosine * w.F_x - sine * w.F_y
     f_y = sine * w.F_x + cosine * w.F_y
     drive = 0.5 * k.drive * torque

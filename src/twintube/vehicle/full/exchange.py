@@ -35,6 +35,7 @@ def start_car(
 ) -> None:  # fmt: skip
     """Let the car roll straight ahead at a `speed` [m/s]; its records hold zeros."""
     b.v_x = speed
+    b.seen = speed
     start_wheel(k1, w1, speed)
     start_wheel(k2, w2, speed)
     start_wheel(k3, w3, speed)
@@ -79,8 +80,9 @@ def take_force(w: WheelMotion, j: WheelInputs) -> None:
     w.damper = j.force
 
 
-def meet_road(w: WheelMotion, j: WheelInputs, ahead: float, at: float) -> None:
-    """Road and damper force `at` [s] within a step; the force is carried on by `ahead` mean steps."""
+def meet_road(w: WheelMotion, j: WheelInputs, grip: float, ahead: float, at: float) -> None:
+    """Road, its grip and damper force `at` [s] within a step; the force is carried on by `ahead` mean steps."""
+    w.grip = grip
     w.road = j.road + at * j.road_rate
     w.road_rate = j.road_rate
     w.acting = w.damper + ahead * (w.damper - w.before)
@@ -108,12 +110,12 @@ def communication_step(
     for n in range(parts):
         at = n * dt
         ahead = (0.5 * t.span + at) / apart if apart > 0.0 and span <= LONGEST_CARRIED else 0.0
-        meet_road(w1, j1, ahead, at)
-        meet_road(w2, j2, ahead, at)
-        meet_road(w3, j3, ahead, at)
-        meet_road(w4, j4, ahead, at)
+        meet_road(w1, j1, i.grip, ahead, at)
+        meet_road(w2, j2, i.grip, ahead, at)
+        meet_road(w3, j3, i.grip, ahead, at)
+        meet_road(w4, j4, i.grip, ahead, at)
         drive_step(
-            c, b, k1, k2, k3, k4, w1, w2, w3, w4, h, i.steer, i.brake_pressure, i.speed, i.torque, i.grip, dt
+            c, b, k1, k2, k3, k4, w1, w2, w3, w4, h, i.steer, i.brake_pressure, i.speed, i.torque, dt
         )  # fmt: skip
     t.earlier = t.span
     t.span = span

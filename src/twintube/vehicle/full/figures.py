@@ -7,7 +7,7 @@ from scipy import signal
 
 from twintube.arrays import Array
 from twintube.vehicle.full.car import WHEELS
-from twintube.vehicle.full.maneuvers import APPROACH, STEER_RATE
+from twintube.vehicle.full.maneuvers import APPROACH
 from twintube.vehicle.full.run import CarRun, FullCar
 
 SETTLED = 5.0  # [s] of a ride not included
@@ -66,6 +66,28 @@ def ride_figures(car: FullCar, run: CarRun, settled: float = SETTLED) -> dict[st
     }
 
 
+def swerve(run: CarRun, begin: int, end: int) -> dict[str, float]:
+    """Where a straight drive goes from sample `begin` to `end`: largest yaw rate [deg/s], heading [deg] and side offset [m].
+
+    Heading and offset, to the left positive, are those against the direction of travel at `begin`; amounts end with `max`.
+    """
+    on = slice(begin, end + 1)
+    aside = (run.y[on] - run.y[begin]) * np.cos(run.yaw[begin]) - (run.x[on] - run.x[begin]) * np.sin(run.yaw[begin])
+    heading, offset = float(np.degrees(largest(run.yaw[on] - run.yaw[begin]))), largest(aside)
+    return {
+        "yaw_rate_max_deg_s": float(np.degrees(np.abs(run.yaw_rate[on]).max())),
+        "heading_deg": heading,
+        "heading_max_deg": abs(heading),
+        "side_offset_m": offset,
+        "side_offset_max_m": abs(offset),
+    }
+
+
+def largest(values: Array) -> float:
+    """The value of largest amount, with its sign."""
+    return float(values[np.argmax(np.abs(values))])
+
+
 def braking_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
     """Of a stop: distance [m] from the brakes' application to standstill, deceleration [m/s2], loads, work [J]."""
     begin = int(np.searchsorted(run.time, APPROACH))
@@ -76,22 +98,27 @@ def braking_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
         "stopping_distance_m": distance if len(standing) else None,
         "deceleration_m_s2": float(run.v_x[begin] ** 2 / (2.0 * distance)) if len(standing) else None,
         "pitch_max_deg": float(np.degrees(run.pitch[begin:end].max())),
+        **swerve(run, begin, end),
         "stopping_time_s": float(run.time[end] - run.time[begin]),
         **loads(car, run.load[begin:end]),
         "damping_work_J": by_wheel(run.damper_work[end] - run.damper_work[begin]),
     }
 
 
+def smoothed(values: Array, time: Array, seconds: float = SMOOTHING) -> Array:
+    """Running mean over some `seconds`, without the end where it would fall."""
+    count = max(1, round(seconds / float(time[1] - time[0])))
+    mean: Array = np.convolve(values, np.ones(count) / count, mode="same")[:-count]
+    return mean
+
+
 def cornering_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
     """Of growing steering: largest lateral acceleration [m/s2], gradients of steer and roll angle [deg/g], loads, work."""
-    dt = float(run.time[1] - run.time[0])
-    count = max(1, round(SMOOTHING / dt))
-    mean = np.ones(count) / count
-    lateral = np.convolve(run.a_y, mean, mode="same")[:-count]
+    lateral = smoothed(run.a_y, run.time)
     most = int(np.argmax(lateral))
     # The averaged acceleration would bend where it grows from nothing within the time of averaging.
     linear = (run.a_y > LINEAR[0]) & (run.a_y < LINEAR[1]) & (np.arange(len(run.a_y)) < most)
-    straight = np.degrees(steer_needed(run) - car.body.wheelbase * run.a_y / np.maximum(run.v_x, 1.0) ** 2)
+    straight = np.degrees(run.steer - car.body.wheelbase * run.a_y / np.maximum(run.v_x, 1.0) ** 2)
     g = run.a_y[linear] / 9.80665
     on = (run.time > APPROACH) & (run.time <= run.time[most])
     return {
@@ -102,8 +129,3 @@ def cornering_figures(car: FullCar, run: CarRun) -> dict[str, Any]:
         **loads(car, run.load[on]),
         "damping_work_J": by_wheel(run.damper_work[on][-1] - run.damper_work[on][0]),
     }
-
-
-def steer_needed(run: CarRun) -> Array:
-    """The steer angle [rad] (n,) of `maneuvers.cornering`."""
-    return np.asarray(np.radians(STEER_RATE) * np.clip(run.time - APPROACH, 0.0, None))

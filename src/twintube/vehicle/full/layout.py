@@ -21,4 +21,6 @@ def place_wheel(k: Wheel, x: float, side: float) -> None:
 def start_wheel(k: Wheel, w: WheelMotion, speed: float) -> None:
     """A wheel that rolls freely at a `speed` [m/s] on a flat road; its brake may be applied."""
     w.spin = speed / k.radius
+    w.rim = speed
     w.order = 1.0
+    w.grip = 1.0

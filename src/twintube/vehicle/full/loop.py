@@ -8,21 +8,23 @@ from twintube.core.model import advance
 from twintube.core.outputs import total_force
 from twintube.vehicle.full.body import corner_stroke, corner_velocity
 from twintube.vehicle.full.driver import drive_step
+from twintube.vehicle.full.steering import follow_path
 
 # Columns of a step: the body's, then those of each wheel in turn.
-BODY_COLUMNS = 15
+BODY_COLUMNS = 16
 WHEEL_COLUMNS = 12
 
 
 def road_step(
     c: Any, b: Any, ks: Any, ws: Any, h: Any, road: Any, spacing: float,
-    steer: float, wanted: float, held: float, grip: float, dt: float,
+    grips: Any, steer: float, wanted: float, held: float, dt: float,
 ) -> bool:  # fmt: skip
     """One step of `dt` [s] of road, driver and car; false where the road ends.
 
     The dampers' forces stand in `ws`, which receives the strokes and velocities under which they do their step. `road`
     (2, m) [m] are the heights under left and right wheels every `spacing` [m], position 0 is at the rear axle at the start.
-    `steer` [rad], brake pressure `wanted` [Pa] and `held` speed [m/s], 0 where he coasts, are the driver's.
+    `grips` (2,) are the factors of the tyre forces on either of them. `steer` [rad], brake pressure `wanted` [Pa] and `held`
+    speed [m/s], 0 where he coasts, are the driver's.
     """
     speed = b.v_x + 0.5 * b.dv_x
     for i in range(4):
@@ -31,12 +33,13 @@ def road_step(
         if at < 0.0 or j + 2 > road.shape[1]:
             return False
         w, side = ws[i], i % 2
+        w.grip = grips[side]
         w.road = road[side, j] + (at - j) * (road[side, j + 1] - road[side, j])
         w.road_rate = speed * (road[side, j + 1] - road[side, j]) / spacing
         w.acting = 1.5 * w.damper - 0.5 * w.before
         w.stroke = ks[i].ratio * corner_stroke(b, ks[i], w)
     drive_step(
-        c, b, ks[0], ks[1], ks[2], ks[3], ws[0], ws[1], ws[2], ws[3], h, steer, wanted, held, 0.0, grip, dt
+        c, b, ks[0], ks[1], ks[2], ks[3], ws[0], ws[1], ws[2], ws[3], h, steer, wanted, held, 0.0, dt
     )  # fmt: skip
     b.way += dt * math.sqrt(b.v_x * b.v_x + b.v_y * b.v_y)
     for i in range(4):
@@ -51,10 +54,10 @@ def write_body(b: Any, row: Any) -> None:
     row[14] = b.work
 
 
-def write_step(b: Any, ws: Any, row: Any, dt: float) -> None:
-    """The accelerations of a step of `dt` [s] and the wheels' columns, but for the dampers' work."""
+def write_step(b: Any, ws: Any, row: Any, steer: float, dt: float) -> None:
+    """The accelerations of a step of `dt` [s], the steer angle [rad] and the wheels' columns, but for the dampers' work."""
     row[9], row[10], row[11] = b.a_x, b.a_y, b.dv_z / dt
-    row[12], row[13] = b.dw_roll / dt, b.dw_pitch / dt
+    row[12], row[13], row[15] = b.dw_roll / dt, b.dw_pitch / dt, steer
     for i in range(4):
         w = ws[i]
         at = BODY_COLUMNS + WHEEL_COLUMNS * i
@@ -65,11 +68,12 @@ def write_step(b: Any, ws: Any, row: Any, dt: float) -> None:
 
 def run_car(
     p: Any, d: Any, s: Any, f: Any, c: Any, b: Any, ks: Any, ws: Any, h: Any,
-    road: Any, spacing: float, inputs: Any, grip: float, dt: float, out: Any,
+    road: Any, spacing: float, grips: Any, q: Any, path: Any, inputs: Any, dt: float, out: Any,
 ) -> int:  # fmt: skip
     """Drive the car with its dampers, whose records `p`, `d`, `s`, `f` (4,) are; the others as `road_step`.
 
-    `inputs` (n, 3) are `steer`, `wanted` and `held`, step by step. `out` (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) is written.
+    `inputs` (n, 3) are `steer`, `wanted` and `held`, step by step; to the angle comes that by which `q` follows a `path`
+    (m, 4), if there is one. `out` (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) is written.
 
     Returns the number of finished steps: less than n where a piston would leave its tube, a step failed, or the road ends.
     """
@@ -79,9 +83,10 @@ def run_car(
     for n in range(len(inputs)):
         row = out[n]
         write_body(b, row)
-        if not road_step(c, b, ks, ws, h, road, spacing, inputs[n, 0], inputs[n, 1], inputs[n, 2], grip, dt):
+        steer = inputs[n, 0] + follow_path(q, b, path, n * dt, dt)
+        if not road_step(c, b, ks, ws, h, road, spacing, grips, steer, inputs[n, 1], inputs[n, 2], dt):
             return n
-        write_step(b, ws, row, dt)
+        write_step(b, ws, row, steer, dt)
         for i in range(4):
             w = ws[i]
             row[BODY_COLUMNS + WHEEL_COLUMNS * i + 10] = s[i].work

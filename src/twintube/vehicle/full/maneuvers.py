@@ -19,20 +19,28 @@ MOST_STEER = 40.0  # [deg] at the wheel
 MOST_LATERAL, MOST_SLIP = 11.0, 6.0  # [m/s2], [deg] of the front tyres: where the steering ends, beyond the largest force
 SMOOTH = "smooth"
 CLASSES = (SMOOTH, *GD_N0)
+GRIPS = (0.1, 1.5)  # ice to a racing tyre
 
 
 @dataclass(frozen=True)
 class Road:
-    """Which road: smooth or a class of ISO 8608, its seed, and whether left and right are equal."""
+    """Which road: smooth or a class of ISO 8608, its seed, whether left and right are equal, and their grips.
+
+    A grip is the factor of all tyre forces against those of the tyre's dry road.
+    """
 
     kind: str = "D"
     seed: int = 1
     equal: bool = False
+    grips: tuple[float, float] = (1.0, 1.0)
 
     def __post_init__(self) -> None:
-        """Raises InputError for an unknown class."""
+        """Raises InputError for an unknown class and for a grip out of GRIPS."""
         if self.kind not in CLASSES:
             raise InputError(f"road class {self.kind}: must be one of {', '.join(CLASSES)}")
+        for side, grip in zip(("left", "right"), self.grips, strict=True):
+            if not GRIPS[0] <= grip <= GRIPS[1]:
+                raise InputError(f"grip {grip:g} on the {side}: must be from {GRIPS[0]:g} to {GRIPS[1]:g}")
 
     def heights(self, car: FullCar, length: float) -> Array:
         """Heights (2, m) [m] of the tracks for a drive of `length` [m]; they begin at 0."""
@@ -59,22 +67,25 @@ def ride(car: FullCar, speed_kmh: float, seconds: float, road: Road, dt: float =
     inputs = np.zeros((round(seconds / dt), 3))
     inputs[:, 2] = speed
     # On a rough road the speed that is held swings, and the road must not end before the time.
-    return drive_car(car, road.heights(car, 1.1 * speed * seconds), SPACING, inputs, speed, dt=dt)
+    return drive_car(car, road.heights(car, 1.1 * speed * seconds), SPACING, inputs, speed, grips=road.grips, dt=dt)
 
 
-def braking(car: FullCar, speed_kmh: float, road: Road, *, grip: float = 1.0, dt: float = DT) -> CarRun:
+def braking(car: FullCar, speed_kmh: float, road: Road, dt: float = DT) -> CarRun:
     """An emergency stop with slip control, brakes from APPROACH on; ends when the car stands. Raises InputError."""
     speed = checked_speed(speed_kmh)
-    # Even a third of the deceleration of a dry road stops the car in this time.
-    seconds = APPROACH + 1.0 + speed / (3.0 * min(grip, 1.0))
+    slow = min(1.0, float(np.mean(road.grips)))
+    # Even a third of the deceleration of such a road stops the car in this time.
+    seconds = APPROACH + 1.0 + speed / (3.0 * slow)
     time = np.arange(round(seconds / dt)) * dt
     inputs = np.zeros((len(time), 3))
     inputs[:, 1] = PRESSURE * (time >= APPROACH)
     inputs[:, 2] = speed * (time < APPROACH)
-    return drive_car(car, road.heights(car, speed * (APPROACH + speed / 4.0)), SPACING, inputs, speed, grip=grip, dt=dt)
+    return drive_car(
+        car, road.heights(car, speed * (APPROACH + speed / (4.0 * slow))), SPACING, inputs, speed, grips=road.grips, dt=dt
+    )
 
 
-def cornering(car: FullCar, speed_kmh: float, road: Road, *, grip: float = 1.0, dt: float = DT) -> CarRun:
+def cornering(car: FullCar, speed_kmh: float, road: Road, dt: float = DT) -> CarRun:
     """Constant speed with evenly growing steer angle, to the left, from APPROACH on (ISO 13674-like); raises InputError."""
     speed = checked_speed(speed_kmh)
     # What the steering gives way by: the outer wheel carries at most twice its load.
@@ -85,10 +96,12 @@ def cornering(car: FullCar, speed_kmh: float, road: Road, *, grip: float = 1.0, 
     inputs = np.zeros((len(time), 3))
     inputs[:, 0] = np.radians(STEER_RATE) * np.clip(time - APPROACH, 0.0, None)
     inputs[:, 2] = speed
-    return drive_car(car, road.heights(car, 1.1 * speed * seconds), SPACING, inputs, speed, grip=grip, dt=dt)
+    return drive_car(car, road.heights(car, 1.1 * speed * seconds), SPACING, inputs, speed, grips=road.grips, dt=dt)
 
 
-def table3_drive(car: FullCar, drive: table3.Maneuver, seed: int = 1, dt: float = DT) -> CarRun:
+def table3_drive(
+    car: FullCar, drive: table3.Maneuver, seed: int = 1, grips: tuple[float, float] = (1.0, 1.0), dt: float = DT
+) -> CarRun:
     """A drive of Table 3, both tracks equal but on the uneven road; braked ones with 6 m/s2 from 3 s on."""
     speed = drive.speed_kmh / 3.6
     time = np.arange(round(drive.seconds / dt)) * dt
@@ -106,4 +119,4 @@ def table3_drive(car: FullCar, drive: table3.Maneuver, seed: int = 1, dt: float 
         gain = 2.0 * sum(wheel.brake / wheel.radius for wheel in car.wheels[::2])
         inputs[on, 1] = car.mass * table3.BRAKING / gain
         inputs[on, 2] = 0.0
-    return drive_car(car, heights, SPACING, inputs, speed, dt=dt)
+    return drive_car(car, heights, SPACING, inputs, speed, grips=grips, dt=dt)

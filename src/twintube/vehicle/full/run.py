@@ -1,5 +1,6 @@
 """The whole car driven: from a car's file, four dampers, two road tracks and what the driver does."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
@@ -18,6 +19,7 @@ from twintube.vehicle.full.brakes import Brakes
 from twintube.vehicle.full.car import WHEELS, Body, BodyMotion, Wheel, WheelMotion
 from twintube.vehicle.full.layout import balance_body, place_wheel, start_wheel
 from twintube.vehicle.full.loop import BODY_COLUMNS, WHEEL_COLUMNS
+from twintube.vehicle.full.steering import LAG, LEAD, MOST_ANGLE, MOST_RATE, PATH_SPACING, PREVIEW, Pursuer
 
 DT = 1e-3  # [s]
 
@@ -58,6 +60,7 @@ class CarRun:
     roll_acceleration: Array
     pitch_acceleration: Array
     work: Array  # [J] of road, drive, brakes, damping and friction on the car since the start
+    steer: Array  # of the steered wheels
     stroke: Array  # of the dampers
     velocity: Array
     force: Array
@@ -96,6 +99,31 @@ def full_car(car: CarSet, dampers: Sequence[Damper]) -> FullCar:
     return FullCar(car.name, body, tuple(wheels), Brakes(**table["brakes"]), tuple(dampers))
 
 
+@dataclass(frozen=True)
+class Pursuit:
+    """A driver who follows a path (m, 2) [m], a point every PATH_SPACING, and holds the wheel still after `until` [s]."""
+
+    path: Array
+    until: float = math.inf
+
+
+def pursuer(car: FullCar, pursuit: Pursuit | None) -> tuple[Any, Array]:
+    """The record of the driver, who knows wheelbase and understeer of his car, and his path; without `pursuit` none."""
+    if pursuit is None:
+        return compiled.as_row(blank(Pursuer))[0], np.zeros((0, 4))
+    front, rear = (sum(w.weight for w in car.wheels[i : i + 2]) for i in (0, 2))
+    gives = car.wheels[0].steer_compliance * front / 2.0 - car.wheels[2].steer_compliance * rear / 2.0
+    driver = Pursuer(PREVIEW, LEAD, LAG, MOST_RATE, MOST_ANGLE, car.body.wheelbase, gives, pursuit.until, 0.0, 0.0)
+    return compiled.as_row(driver)[0], with_curvature(pursuit.path)
+
+
+def with_curvature(path: Array) -> Array:
+    """Points (m, 2) [m] of a path with their direction [rad] and curvature [1/m]: (m, 4)."""
+    along = np.gradient(path, axis=0)
+    yaw = np.unwrap(np.arctan2(along[:, 1], along[:, 0]))
+    return np.column_stack([path, yaw, np.gradient(yaw) / PATH_SPACING])
+
+
 def together(records: Sequence[Any]) -> np.ndarray[Any, Any]:
     """Records of one type as a structured array (r,)."""
     return np.concatenate([compiled.as_row(record) for record in records])
@@ -104,7 +132,7 @@ def together(records: Sequence[Any]) -> np.ndarray[Any, Any]:
 def started(car: FullCar, speed: float) -> tuple[BodyMotion, list[WheelMotion]]:
     """The car rolling straight ahead at a `speed` [m/s] on a flat road."""
     body = blank(BodyMotion)
-    body.v_x = speed
+    body.v_x, body.seen = speed, speed
     wheels = [blank(WheelMotion) for _ in WHEELS]
     for motion, wheel in zip(wheels, car.wheels, strict=True):
         start_wheel(wheel, motion, speed)
@@ -112,12 +140,13 @@ def started(car: FullCar, speed: float) -> tuple[BodyMotion, list[WheelMotion]]:
 
 
 def drive_car(
-    car: FullCar, road: Array, spacing: float, inputs: Array, speed: float, *, grip: float = 1.0, dt: float = DT,
-    preconditioned: bool = True,
+    car: FullCar, road: Array, spacing: float, inputs: Array, speed: float, *, grips: tuple[float, float] = (1.0, 1.0),
+    pursuit: Pursuit | None = None, dt: float = DT, preconditioned: bool = True,
 ) -> CarRun:  # fmt: skip
     """Drive over `road` (2, m) [m], heights of left and right track every `spacing` [m], from `speed` [m/s] on.
 
     `inputs` (n, 3): steer angle [rad], brake pressure that the driver wants [Pa], speed [m/s] that he holds (0: none).
+    `grips` are the factors of the tyre forces on the left and the right track; `pursuit` steers along a path besides.
     Raises InputError where a piston would leave its tube, and at the end of the road.
     """
     module = compiled.module()
@@ -131,9 +160,11 @@ def drive_car(
     body, wheels = started(car, speed)
     out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
     moving, turning = compiled.as_row(body), together(wheels)
+    driver, path = pursuer(car, pursuit)
     done = module.run_car(
         p, d, s, f, compiled.as_row(car.body)[0], moving[0], together(car.wheels), turning,
-        compiled.as_row(car.brakes)[0], np.array(road, dtype=float), spacing, np.array(inputs, dtype=float), grip, dt, out,
+        compiled.as_row(car.brakes)[0], np.array(road, dtype=float), spacing, np.array(grips, dtype=float),
+        driver, path, np.array(inputs, dtype=float), dt, out,
     )  # fmt: skip
     if done < len(inputs):
         strokes, limits = turning["stroke"] + turning["velocity"] * dt, [stroke_limit(row[1]) for row in each]

@@ -11,7 +11,8 @@ from twintube.core.checks import outside
 from twintube.dampers import Damper, ParameterError
 from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED
 from twintube.vehicle.cars import METAS, CarSet
-from twintube.vehicle.full.study import HEADLINES, Case, dampers_of, driven_all
+from twintube.vehicle.full.catalogue import MANEUVERS, Case
+from twintube.vehicle.full.study import dampers_of, driven_all
 
 SPEED = 80.0  # [km/h]
 DRIVES: Final = (
@@ -63,6 +64,10 @@ ASSUMED: Final = (
     times("steer compliance", 0.15, 1.5, "0.75 to 5 deg/g; 3.6 on a measured saloon", ["front_axle"], "steer_compliance"),
     times("rear brakes", 0.63, 1.13, "front share 0.76 to 0.64 in three cars of CommonRoad", ["rear_axle"], "brake"),
     times("slip thresholds of the control", 0.75, 1.5, "no source", ["brakes"], "slip_release", "slip_build"),
+    times("fall at which a wheel is held", 0.8, 1.6, "80 to 100 rad/s2 in such controllers", ["brakes"], "fall"),
+    times("drift of the estimated speed", 0.0, 4.0, "a perfect accelerometer to a poor one", ["brakes"], "drift"),
+    times("its rise after a rim", 0.5, 2.0, "no source", ["brakes"], "catch"),
+    times("pressure regained fast", 0.8, 1.1, "no source", ["brakes"], "regain"),
     times("build-up of the control", 0.5, 2.0, "no source", ["brakes"], "build"),
     times("release of the control", 0.5, 2.0, "a student's controller", ["brakes"], "release"),
     times("cycle of the control", 1.0, 2.0, "usual 5 to 10 ms", ["brakes"], "cycle"),
@@ -127,7 +132,9 @@ def wanted(level: float, seeds: Sequence[int], models: Sequence[str]) -> list[Ca
 def growth(entries: Sequence[Mapping[str, Any]]) -> dict[tuple[str, str, str], list[float]]:
     """Worn over intact less 1 of the headlines, seed by seed, by manoeuvre, road and model; what was not driven is NaN."""
     figures = {
-        (e["maneuver"], e["road"], e["seed"], e["model"] if e["oil_level"] < 1.0 else ""): e.get(HEADLINES[e["maneuver"]][0])
+        (e["maneuver"], e["road"], e["seed"], e["model"] if e["oil_level"] < 1.0 else ""): e.get(
+            MANEUVERS[e["maneuver"]].headline[0]
+        )
         for e in entries
     }
     found: dict[tuple[str, str, str], list[float]] = {}

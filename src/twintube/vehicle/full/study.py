@@ -3,7 +3,7 @@
 import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,42 +14,16 @@ from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED, condition
 from twintube.engine.simulate import InputError
 from twintube.vehicle import maneuvers as table3
 from twintube.vehicle.cars import CarSet
-from twintube.vehicle.full import maneuvers as driven
 from twintube.vehicle.full.brakes import Brakes
 from twintube.vehicle.full.car import WHEELS
-from twintube.vehicle.full.figures import braking_figures, cornering_figures, ride_figures
-from twintube.vehicle.full.run import FullCar, full_car
+from twintube.vehicle.full.catalogue import MANEUVERS, TABLE_3, Case
+from twintube.vehicle.full.maneuvers import SMOOTH
+from twintube.vehicle.full.run import CarRun, FullCar, full_car
 
 WORN = {"all": (0, 1, 2, 3), "front": (0, 1), "rear": (2, 3)} | {name: (i,) for i, name in enumerate(WHEELS)}
-RIDE_SECONDS = 30.0
 FULL = "full model"
 SCATTER = 0.25  # of thresholds and rates of the slip control, from seed to seed: assumed
-# The figure of each manoeuvre that is compared, its name and unit.
-HEADLINES = {
-    "ride": ("dlc_worst", "largest DLC of a wheel", "1"),
-    "braking": ("stopping_distance_m", "stopping distance", "m"),
-    "cornering": ("lateral_acceleration_max_m_s2", "largest lateral acceleration", "m/s2"),
-    "table3": ("dlc_worst", "largest DLC of a wheel", "1"),
-}
 USUAL = ("ride", "braking", "cornering")
-TABLE_3 = {drive.name: drive for drive in table3.MANEUVERS}
-
-
-@dataclass(frozen=True)
-class Case:
-    """A drive: what is driven, on which road, and how worn the dampers are."""
-
-    maneuver: str
-    speed_kmh: float
-    road: str  # of the drives of Table 3 their name
-    seed: int
-    oil_level: float = 1.0
-    model: str = DEFAULT  # a way, or SCALAR
-
-    @property
-    def intact(self) -> bool:
-        """Whether nothing is worn."""
-        return self.oil_level == 1.0
 
 
 def dampers_of(front: Damper, rear: Damper, worn: str, case: Case) -> list[Damper]:
@@ -72,57 +46,57 @@ def varied(brakes: Brakes, seed: int) -> Brakes:
     if seed == 1:
         return brakes
     rng = np.random.default_rng([seed, 7])
-    names = ("slip_release", "slip_build", "build", "release", "cycle")
+    names = ("slip_release", "slip_build", "fall", "build", "release", "cycle")
     values = {name: getattr(brakes, name) * float(rng.uniform(1 - SCATTER, 1 + SCATTER)) for name in names}
     values["slip_build"] = min(values["slip_build"], 0.8 * values["slip_release"])
     return replace(brakes, **values)
 
 
+def run_of(car: FullCar, case: Case) -> CarRun:
+    """The drive of a case, with the slip control of its seed; raises InputError where a piston leaves its tube."""
+    return MANEUVERS[case.maneuver].drive(replace(car, brakes=varied(car.brakes, case.seed)), case)
+
+
 def figures_of(car: FullCar, case: Case) -> dict[str, Any]:
-    """The figures of a case; raises InputError where a piston leaves its tube."""
-    car = replace(car, brakes=varied(car.brakes, case.seed))
-    match case.maneuver:
-        case "ride":
-            figures = ride_figures(car, driven.ride(car, case.speed_kmh, RIDE_SECONDS, driven.Road(case.road, case.seed)))
-        case "braking":
-            figures = braking_figures(car, driven.braking(car, case.speed_kmh, driven.Road(case.road, case.seed)))
-        case "cornering":
-            run = driven.cornering(car, case.speed_kmh, driven.Road(case.road, case.seed))
-            figures = cornering_figures(car, run)
-            if case.road != driven.SMOOTH:  # a few seconds of an uneven road give no gradient
-                figures = {name: value for name, value in figures.items() if not name.endswith("per_g")}
-        case "table3":
-            figures = ride_figures(car, driven.table3_drive(car, TABLE_3[case.road], case.seed), settled=0.0)
-        case _:
-            raise InputError(f"maneuver {case.maneuver}: must be one of {', '.join(HEADLINES)}")
+    """The figures of a case; raises as `run_of`."""
+    figures = MANEUVERS[case.maneuver].figures(car, case, run_of(car, case))
     return figures | {"dlc_worst": max(figures["dlc"].values())}
 
 
 def cases(
-    maneuvers: Iterable[str], speeds: Sequence[float], roads: Sequence[str], levels: Sequence[float], seeds: int
+    maneuvers: Iterable[str],
+    speeds: Sequence[float] | None,
+    roads: Sequence[str],
+    levels: Sequence[float],
+    seeds: int,
+    grips: tuple[float, float] = (1.0, 1.0),
 ) -> list[Case]:
-    """All cases, the intact ones included; the drives of Table 3 have roads and speeds of their own.
+    """All cases, the intact ones included; the drives of Table 3 have roads and speeds of their own, all others speeds.
 
-    On a smooth road seeds differ in the slip control alone; where neither differs there is one.
+    On a smooth road seeds differ in the slip control alone; where neither differs there is one. Raises InputError where
+    nothing is left to drive.
     """
     wanted = []
-    for maneuver in maneuvers:
-        if maneuver == "table3":
-            places = [(drive.speed_kmh, name, drive.profile is table3.uneven) for name, drive in TABLE_3.items()]
+    for name in maneuvers:
+        maneuver = MANEUVERS[name]
+        if name == "table3":
+            places = [(drive.speed_kmh, key, drive.profile is table3.uneven) for key, drive in TABLE_3.items()]
         else:
             places = [
-                (speed, road, road != driven.SMOOTH or maneuver == "braking")
-                for speed in speeds
+                (speed, road, road != SMOOTH or maneuver.seeded)
+                for speed in speeds or maneuver.speeds
                 for road in roads
-                if not (maneuver == "ride" and road == driven.SMOOTH)
+                if (maneuver.smooth if road == SMOOTH else maneuver.uneven)
             ]
         wanted += [
-            Case(maneuver, speed, road, seed, level, model)
+            Case(name, speed, road, seed, level, model, grips)
             for speed, road, differs in places
             for seed in range(1, (seeds if differs else 1) + 1)
             for level in (1.0, *(x for x in levels if x != 1.0))
             for model in ((DEFAULT,) if level == 1.0 else (*VARIED, SCALAR))
         ]
+    if not wanted:
+        raise InputError(f"nothing to drive: a {', '.join(maneuvers)} is not driven on the road class {', '.join(roads)}")
     return wanted
 
 
@@ -165,7 +139,7 @@ def compared(entries: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
             groups.setdefault((*key(row)[:3], row["oil_level"], model), []).append(row)
     rows = []
     for (maneuver, speed, road, level, model), some in groups.items():
-        name, title, unit = HEADLINES[maneuver]
+        name, title, unit = MANEUVERS[maneuver].headline
         pairs = [(row.get(name), intact[key(row)].get(name)) for row in some]
         ratios = [a / b for a, b in pairs if a is not None and b]
         usual = [row for row in some if row["model"] in (DEFAULT, SCALAR)]
@@ -179,6 +153,12 @@ def compared(entries: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
             "intact": mean_of([b for _, b in pairs]), "worn": mean_of(means),
             "change": float(np.mean(shares) - 1) if shares else None,
             "change_band": [min(ratios) - 1, max(ratios) - 1] if shares else None,
+            "beside": [
+                {"name": key_, "figure": words, "unit": unit_,
+                 "intact": mean_of([intact[key(row)].get(key_) for row in usual]),
+                 "worn": mean_of([row.get(key_) for row in usual])}
+                for key_, words, unit_ in MANEUVERS[maneuver].beside
+            ],
         })  # fmt: skip
     return rows
 

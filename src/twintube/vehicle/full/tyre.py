@@ -53,14 +53,14 @@ def force_over_slip(slip: float, rise: float, s_most: float, most: float, s_slid
     return (most - (most - slide) * share * share * (3.0 - 2.0 * share)) / slip
 
 
-def roll_tyre(k: Wheel, w: WheelMotion, v_x: float, v_y: float, grip: float, dt: float) -> None:
+def roll_tyre(k: Wheel, w: WheelMotion, v_x: float, v_y: float, dt: float) -> None:
     """One step of `dt` [s] of the deflections; writes the forces `F_x`, `F_y` [N] and slips at the start of the step.
 
     `v_x`, `v_y` [m/s] are the speeds of the contact over the ground in the wheel's directions, rolling not counted; `w.load`
-    is the vertical load [N] and `grip` the road's factor of all forces.
+    is the vertical load [N] and `w.grip` the road's factor of all forces.
     """
     rolling = k.radius * (w.spin + 0.5 * w.d_spin)
-    slide_x, slide_y = v_x - rolling, v_y
+    slide_x, slide_y, grip = v_x - rolling, v_y, w.grip
     speed = max(abs(rolling), ROLLING)
     load = min(w.load / k.F_nominal, LARGEST_LOAD)
     secant_x, secant_y = 0.0, 0.0
