@@ -1,5 +1,6 @@
 """Variants of the model: parts switched off (variants 2 and 3 of Section 3.4), a scalar factor, another F-v curve."""
 
+from twintube.core.effects.oil_temperature import CAPACITY
 from twintube.dampers.curve import BRANCHES, continued
 from twintube.dampers.damper import Damper
 
@@ -28,3 +29,8 @@ def rear_curve(damper: Damper) -> dict[str, tuple[float, ...]]:
         v, F = zip(*continued(list(points)), strict=True)
         changes |= {v_name: v, F_name: F}
     return changes
+
+
+def self_heating(fade: float) -> dict[str, float]:
+    """The parameters by which the fluid force fades by `fade` [1/K] with the heat of the work, in CAPACITY [J/K]."""
+    return {"fade_heat": fade / CAPACITY}

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array, freeze_arrays
-from twintube.core.effects.oil_temperature import CAPACITY
 from twintube.dampers import Damper
+from twintube.dampers.variants import self_heating
 from twintube.inspection.plate import Plate, motion
 from twintube.vehicle.drive import drive
 from twintube.vehicle.quarter_car import Car
@@ -42,7 +42,7 @@ ENOUGH: Final = HIGHEST / math.sqrt(0.75)  # [m/s] of the first cycles: half of 
 REST: Final = 30.0  # [s]: freed gas has a half-life of 6 to 10 s, the heat of a damper one of minutes
 RETURNED: Final = 0.5  # of the growth: what has a half-life shorter than the rest has returned by more, heat by less
 # Of the growth. The heat of the run alone lets an intact damper's answer grow by up to 13 %: the six that cavitate, 60 draws
-# of the scatter, all plates, 0.3 %/K and CAPACITY. Above that it is not such heat, and every intact damper passes.
+# of the scatter, all plates, 0.3 %/K and 700 J/K. Above that it is not such heat, and every intact damper passes.
 LIMIT: Final = 1.15
 
 
@@ -119,8 +119,8 @@ def groups(run: Shake, values: Array) -> Array:
 
 
 def heated(damper: Damper, fade: float) -> Damper:
-    """The damper whose fluid force fades by `fade` [1/K] with the heat of its work, all of which stays in CAPACITY."""
-    return damper.with_(fade_heat=fade / CAPACITY) if fade > 0.0 else damper
+    """The damper whose fluid force fades by `fade` [1/K] with the heat of its work, all of which stays in it."""
+    return damper.with_(**self_heating(fade)) if fade > 0.0 else damper
 
 
 def tired(run: Shake, begin: int, velocity: Array, load: Array, work: float) -> Tired:
