@@ -62,7 +62,7 @@ def slow_figures(dampers: list[Damper]) -> dict[str, dict[str, float]]:
 def fast_row(damper: Damper) -> dict[str, float]:
     """Highest and lowest oil level [1] at which one of the directions has lost a tenth or half of its force."""
     cases = fast_falls(damper)
-    row = {}
+    row: dict[str, float] = {}
     for fall in FALLS:
         found = [case[direction, fall] for case in cases for direction in DIRECTIONS]
         row |= {f"highest {fall:.0%}": max(found), f"lowest {fall:.0%}": min(found)}
