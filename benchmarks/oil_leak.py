@@ -36,6 +36,10 @@ class Levels:
     swept: float  # [m2] bore: A_2, times the amplitude the oil that a half stroke moves
     intact: float  # [m3] of oil
 
+    def oil_level(self, missing: float, amplitude: float) -> float:
+        """Oil level [1] where `missing` times A_2 times the amplitude [m] lacks in the working chambers."""
+        return float(np.clip((self.full - missing * self.swept * amplitude) / self.intact, 0.0, 1.0))
+
 
 def levels(damper: Damper) -> Levels:
     """Volumes of a damper."""
@@ -65,8 +69,9 @@ def with_valves_of(damper: Damper, name: str) -> Damper:
 
 
 def strokes(damper: Damper) -> list[float]:
-    """Amplitudes [m] that the damper has room for."""
-    return [amplitude for amplitude in AMPLITUDES if amplitude <= damper.parameters.stroke_max]
+    """Amplitudes [m] that the damper has room for, at least its own."""
+    longest = damper.parameters.stroke_max
+    return [amplitude for amplitude in AMPLITUDES if amplitude <= longest] or [longest]
 
 
 def missing_at(damper: Damper, amplitude: float) -> Falls:
@@ -75,7 +80,7 @@ def missing_at(damper: Damper, amplitude: float) -> Falls:
     By direction and fall; infinite where it does not fall within REACH.
     """
     volumes = levels(damper)
-    oil = [min(1.0, (volumes.full - share * volumes.swept * amplitude) / volumes.intact) for share in REACH]
+    oil = [volumes.oil_level(share, amplitude) for share in REACH.tolist()]
     left = np.array([force_left(damper, level, SLOW, amplitude, freed_gas.DEFAULT) for level in oil])
     return first(REACH, left, never=np.inf)
 

@@ -132,7 +132,7 @@ def loops(ax: Axes, damper: Damper) -> None:
     volumes, block = levels(damper), harmonic_block(SLOW, DRAWN)
     last = slice(block.marks[-2], block.marks[-1] + 1)
     for share, colour in MISSING.items():
-        level = (volumes.full - share * volumes.swept * DRAWN) / volumes.intact
+        level = volumes.oil_level(share, DRAWN)
         worn = freed_gas.condition(damper, level, 0)
         force = simulate(worn, block.stroke, block.velocity, block.time).force
         ax.plot(1e3 * block.stroke[last], force[last], color=colour, label=f"{level:.0%}")
@@ -161,8 +161,8 @@ def over_missing(ax: Axes, dampers: list[Damper]) -> None:
     """The same over the oil that is missing in the working chambers, for several builds."""
     for number, damper in enumerate(dampers):
         volumes = levels(damper)
-        oil = [(volumes.full - share * volumes.swept * DRAWN) / volumes.intact for share in REACH]
-        left = np.array([force_left(damper, min(1.0, level), SLOW, DRAWN, freed_gas.DEFAULT) for level in oil])
+        oil = [volumes.oil_level(share, DRAWN) for share in REACH.tolist()]
+        left = np.array([force_left(damper, level, SLOW, DRAWN, freed_gas.DEFAULT) for level in oil])
         for column, colour, direction in zip(left.T, (BLUE, ORANGE), DIRECTIONS, strict=True):
             ax.plot(REACH, column, color=colour, alpha=0.6, label=direction if number == 0 else None)
     title(ax, f"(c) the same, {len(dampers)} builds")

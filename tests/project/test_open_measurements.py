@@ -19,7 +19,7 @@ from benchmarks.oil_leak import (
     with_valves_of,
 )
 from benchmarks.oil_leak_page import DIRECTIONS, GONE, build, by_stroke, volume_row
-from twintube.dampers import Damper, freed_gas, load
+from twintube.dampers import freed_gas, load
 from twintube.dampers.toml import names
 from twintube.engine.simulate import simulate
 from twintube.rig import harmonic_block
@@ -33,12 +33,6 @@ def published() -> dict[tuple[str, float], tuple[float, float]]:
     """Least and most missing oil of the page at the middle stroke, by direction and fall."""
     row = re.compile(r"\| (\w+), (\d+)% \|[^|]*\| ([\d.]+) to ([\d.]+) \|")
     return {(found[1], int(found[2]) / 100): (float(found[3]), float(found[4])) for found in row.finditer(PAGE)}
-
-
-def at_missing(damper: Damper, share: float, amplitude: float) -> float:
-    """Oil level [1] at which this share of A_2 times the amplitude is missing in the working chambers."""
-    volumes = levels(damper)
-    return (volumes.full - share * volumes.swept * amplitude) / volumes.intact
 
 
 @pytest.mark.parametrize(
@@ -85,7 +79,7 @@ def test_fast_levels_of_a_build_lie_in_its_row() -> None:
 def test_freed_gas_does_not_matter_below_the_speed_of_cavitation(way: str) -> None:
     damper = load("SA7")
     assert damper.parameters.v_cav > SLOW
-    level = at_missing(damper, 0.4, MIDDLE)
+    level = levels(damper).oil_level(0.4, MIDDLE)
     assert force_left(damper, level, SLOW, MIDDLE, way) == force_left(damper, level, SLOW, MIDDLE, freed_gas.DEFAULT)
 
 
@@ -94,7 +88,7 @@ def test_freed_gas_does_not_matter_below_the_speed_of_cavitation(way: str) -> No
 def test_rebound_loses_a_corner_and_is_whole_behind_it(name: str, valves: str, share: float) -> None:
     damper = with_valves_of(load(name), valves)
     block = harmonic_block(SLOW, MIDDLE)
-    worn = freed_gas.condition(damper, at_missing(damper, share, MIDDLE), 0)
+    worn = freed_gas.condition(damper, levels(damper).oil_level(share, MIDDLE), 0)
     left = simulate(worn, block.stroke, block.velocity, block.time).k_degr[block.marks[-2] : block.marks[-1]]
     moving = block.velocity[block.marks[-2] : block.marks[-1]] > 0.05
     beginning = left[moving] <= 0.3 + 1e-9  # the largest X_Re of Table 9
@@ -105,7 +99,7 @@ def test_rebound_loses_a_corner_and_is_whole_behind_it(name: str, valves: str, s
 
 def test_a_longer_stroke_keeps_the_rebound_force_down_to_less_oil() -> None:
     damper = load("SA8")
-    at = [at_missing(damper, missing_at(damper, amplitude)["rebound", 0.5], amplitude) for amplitude in AMPLITUDES]
+    at = [levels(damper).oil_level(missing_at(damper, amplitude)["rebound", 0.5], amplitude) for amplitude in AMPLITUDES]
     assert at[0] > at[1] > at[2]
 
 
