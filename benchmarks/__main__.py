@@ -17,8 +17,10 @@ from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.identify import bench_identify
 from benchmarks.inspect import bench_inspect
 from benchmarks.kernel import bench_kernel
+from benchmarks.oil_leak_page import bench_oil_leak
 from benchmarks.steps import bench_steps
 from twintube.engine import compiled
+from twintube.errors import UserError
 
 BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "kernel": bench_kernel,
@@ -33,7 +35,8 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,
     "detection": bench_detection,
 }
-NAMES = ", ".join((*BENCHMARKS, *SEEDED, "challenge", WORKSHOP, "calibrate"))
+OTHERS = ("challenge", WORKSHOP, "calibrate", "oil_leak")
+NAMES = ", ".join((*BENCHMARKS, *SEEDED, *OTHERS))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
@@ -48,14 +51,15 @@ def main(
     ] = None,
     first_seed: Annotated[int, typer.Option(min=0, help="First seed of challenge or workshop.")] = 0,
     causes: Annotated[str, typer.Option(help="Causes of the challenge, joined by commas; by default the seed draws.")] = "",
-    plot: Annotated[Path | None, typer.Option(help="Picture of the challenge's reliability.")] = None,
-    tables: Annotated[Path | None, typer.Option(help="Tables of the challenge in Markdown.")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Picture of the challenge's reliability, or of oil_leak.")] = None,
+    tables: Annotated[Path | None, typer.Option(help="Tables of the challenge or of oil_leak in Markdown.")] = None,
+    damper: Annotated[Path | None, typer.Option(help="Parameter file for oil_leak; by default the paper's eight.")] = None,
 ) -> None:
     """Measure speed and print a table; short jobs are run several times, the shortest time counts.
 
     diagnosis and detection measure hit rates on hidden causes and take hours with 10 seeds.
     """
-    if name not in (*BENCHMARKS, *SEEDED, "challenge", WORKSHOP, "calibrate"):
+    if name not in (*BENCHMARKS, *SEEDED, *OTHERS):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
     if name == "calibrate" and (keep is None or not keep.exists()):
@@ -67,6 +71,12 @@ def main(
         hidden = WORKSHOP if name == WORKSHOP else causes
         first = max(first_seed, 1) if name == WORKSHOP else first_seed  # its seeds begin at 1
         figures = bench_challenge(seeds, keep, first, hidden, plot, tables)
+    elif name == "oil_leak":
+        try:
+            figures = bench_oil_leak(damper, plot, tables)
+        except UserError as error:
+            typer.echo(f"error: {error}", err=True)
+            raise typer.Exit(2) from error
     elif name == "calibrate" and keep is not None:
         figures = dict(bench_calibrate(keep))
     else:
