@@ -70,7 +70,7 @@ class Record:
     def fill(self) -> tuple[float, bool]:
         """Its oil level [1] and whether the gas preload is there; raises InputError where one is unknown."""
         if self.oil_level is None or self.gas_preload is None:
-            raise InputError(not_stated([self], "it must be stated in dataset.toml"))
+            raise InputError(not_stated([self], "state the fill in dataset.toml"))
         return self.oil_level, self.gas_preload
 
     @property

@@ -118,7 +118,9 @@ def identify_dataset(
 
 def require_known(dataset: LoadedDataset) -> None:
     """Raise InputError where a record's fill is unknown: all of them are fitted or validated, in their state."""
-    require_fills(dataset.records, "identify needs it: state it in dataset.toml, or let twintube diagnose find it")
+    require_fills(
+        dataset.records, "identify needs a stated fill: state it in dataset.toml, or let twintube diagnose find it"
+    )
 
 
 def loop(record: Record) -> tuple[Array, Array]:

@@ -23,7 +23,7 @@ from twintube.fitting.strokes import quiet
 
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
     """All records of a dataset; raises InputError where a fill is unknown or a stroke leaves the tube."""
-    require_fills(dataset.records, "state it in dataset.toml")
+    require_fills(dataset.records, "state the fill in dataset.toml")
     begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
     usual = float(np.median(begins)) if begins else 0.0
     ready = [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
