@@ -183,7 +183,7 @@ MANIFESTS = {
     "oil level as a list": manifest(HEAD + RECORD.format("a.csv").replace("0.56", "[1]"), "oil_level = [1]: must be"),
     "preload 1.5": manifest(HEAD + RECORD.format("a.csv").replace("false", "1.5"), "must be true (present), false (lost) or"),
     "measurement as a list": manifest(HEAD + RECORD.format("a.csv").replace('"harmonic"', "[]"), "measurement = []: must be"),
-    "state with an escape": manifest(HEAD + RECORD.format("a.csv") + 'state = "\\u001b[2J"\n', "state = '\\x1b[2J': must be"),
+    "state with a blank of no width": manifest(HEAD + RECORD.format("a.csv") + 'state = "a\\u200b"\n', "state = 'a\\u200b': must be"),
     "reference as a text": manifest(HEAD + RECORD.format("a.csv") + 'reference = "yes"\n', "reference = 'yes': must be"),
     "reference_s nan": manifest(HEAD + RECORD.format("a.csv") + "reference_s = [0, nan]\n", "reference_s = [0, nan]: must be"),
     "split as a table": manifest(HEAD + RECORD.format("a.csv") + "split = {}\n", "split = {}: must be"),

@@ -85,7 +85,7 @@ def text(value: Any, most: int = LONGEST_TEXT) -> bool:
 
 
 def label(value: Any) -> bool:
-    """A short text by which records are told to belong together; blanks around it would part them unseen."""
+    """A short text by which records are told to belong together; blanks and what is not seen would part them."""
     return text(value, LONGEST_LABEL) and value.isprintable() and value == value.strip()
 
 
