@@ -38,7 +38,8 @@ def test_ten_equal_files_give_a_line_a_kind(tmp_path: Path) -> None:
     lines = report(found).splitlines()
     assert len(found) == 10 * len(lines) and len(lines) <= 6
     assert (
-        "dataset.toml, line 3, gas_preload: record 1: gas_preload is missing (the like at 9 more places: line 6" in lines[0]
+        "dataset.toml, line 3, gas_preload: record 1: gas_preload is missing; 'unknown' where nobody knows it (the like at "
+        "9 more places: line 6" in lines[0]
     )
     assert any("no column 'time [s]'" in line and "did you mean t_run?" in line and "9 more files" in line for line in lines)
     assert any('columns = {"time [ms]" = "t_run", "stroke [mm]" = "weg", "force [kN]" = "kraft"}' in line for line in lines)

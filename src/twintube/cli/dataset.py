@@ -20,22 +20,32 @@ def new_dataset(
     source: Annotated[
         list[Path] | None, typer.Option("--from", help="A measured record to copy into the folder; repeatable.")
     ] = None,
+    reference: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="A record of the damper as it was, before whatever happened to it; taken like --from; repeatable."
+        ),
+    ] = None,
     damper: Annotated[str, typer.Option(help="A name of `twintube dampers` or a parameter file.")] = "",
     oil_level: Annotated[
-        float | None, typer.Option(min=0.0, max=1.0, help="Share of the intact oil volume in all files.")
+        float | None,
+        typer.Option(min=0.0, max=1.0, help="Share of the intact oil volume in all files; unknown if left out."),
     ] = None,
-    gas_lost: Annotated[bool | None, typer.Option("--gas-lost/--gas-present", help="Gas preload in all files.")] = None,
+    gas_lost: Annotated[
+        bool | None, typer.Option("--gas-lost/--gas-present", help="Gas preload in all files; unknown if left out.")
+    ] = None,
 ) -> None:
     """Write a commented dataset.toml, with delimiter, decimal sign, header, names and units read off the files.
 
-    What is not certain is said in its comments. No file is overwritten.
+    What is not certain is said in its comments; an oil level and a gas preload that are not given are "unknown". No file is
+    overwritten.
     """
     from twintube.data import check_dataset, report
     from twintube.data.findings import UNCONFIRMED
     from twintube.data.template import State, new_dataset
 
     preload = None if gas_lost is None else not gas_lost
-    remarks = new_dataset(folder, source or [], damper, State(oil_level, preload))
+    remarks = new_dataset(folder, source or [], damper, State(oil_level, preload), reference or [])
     typer.echo(f"{folder / 'dataset.toml'} is written.")
     for doubt, records in remarks.items():
         typer.echo(f"not sure: {doubt} ({', '.join(records)})" if records else f"not sure: {doubt}")
@@ -48,6 +58,7 @@ def new_dataset(
         return
     typer.echo(f"Next: confirm what is not sure in {folder / 'dataset.toml'}, then run: twintube check {folder}")
     needs = "" if find_spec("pymoo") else f" (needs pip install 'twintube[{extra_of('pymoo')}]')"
+    needs += ", which needs oil level and gas preload stated" if any(record.unknown for record in dataset.records) else ""
     typer.echo(f"After that: twintube diagnose {folder}, or twintube identify {folder}{needs}")
 
 

@@ -72,11 +72,12 @@ def identify(
     """
     from twintube.dampers import to_toml
     from twintube.data import load_dataset
-    from twintube.identification import METHODS, PAPER, QUICK, headline, identify_dataset, summary
+    from twintube.identification import METHODS, PAPER, QUICK, headline, identify_dataset, require_known, summary
 
     if method not in METHODS:
         raise InputError(f"--method {method}: must be one of {', '.join(METHODS)}")
     read = load_dataset(dataset)
+    require_known(read)  # before a folder is made
     made_from = {"command": "identify", "dataset": str(dataset.resolve())}
     check_folder(output, ("identification.json", "journal"), made_from)
     budget = QUICK if quick else PAPER

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 FOR_FMU = Annotated[
     bool, typer.Option("--for-fmu", help="Columns as the FMU names them, in SI units: for fmpy simulate --input-file.")
 ]
+ASSUMED = " (assumed, it is unknown there)"
 FMU_NAMES = {item.name: fmi_name(item) for item in fields(Outputs)}
 
 
@@ -73,11 +74,11 @@ def simulate(
     velocity: Annotated[float, typer.Option(help="Without a record: maximum velocity [m/s] of a harmonic block.")] = 1.048,
     amplitude_mm: Annotated[float, typer.Option(help="Without a record: amplitude of the block [mm].")] = 45.0,
     oil_level: Annotated[
-        float | None, typer.Option(help="Oil, share of the intact volume; 1 if no dataset says otherwise.")
+        float | None, typer.Option(help="Oil, share of the intact volume; 1 if no dataset states it.")
     ] = None,
     gas_lost: Annotated[
         bool | None,
-        typer.Option("--gas-lost/--gas-present", help="Whether the gas preload is lost; present if nothing says it."),
+        typer.Option("--gas-lost/--gas-present", help="Whether the gas preload is lost; present if no dataset states it."),
     ] = None,
     published: AS_PUBLISHED = False,
     for_fmu: FOR_FMU = False,
@@ -101,15 +102,17 @@ def simulate(
         where = "" if record is None else f"no dataset.toml in the folder of {record} names it; "
         raise InputError(f"{where}name a damper, e.g. twintube simulate SA8")
     chosen = dampers.load(damper) if damper is not None else entry[0] if entry else dampers.load("SA8")
-    level = oil_level if oil_level is not None else entry[1].oil_level if entry else 1.0
-    preload = not gas_lost if gas_lost is not None else entry[1].gas_preload if entry else True
+    level = oil_level if oil_level is not None else entry[1].oil_level if entry else None
+    preload = not gas_lost if gas_lost is not None else entry[1].gas_preload if entry else None
+    assumed = [ASSUMED if value is None else "" for value in (level, preload)]
+    level, preload = 1.0 if level is None else level, preload is not False
     chosen = chosen.with_(oil_level=level, gas_preload=int(preload))
     chosen = as_published(chosen) if published else chosen
     if entry is not None:
         measured = entry[1]
         motion = Motion(measured.time, measured.stroke, measured.velocity, measured.force)
         usable = measured.usable
-        state = f"{100 * level:.4g} % of the oil, gas {'present' if preload else 'lost'}"
+        state = f"{100 * level:.4g} % of the oil{assumed[0]}, gas {'present' if preload else 'lost'}{assumed[1]}"
         typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}")
     else:
         motion = block_motion(velocity, amplitude_mm) if record is None else read_moved(record, block)

@@ -8,11 +8,13 @@ from pathlib import Path
 
 from twintube.dampers import Damper, ParameterError, load, names
 from twintube.data.condition import is_intact
+from twintube.data.fills import fills, say_unknown
 from twintube.data.findings import DataError, Finding, Notes
 from twintube.data.manifest import Manifest, read_manifest
 from twintube.data.quality import no_preconditioning
 from twintube.data.raw import read_all
 from twintube.data.record import Record, read_record
+from twintube.data.reference import check_references
 from twintube.data.signs import check_signs
 from twintube.engine.simulate import InputError
 from twintube.reading import ReadError, read_toml
@@ -99,6 +101,10 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None, 
         notes.error(missing_manifest(folder) if isinstance(error, FileNotFoundError) else f"cannot be read: {error}")
         return Dataset(title, None, [], notes.findings)
     manifest = read_manifest(content, text, title, notes)
+    damper = damper_of(manifest, toml.parent, notes)
+    manifest = replace(manifest, entries=fills(manifest.entries, damper, notes))
+    say_unknown(manifest.entries, notes)
+    check_references(manifest.entries, notes)
     if only is not None:
         named = [
             entry for entry in manifest.entries if entry.file and (toml.parent / entry.file).resolve() == only.resolve()
@@ -110,7 +116,6 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None, 
             return Dataset(title, None, [], [])
     check_settings(manifest, notes)
     check_places(manifest, toml.parent, notes)
-    damper = damper_of(manifest, toml.parent, notes)
     records: list[Record] = []
     findings: list[Finding] = []
     known: dict[bytes, Record] = {}
@@ -154,8 +159,8 @@ def check_places(manifest: Manifest, folder: Path, notes: Notes) -> None:
 
 
 def check_preconditioning(records: Sequence[Record], notes: Notes) -> None:
-    """A remark that names the harmonic records of a degraded damper without slow oscillations before their block."""
-    degraded = [r for r in records if r.measurement == "harmonic" and not is_intact(r.oil_level, r.gas_preload)]
+    """A remark that names the harmonic records, of a damper that may be degraded, without slow oscillations before."""
+    degraded = [r for r in records if r.measurement == "harmonic" and (r.unknown or not is_intact(*r.fill))]
     files = [record.file for record in degraded if no_preconditioning(record.time, record.stroke)]
     if files:
         notes.remark(

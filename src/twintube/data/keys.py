@@ -22,6 +22,8 @@ LARGEST_VOLUME = 100_000.0  # oil [mL]
 MOST_PRESSURE = 10e6  # gauge pressure of the gas [Pa]
 SLOWEST_RATE, FASTEST_RATE = 2.0, 100e3  # samples per second: the limits of the time step
 MOST_WINDOWS = 1000
+LONGEST_LABEL = 40  # characters of a state, which stands in tables
+UNKNOWN = "unknown"  # where nobody knows the fill
 MOST_GROUPS = 65_535  # of an MDF file, whose format counts them in 16 bits
 # How to read the files: at the top for all records, or in a record.
 READING = ("columns", "channels", "sample_rate_Hz", "delimiter", "decimal", "encoding", "skip_rows", "sheet", "group",
@@ -30,8 +32,9 @@ READING = ("columns", "channels", "sample_rate_Hz", "delimiter", "decimal", "enc
 NOT_SURE = "not_sure"
 TOP = ("title", "damper", "record", NOT_SURE, *READING)
 OIL = ("oil_level", "oil_volume_mL")
-RECORD = ("file", "block", "measurement", *OIL, "gas_preload", "gas_pressure", "setting", "temperature_degC",
-          "start_temperature_degC", "start_s", "end_s", "exclude", "split", NOT_SURE, *READING)  # fmt: skip
+RECORD = ("file", "block", "measurement", *OIL, "gas_preload", "gas_pressure", "state", "setting", "temperature_degC",
+          "start_temperature_degC", "start_s", "end_s", "exclude", "split",
+          "reference", "reference_s", NOT_SURE, *READING)  # fmt: skip
 
 
 def number(value: Any) -> bool:
@@ -71,9 +74,19 @@ def good_windows(value: Any) -> bool:
     )
 
 
+def good_window(value: Any) -> bool:
+    """A pair of times, the earlier one first."""
+    return isinstance(value, list) and len(value) == 2 and all(map(number, value)) and value[0] < value[1]
+
+
 def text(value: Any, most: int = LONGEST_TEXT) -> bool:
     """A text of one line that is not empty."""
     return isinstance(value, str) and 0 < len(value) <= most and "\n" not in value
+
+
+def label(value: Any) -> bool:
+    """A short text by which records are told to belong together; blanks and what is not seen would part them."""
+    return text(value, LONGEST_LABEL) and value.isprintable() and value == value.strip()
 
 
 def good_doubts(value: Any) -> bool:
@@ -104,9 +117,18 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
         f"an integer from 1 to {MOST_RECORDS}, the number of a table in a text file",
     ),
     "measurement": (lambda x: isinstance(x, str) and x in MEASUREMENTS, f"one of {', '.join(MEASUREMENTS)}"),
-    "oil_level": (lambda x: number(x) and 0 <= x <= 1, "a number from 0 to 1, the share of the intact oil volume"),
-    "oil_volume_mL": (lambda x: number(x) and 0 <= x <= LARGEST_VOLUME, f"a number from 0 to {LARGEST_VOLUME:g}"),
-    "gas_preload": (lambda x: isinstance(x, bool), "true (present) or false (lost)"),
+    "oil_level": (
+        lambda x: x == UNKNOWN or (number(x) and 0 <= x <= 1),
+        f"a number from 0 to 1, the share of the intact oil volume, or '{UNKNOWN}'",
+    ),
+    "oil_volume_mL": (
+        lambda x: number(x) and 0 <= x <= LARGEST_VOLUME,
+        f"a number from 0 to {LARGEST_VOLUME:g}; where nobody knows it, oil_level = '{UNKNOWN}' instead",
+    ),
+    "gas_preload": (lambda x: x == UNKNOWN or isinstance(x, bool), f"true (present), false (lost) or '{UNKNOWN}'"),
+    "state": (label, f"a text like 'as delivered' of at most {LONGEST_LABEL} characters"),
+    "reference": (lambda x: isinstance(x, bool), "true or false"),
+    "reference_s": (good_window, "a list like [0, 10] of from and to in seconds"),
     "start_temperature_degC": (lambda x: number(x) and COLDEST <= x <= HOTTEST, f"from {COLDEST:g} to {HOTTEST:g} degC"),
     "temperature_degC": (lambda x: number(x) and COLDEST <= x <= HOTTEST, f"from {COLDEST:g} to {HOTTEST:g} degC"),
     "gas_pressure": (good_pressure, f"a gauge pressure like '10 bar' or '150 psi', at most {MOST_PRESSURE / 1e5:g} bar"),

@@ -12,7 +12,7 @@ from twintube.dampers.toml import line_of
 from twintube.data.channels import read_channels, wrong_channels
 from twintube.data.findings import UNCONFIRMED, Notes
 from twintube.data.formats import DEFAULT_ENCODING, Format
-from twintube.data.keys import MOST_RECORDS, MOST_UNKNOWN, NOT_SURE, OIL, READING, RECORD, RULES, TOP
+from twintube.data.keys import MOST_RECORDS, MOST_UNKNOWN, NOT_SURE, OIL, READING, RECORD, RULES, TOP, UNKNOWN
 from twintube.data.keys import number as is_number
 from twintube.data.table import UNITS, WHOLE, quantity_of
 from twintube.data.units import split_header
@@ -24,25 +24,33 @@ class Entry:
     """One `[[record]]`."""
 
     where: str
-    line: int | None
+    section: "Section"  # its lines
     complete: bool  # no error in its keys
     file: str
     label: str  # the file and, where it holds several records, what tells this one from the others
     measurement: str
-    oil_level: float | None
+    oil_level: float | None  # None: unknown, or stated as a volume
     oil_volume: float | None  # [m3]
-    gas_preload: bool
+    gas_preload: bool | None  # None: unknown
     gas_pressure: float | None  # gauge [Pa]
+    state: str | None  # label of the state of filling, None where it has none
     setting: str | None
     temperature: float | None  # [degC]
     start_temperature: float | None  # [degC]
     split: str | None
+    reference: bool
+    reference_window: tuple[float, float] | None  # [s] of the file's own time
     window: tuple[float, float]  # [s] of the file's own time
     excluded: tuple[tuple[float, float], ...]  # [s]
     form: Format
     force_sign: int
     stroke_sign: int
     stroke_offset: float  # [m], added after the sign
+
+    @property
+    def line(self) -> int | None:
+        """The line of dataset.toml where it begins."""
+        return self.section.header
 
 
 @dataclass(frozen=True)
@@ -146,34 +154,52 @@ def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[s
     good = valid(table, RECORD, where, line, notes)
     for key in ("file", "measurement", "gas_preload"):
         if key not in table:
-            notes.error(f"{where}{key} is missing", key, line(""))
+            hint = f"; '{UNKNOWN}' where nobody knows it" if key == "gas_preload" else ""
+            notes.error(f"{where}{key} is missing{hint}", key, line(""))
     if sum(key in table for key in OIL) != 1:
-        what = "both are given" if all(key in table for key in OIL) else "is missing"
-        notes.error(f"{where}{' or '.join(OIL)} {what}, must be one of the two", "oil_level", line(""))
+        both_given = all(key in table for key in OIL)
+        what = "both are given" if both_given else "is missing"
+        hint = "" if both_given else f"; oil_level = '{UNKNOWN}' where nobody knows it"
+        notes.error(f"{where}{' or '.join(OIL)} {what}, must be one of the two{hint}", "oil_level", line(""))
     window = float(good.get("start_s", WHOLE[0])), float(good.get("end_s", WHOLE[1]))
     if window[0] >= window[1]:
         notes.error(f"{where}start_s = {window[0]:g} must be before end_s = {window[1]:g}", "start_s", line("start_s"))
     pressure = quantity(good["gas_pressure"], "Pa") if "gas_pressure" in good else None
-    if pressure and good.get("gas_preload") is False:
-        message = f"{where}gas_pressure = {good['gas_pressure']}: must be left out where gas_preload = false"
+    level, preload = (None if good.get(key) == UNKNOWN else good.get(key) for key in ("oil_level", "gas_preload"))
+    if pressure and preload is not True and "gas_preload" in good:
+        stated = "false" if preload is False else f"'{UNKNOWN}'"
+        message = f"{where}gas_pressure = {good['gas_pressure']}: must be left out where gas_preload = {stated}"
         notes.error(message, "gas_pressure", line("gas_pressure"))
+    part = good.get("reference_s")
+    if part and good.get("reference"):
+        message = f"{where}reference_s = {part}: must be left out where reference = true, which is the whole record"
+        notes.error(message, "reference_s", line("reference_s"))
+    elif part and part[0] < window[0]:
+        message = f"{where}reference_s = {part}: must not begin before start_s = {window[0]:g}"
+        notes.error(message, "reference_s", line("reference_s"))
+    elif part and part[1] > window[1]:
+        message = f"{where}reference_s = {part}: must not end after end_s = {window[1]:g}"
+        notes.error(message, "reference_s", line("reference_s"))
     both = shared | good
     volume = good.get("oil_volume_mL")
     return Entry(
         where=where,
-        line=line(""),
+        section=section,
         complete=sum(finding.severity == "error" for finding in notes.findings) == before,
         file=good.get("file", ""),
         label=good.get("file", ""),
         measurement=good.get("measurement", ""),
-        oil_level=None if "oil_level" not in good else float(good["oil_level"]),
+        oil_level=None if level is None else float(level),
         oil_volume=None if volume is None else volume * 1e-6,
-        gas_preload=good.get("gas_preload", True),
+        gas_preload=preload,
         gas_pressure=pressure,
+        state=good.get("state"),
         setting=good.get("setting"),
         temperature=good.get("temperature_degC"),
         start_temperature=good.get("start_temperature_degC"),
         split=good.get("split"),
+        reference=good.get("reference", False),
+        reference_window=None if part is None else (float(part[0]), float(part[1])),
         window=window,
         excluded=tuple((float(low), float(high)) for low, high in good.get("exclude", [])),
         form=form_of(both),

@@ -1,5 +1,6 @@
 """A record of a dataset: what was measured, and how a file becomes one."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -16,11 +17,15 @@ from twintube.data.hints import suggest_columns
 from twintube.data.manifest import Entry
 from twintube.data.quality import check_quality, within
 from twintube.data.raw import Outcome
+from twintube.data.reference import check_part
 from twintube.data.table import Table, convert
+from twintube.engine.simulate import InputError
+from twintube.words import listed
 
 MEASURED = "measured"
 GIVEN = "given, but recomputable from the stroke"
 GRADIENT = "central difference of the stroke over its actual times (numpy.gradient)"
+FILL = ("oil_level", "gas_preload")
 ALL: NDArray[np.bool_] = np.ones(0, dtype=bool)  # every sample of a record is usable
 ALL.flags.writeable = False
 
@@ -32,8 +37,8 @@ class Record:
     name: str  # the file without its ending and, where it holds several records, what of it this one is
     file: str  # as dataset.toml names it, with the same addition
     measurement: str  # quasi-static, harmonic or stochastic
-    oil_level: float  # share of the intact oil volume
-    gas_preload: bool
+    oil_level: float | None  # share of the intact oil volume; None: unknown
+    gas_preload: bool | None  # None: unknown
     start_temperature: float | None  # [degC]
     split: str | None  # fit, heldout or not said
     time: Array
@@ -46,6 +51,9 @@ class Record:
     setting: str | None = None  # of an adjustable valve, in the words of dataset.toml
     gas_pressure: float | None = None  # gauge, cold [Pa]
     usable: NDArray[np.bool_] = field(default_factory=lambda: ALL)  # False: excluded, dropped out, frozen or clipped
+    state: str = ""  # records of one filling share it: the label in dataset.toml, or one made for them
+    reference: bool = False  # the damper as it was on this bench
+    reference_window: tuple[float, float] | None = None  # [s] of `time`: the part that is a reference, the rest is not
 
     def __post_init__(self) -> None:
         """Shared by all who read it."""
@@ -53,19 +61,44 @@ class Record:
             object.__setattr__(self, "usable", np.ones(len(self.time), dtype=bool))
         freeze_arrays(self)
 
+    @property
+    def unknown(self) -> list[str]:
+        """The keys of its fill that nobody knows."""
+        return [key for key in FILL if getattr(self, key) is None]
+
+    @property
+    def fill(self) -> tuple[float, bool]:
+        """Its oil level [1] and whether the gas preload is there; raises InputError where one is unknown."""
+        if self.oil_level is None or self.gas_preload is None:
+            raise InputError(not_stated([self], "state the fill in dataset.toml"))
+        return self.oil_level, self.gas_preload
+
+    @property
+    def in_reference(self) -> NDArray[np.bool_]:
+        """The samples (n,) that show the damper as it was."""
+        if self.reference_window is not None:
+            return within(self.time, [self.reference_window])
+        return np.full(len(self.time), self.reference)
+
+
+def require_fills(records: Iterable[Record], remedy: str) -> None:
+    """Raise InputError, which names the records whose fill is unknown and the remedy, where there are such."""
+    unknown = [record for record in records if record.unknown]
+    if unknown:
+        raise InputError(not_stated(unknown, remedy))
+
+
+def not_stated(unknown: Sequence[Record], remedy: str) -> str:
+    """A message about records of an unknown fill."""
+    keys = [key for key in FILL if any(key in record.unknown for record in unknown)]
+    files = listed((record.file for record in unknown), 5)
+    what = f"{' and '.join(keys)} {'is' if len(keys) == 1 else 'are'} unknown"
+    return f"record{'s' * (len(unknown) > 1)} {files}: {what}; {remedy}"
+
 
 def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, notes: Notes, own: Notes) -> Record | None:
     """Check a record that was read; None if it has an error. `notes` takes findings on dataset.toml, `own` on the file."""
-    limit, level = None, entry.oil_level
-    if damper is not None:
-        if level is None and entry.oil_volume is not None:
-            level = entry.oil_volume / damper.parameters.V_oil
-            if level > 1.0:
-                most = damper.parameters.V_oil * 1e6
-                message = f"{entry.where}oil_volume_mL = {entry.oil_volume * 1e6:g}: must be from 0 to {most:g} mL"
-                notes.error(message + f", the intact volume of {damper.name}", "oil_volume_mL", entry.line)
-                entry = replace(entry, complete=False)
-        limit = tube_limit(damper.parameters)
+    limit = None if damper is None else tube_limit(damper.parameters)
     if outcome is None:
         return None
     if isinstance(outcome, UnreadableError):
@@ -85,7 +118,7 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
     check(table, limit, own)
     excluded = within(table.columns["time"], entry.excluded)
     usable = check_quality(table, excluded, own)
-    if own.failed or not entry.complete or level is None:
+    if own.failed or not entry.complete or not check_part(entry, table.columns["time"], usable, notes):
         return None
     c = table.columns
     velocity, source = c.get("velocity"), MEASURED
@@ -97,7 +130,7 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
         name=Path(entry.file).stem + entry.label.removeprefix(entry.file),
         file=entry.label,
         measurement=entry.measurement,
-        oil_level=level,
+        oil_level=entry.oil_level,
         gas_preload=entry.gas_preload,
         start_temperature=entry.start_temperature,
         split=entry.split,
@@ -111,6 +144,9 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
         setting=entry.setting,
         gas_pressure=entry.gas_pressure,
         usable=usable,
+        state=entry.state or "",
+        reference=entry.reference,
+        reference_window=entry.reference_window,
     )
 
 

@@ -79,6 +79,7 @@ def told_by(damper: Damper, record: Record) -> str:
     between the sides tells anything.
     """
     p = damper.parameters
+    level = 0.0 if record.oil_level is None else record.oil_level  # unknown: the one with most friction, which hides most
     gas = p.F_0 if record.gas_pressure is None else record.gas_pressure * np.pi / 4 * p.D_PR**2
     some = np.flatnonzero(record.usable)[:: 1 + len(record.time) // MOST]
     if not len(some):
@@ -86,10 +87,10 @@ def told_by(damper: Damper, record: Record) -> str:
     z, v, force = (values[some] for values in (record.stroke, record.velocity, record.force))
     stated, mirrored = quasi_steady(damper, z, v, gas), quasi_steady(damper, -z, -v, gas)
     slow = bool(np.sqrt(np.mean(((stated + mirrored) / 2 + gas) ** 2)) <= gas)
-    told = errors(force, stated, mirrored).told if slow or is_intact(record.oil_level, True) else UNTOLD
+    told = errors(force, stated, mirrored).told if slow or is_intact(level, True) else UNTOLD
     if told == PULLED and not slow:
         told = UNTOLD  # the constant is not that of the gas, but of a curve that is another one
-    friction = p.F_FrS * (1.0 + p.oil_loss_gain * (1.0 - record.oil_level))
+    friction = p.F_FrS * (1.0 + p.oil_loss_gain * (1.0 - level))
     return told or at_rest(record.time[some], z, force - p.c_gas * z, gas, friction)
 
 

@@ -12,7 +12,7 @@ import tomlkit
 from twintube import dampers
 from twintube.data.dataset import FILE
 from twintube.data.formats import TEXT
-from twintube.data.keys import NOT_SURE, READING
+from twintube.data.keys import NOT_SURE, READING, UNKNOWN
 from twintube.data.read_binary import READERS
 from twintube.data.sniff_blocks import sniff_records
 from twintube.data.sniff_values import Sniffed
@@ -59,9 +59,10 @@ RECORD_HELP = """
 # file = "oil060_1.0.csv"     # CSV, text, LabVIEW .lvm, Excel, JSON, Parquet, MATLAB .mat or MDF 4, relative to this file
 # block = 2                   # optional: which of several tables in a text file, the first is 1
 # measurement = "harmonic"    # quasi-static, harmonic or stochastic
-# oil_level = 0.6             # share of the intact oil volume; or instead of it
+# oil_level = 0.6             # share of the intact oil volume, "unknown" where nobody knows it; or instead of it
 # oil_volume_mL = 164
-# gas_preload = false         # true: the gas is at its pressure; false: lost
+# gas_preload = false         # true: the gas is at its pressure; false: lost; or "unknown"
+# state = "after the run"     # optional: records with the same words are of one filling; one may state it for all
 # gas_pressure = "10 bar"     # optional, of present gas: gauge, cold; bar, psi, MPa
 # setting = "C3"              # optional: of an adjustable valve
 # start_temperature_degC = 25.0   # optional
@@ -70,28 +71,43 @@ RECORD_HELP = """
 # end_s = 30.5                # optional: what is after is not read
 # exclude = [[12.5, 12.6]]    # optional: windows [s] whose force says nothing; their stroke is kept
 # split = "heldout"           # optional: fit or heldout; without it the program holds records out by itself
+# reference = true            # optional: the damper as it was on this bench, before whatever happened to it
+# reference_s = [0, 10]       # optional, instead: from and to [s], this part of a long record is the reference
 """
+# What a record says where no file tells its fill
+UNKNOWN_FILL = {
+    "oil_level": "share of the intact oil volume: where you know it, write a number such as 0.6",
+    "gas_preload": "where you know it, write true (at its pressure) or false (lost)",
+}
 
 
 @dataclass(frozen=True)
 class State:
-    """What no file tells: the state of the damper in all records; None where it was not given."""
+    """What no file tells: the state of the damper in all records; None where nobody knows it."""
 
     oil_level: float | None = None
     gas_preload: bool | None = None
 
 
-def new_dataset(folder: Path, sources: Sequence[Path], damper: str = "", state: State | None = None) -> dict[str, list[str]]:
+def new_dataset(
+    folder: Path,
+    sources: Sequence[Path],
+    damper: str = "",
+    state: State | None = None,
+    reference: Sequence[Path] = (),
+) -> dict[str, list[str]]:
     """Write dataset.toml into the folder, copy the files into it, and return what is not sure, each with its records.
 
-    Without `sources` it takes the records that lie in the folder. Nothing is overwritten, and nothing is written where
-    an InputError, a ParameterError or an OSError is raised.
+    Without `sources` it takes the records that lie in the folder. Files of the `reference`, which may be among them, come
+    first and are marked as the damper as it was. A fill that `state` leaves open is "unknown". Nothing is overwritten, and
+    nothing is written where an InputError, a ParameterError or an OSError is raised.
     """
     if (folder / FILE).exists():
         raise InputError(f"{folder / FILE} is there already; it is not overwritten")
     if damper:
         dampers.load(damper)
-    files = list(sources) or present(folder)
+    before = {file.resolve(): file for file in reference}
+    files = [*before.values(), *(f for f in sources or present(folder) if f.resolve() not in before)]
     names = [file.name for file in files]
     copies: dict[Path, Path] = {}
     for file in files:
@@ -109,7 +125,7 @@ def new_dataset(folder: Path, sources: Sequence[Path], damper: str = "", state: 
         if not target.exists():
             copies[target] = file
     records = [
-        (file.name, guess)
+        (file.name, guess, file.resolve() in before)
         for file in files
         for guess in (sniff_records(file) if file.suffix.lower() in TEXT else [Sniffed({})])
     ]
@@ -127,11 +143,14 @@ def present(folder: Path) -> list[Path]:
 
 
 def template(
-    folder: Path, records: Sequence[tuple[str, Sniffed]], damper: str, state: State
+    folder: Path, records: Sequence[tuple[str, Sniffed, bool]], damper: str, state: State
 ) -> tuple[str, dict[str, list[str]]]:
-    """The text of dataset.toml about files by name, and what is not sure in it with the names of the records."""
+    """The text of dataset.toml about files by name, and what is not sure in it with the names of the records.
+
+    Of each record it is told whether it is a reference.
+    """
     doubts: dict[str, list[str]] = {}
-    readings = [guess.reading for _, guess in records]
+    readings = [guess.reading for _, guess, _ in records]
     first = readings[0] if readings else {}
     shared = {key: first[key] for key in READING if key in first and all(r.get(key) == first[key] for r in readings)}
     text = HEAD + f"title = {quoted(folder.resolve().name)}\n"
@@ -141,12 +160,14 @@ def template(
         text += not_sure([doubt])
     text += f"damper = {quoted(relative(damper, folder) if damper else 'SA8')}\n"
     text += READING_HELP + "".join(f"{key} = {quoted(value)}\n" for key, value in shared.items()) + RECORD_HELP
-    for name, guess in records:
-        text += entry(name, guess, shared, state, doubts)
+    for name, guess, reference in records:
+        text += entry(name, guess, reference, shared, state, doubts)
     return text, doubts
 
 
-def entry(name: str, guess: Sniffed, shared: dict[str, Any], state: State, doubts: dict[str, list[str]]) -> str:
+def entry(
+    name: str, guess: Sniffed, reference: bool, shared: dict[str, Any], state: State, doubts: dict[str, list[str]]
+) -> str:
     """One `[[record]]`; what is not sure goes to `doubts` too."""
     guessed, missing = list(guess.doubts), list(guess.missing)
     body = [f"file = {quoted(name)}"]
@@ -156,16 +177,9 @@ def entry(name: str, guess: Sniffed, shared: dict[str, Any], state: State, doubt
     else:
         missing.append("measurement: quasi-static, harmonic or stochastic; fill it in")
         body.append("# measurement = ")
-    if state.oil_level is None:
-        missing.append("oil_level: the file does not tell it; fill it in")
-        body.append("# oil_level = ")
-    else:
-        body.append(f"oil_level = {state.oil_level}")
-    if state.gas_preload is None:
-        missing.append("gas_preload: the file does not tell it; fill it in")
-        body.append("# gas_preload = ")
-    else:
-        body.append(f"gas_preload = {str(state.gas_preload).lower()}")
+    for key, value in (("oil_level", state.oil_level), ("gas_preload", state.gas_preload)):
+        body.append(f'{key} = "{UNKNOWN}"  # {UNKNOWN_FILL[key]}' if value is None else f"{key} = {quoted(value)}")
+    body += ["reference = true"] if reference else []
     body += [f"{key} = {quoted(value)}" for key, value in guess.reading.items() if key not in shared]
     block = f", block {guess.reading['block']}" if "block" in guess.reading else ""
     for doubt in guessed + missing:

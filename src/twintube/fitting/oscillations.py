@@ -90,8 +90,9 @@ def harmonic(record: Record) -> Harmonic:
     """The longest run of oscillations at the record's highest speed, with what was before it as a lead.
 
     Its stroke is without noise (strokes.py), and so is a velocity that comes from the stroke. Rests keep only their ends;
-    what comes after the run is left out. Raises InputError where there is no full oscillation.
+    what comes after the run is left out. Raises InputError where there is no full oscillation or the fill is unknown.
     """
+    oil_level, gas_preload = record.fill
     recorded = record.stroke
     record = replace(record, stroke=quiet(record.time, recorded))
     parts = segments(record.time, record.stroke)
@@ -115,8 +116,8 @@ def harmonic(record: Record) -> Harmonic:
     block = max(runs, key=len)
     end = int(block[-1]) + 1
     return Harmonic(
-        oil_level=record.oil_level,
-        gas_preload=int(record.gas_preload),
+        oil_level=oil_level,
+        gas_preload=int(gas_preload),
         time=time[:end],
         stroke=stroke[:end],
         velocity=velocity[:end],

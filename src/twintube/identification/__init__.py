@@ -11,7 +11,7 @@ intact_intervals.py, validation.py, remarks.py, figures.py. What diagnosis needs
 
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.oscillations import harmonic
-from twintube.identification.dataset import Result, identify, identify_dataset
+from twintube.identification.dataset import Result, identify, identify_dataset, require_known
 from twintube.identification.figures import headline, summary
 from twintube.identification.objective import Objective
 from twintube.identification.optimise import METHODS, Best, minimise
@@ -33,5 +33,6 @@ __all__ = [
     "identify_damper",
     "identify_dataset",
     "minimise",
+    "require_known",
     "summary",
 ]

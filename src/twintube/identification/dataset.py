@@ -8,7 +8,7 @@ from typing import Any
 from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import as_before, as_published
-from twintube.data import LoadedDataset, Record, load_dataset
+from twintube.data import LoadedDataset, Record, load_dataset, require_fills
 from twintube.data.findings import unconfirmed
 from twintube.engine.simulate import InputError
 from twintube.fitting.averaging import averaging, through
@@ -76,6 +76,7 @@ def identify_dataset(
     The paper's equations alone are fitted, as the paper did it on blocks of seconds. Freed gas then does again in the
     identified damper what it does in the given one.
     """
+    require_known(dataset)
     given, dataset = dataset.damper, replace(dataset, damper=as_published(dataset.damper))
     slow = [r for r in dataset.records if r.measurement == "quasi-static"]
     drives = [r for r in dataset.records if r.measurement == "stochastic"]
@@ -98,7 +99,7 @@ def identify_dataset(
         next((loop(r) for r in slow if intact(r) and r.split != "heldout"), None),
         [h for h in fitted if h.intact],
         [h for h in fitted if not h.intact],
-        slow_lost=[(r.oil_level, loop(r)) for r in slow if not r.gas_preload and r.split != "heldout"],
+        slow_lost=[(r.fill[0], loop(r)) for r in slow if not r.gas_preload and r.split != "heldout"],
         method=method, budget=budget, seed=seed, journal=journal, progress=progress,
     )  # fmt: skip
     measured = [h for h in fitted if h.intact]
@@ -113,6 +114,13 @@ def identify_dataset(
         dataset, list(zip(sines, split, strict=True)), result, rows + validate_drives(damper, drives, result.offset),
         remarks + result.remarks + continuation(damper, measured) + noisy(damper, sines),
     )  # fmt: skip
+
+
+def require_known(dataset: LoadedDataset) -> None:
+    """Raise InputError where a record's fill is unknown: all of them are fitted or validated, in their state."""
+    require_fills(
+        dataset.records, "identify needs a stated fill: state it in dataset.toml, or let twintube diagnose find it"
+    )
 
 
 def loop(record: Record) -> tuple[Array, Array]:

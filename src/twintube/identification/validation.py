@@ -91,7 +91,7 @@ def validate_drives(damper: Damper, records: Sequence[Record], offset: float = 0
         degraded = twin is not None and not intact(r)
         noise = rms(r.stroke - still.stroke)
         rows.append(Validated(
-            r.name, r.measurement, r.oil_level, r.gas_preload, "heldout", float(np.abs(r.velocity).max()),
+            r.name, r.measurement, *r.fill, "heldout", float(np.abs(r.velocity).max()),
             rms((force - r.force)[r.usable]), float(np.abs(r.force[r.usable]).max()), (measured,), (simulated,),
             measured / works[twin][0] if twin is not None and degraded else None,
             simulated / works[twin][1] if twin is not None and degraded else None,
@@ -103,13 +103,13 @@ def validate_drives(damper: Damper, records: Sequence[Record], offset: float = 0
 
 def driven(damper: Damper, record: Record) -> Array:
     """Force (n,) [N] of the model over a record's stroke."""
-    condition = state(damper, record.oil_level, record.gas_preload)
+    condition = state(damper, *record.fill)
     return simulate_quietly(condition, record.stroke, smooth_velocity(record), record.time).force
 
 
 def intact(record: Record) -> bool:
     """Whether the record is of the full damper with its preload."""
-    return is_intact(record.oil_level, record.gas_preload)
+    return is_intact(*record.fill)
 
 
 def equal_drives(a: Record, b: Record) -> bool:

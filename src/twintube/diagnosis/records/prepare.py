@@ -9,7 +9,7 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from twintube.arrays import Array
 from twintube.core.checks import tube_limit
-from twintube.data import LoadedDataset, Record
+from twintube.data import LoadedDataset, Record, require_fills
 from twintube.data.defects import resolution
 from twintube.diagnosis.records.noise import noise
 from twintube.diagnosis.records.record import PreparedRecord
@@ -22,7 +22,8 @@ from twintube.fitting.strokes import quiet
 
 
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
-    """All records of a dataset; raises InputError where a stroke leaves the tube."""
+    """All records of a dataset; raises InputError where a fill is unknown or a stroke leaves the tube."""
+    require_fills(dataset.records, "state the fill in dataset.toml")
     begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
     usual = float(np.median(begins)) if begins else 0.0
     ready = [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
@@ -60,15 +61,16 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
     top_speed = float(np.quantile(np.abs(velocity), RULES.speed_quantile))
     force = means(record.time[at], impulse(record.time, record.force)[at])
     levels = resolution(record.force)
+    oil_level, gas_preload = record.fill
     ready = PreparedRecord(
-        name=record.name, measurement=record.measurement, oil_level=record.oil_level, gas_preload=int(record.gas_preload),
+        name=record.name, measurement=record.measurement, oil_level=oil_level, gas_preload=int(gas_preload),
         split=record.split, top_speed=top_speed, path=path, stroke_noise=noise_of_stroke(record.stroke)[0],
         force=np.concatenate([record.force[:1], force]),
         time=record.time[at], stroke=stroke, velocity=velocity, cycle=cycle, stretch=stretch, noise=np.zeros(len(at)),
         peak=peak, resolution=levels[0] if levels else 0.0, period=float(np.median(np.diff(record.time))),
         samples=np.zeros(len(at), dtype=np.int64),
         judged=comparable(record, at, stretch), edges=np.zeros(len(at)),
-        warm=np.zeros(len(at)), gas_pressure=record.gas_pressure if record.gas_preload else None,
+        warm=np.zeros(len(at)), gas_pressure=record.gas_pressure if gas_preload else None,
     )  # fmt: skip
     held = np.maximum(1, np.diff(at, prepend=at[0] - 1))  # measured samples per interval
     begin = beginning_temperature(record)
