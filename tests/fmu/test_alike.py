@@ -164,6 +164,8 @@ BROKEN: dict[int, dict[str, Any]] = {
     11: {"stroke_max": 0.3},
     12: {"V_oil": 1e-5},
     13: {"V_oil": 4e-3},
+    14: {"polytropic": 1, "c_gas": 2e4},
+    15: {"polytropic": 1, "c_gas_lost": 500.0},
 }
 
 
