@@ -185,6 +185,8 @@ def test_both_kinds_and_the_interpreter_say_the_same_of_parameters(sa8_fmu: Path
             continue
         if isinstance(value, tuple):
             unit.slave.setReal([unit.refs[f"{fmi_name(item)}[{i + 1}]"] for i in range(len(value))], value)
+        elif item.metadata["integer"]:
+            unit.slave.setInteger([unit.refs[fmi_name(item)]], [value])
         else:
             unit.set(fmi_name(item), value)
     with pytest.raises(FMICallException):
