@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 6b7229d2f37aae30, body 63fb9e91b418fe08; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 35a74fb1919e604a, body c4637e5cbffe1cc4; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -28,6 +28,8 @@ struct kernel_Parameters {
     double F_0;
     double c_gas;
     double c_gas_lost;
+    int64_t polytropic;
+    double n_gas;
     double X_Re;
     double L_PV;
     double G_PV;
@@ -47,6 +49,7 @@ struct kernel_Parameters {
     int64_t foam_leaves_with_gas;
     int64_t foam_decays;
     int64_t cavitation_foams;
+    int64_t venting;
     double cavitation_loss;
     double F_stop_re;
     double onset_re;
@@ -422,8 +425,31 @@ static void kernel_set_up(struct kernel_Parameters* p, struct kernel_Derived* d)
     }
 }
 
+/* Gas force [N] at the stroke `z` [m] beyond `F_0` [N], that at stroke 0, where `c_gas` [N/m] is the stiffness.
+   Beyond the paper, with `polytropic`: at stroke 0 the gas has the absolute pressure 100000.0 + F_0/A_rod and the volume
+   that makes `c_gas` its stiffness when it is compressed slowly. Beyond the maximum stroke, where a damper has stops and
+   the gas may have no room left, the force goes on along its tangent. */
+static double kernel_gas_rise(struct kernel_Parameters* p, double F_0, double c_gas, double z)
+{
+    double whole;
+    double inside;
+    double volume;
+    double pressure;
+    double rise;
+    rise = c_gas * z;
+    if (p->polytropic > 0)
+    {
+        whole = F_0 + 100000.0 * 0.25 * M_PI * p->D_PR * p->D_PR;
+        inside = double_max(2, z, -p->stroke_max);
+        volume = 1.0 + c_gas * inside / whole;
+        pressure = exp((-p->n_gas) * log(volume));
+        rise = whole * (1.0 - pressure) + p->n_gas * c_gas * pressure / volume * (z - inside);
+    }
+    return rise;
+}
+
 /* As `fill`, with the volume `oil` [m3]. */
-static void kernel_pour(struct kernel_Derived* d, struct kernel_State* s, double z, double oil)
+static void kernel_pour(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double oil)
 {
     double V1;
     double V2;
@@ -446,7 +472,7 @@ static void kernel_pour(struct kernel_Derived* d, struct kernel_State* s, double
     s->k_degr = 1.0;
     s->F_fluid = 0.0;
     s->F_friction = 0.0;
-    s->F_gas = d->c_gas * z - d->F_0;
+    s->F_gas = kernel_gas_rise(p, d->F_0, d->c_gas, z) - d->F_0;
     s->work = 0.0;
 }
 
@@ -537,7 +563,7 @@ static double kernel_gas_spring_elastic(struct kernel_Parameters* p, struct kern
     if (p->gas_preload > 0)
     {
         whole = p->F_0 + 100000.0 * 0.25 * M_PI * p->D_PR * p->D_PR;
-        return p->F_surplus * (p->c_gas * z / whole - 1.0);
+        return p->F_surplus * (kernel_gas_rise(p, p->F_0, p->c_gas, z) / whole - 1.0);
     }
     return p->c_residual * z - p->F_residual;
 }
@@ -545,7 +571,9 @@ static double kernel_gas_spring_elastic(struct kernel_Parameters* p, struct kern
 /* Force [N] by which that of the preload changes at the stroke `z` [m]. */
 static double kernel_oil_temperature_elastic(struct kernel_Parameters* p, struct kernel_State* s, double z)
 {
-    return p->gas_preload * (p->gas_kelvin * s->warm + p->gas_heat * (p->H_start + s->heat)) * (p->c_gas * z - p->F_0);
+    double hotter;
+    hotter = p->gas_kelvin * s->warm + p->gas_heat * (p->H_start + s->heat);
+    return p->gas_preload * hotter * (kernel_gas_rise(p, p->F_0, p->c_gas, z) - p->F_0);
 }
 
 static double kernel_effects_elastic(struct kernel_Parameters* p, struct kernel_State* s, double z)
@@ -571,7 +599,7 @@ static double kernel_effects_elastic(struct kernel_Parameters* p, struct kernel_
    The order no longer matters after the paper's six preconditioning oscillations. */
 static void kernel_fill(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z)
 {
-    kernel_pour(d, s, z, p->oil_level * p->V_oil);
+    kernel_pour(p, d, s, z, p->oil_level * p->V_oil);
 }
 
 static double kernel_effects_level(struct kernel_Parameters* p, double value)
@@ -591,7 +619,7 @@ static void kernel_start(struct kernel_Parameters* p, struct kernel_Derived* d, 
         kernel_fill(p, d, s, z);
         return;
     }
-    kernel_pour(d, s, z, kernel_effects_level(p, p->oil_level) * p->V_oil);
+    kernel_pour(p, d, s, z, kernel_effects_level(p, p->oil_level) * p->V_oil);
     kernel_effects_reset(s);
     s->z_rod = z;
     s->F_gas += kernel_effects_elastic(p, s, z);
@@ -1016,7 +1044,7 @@ static double kernel_mount_compliance_excess(struct kernel_Parameters* p, struct
     x = s->x_begun + rate * s->end_share * dt;
     goal = s->z_end - x;
     friction = kernel_effects_scale_friction(p, s, goal, v) * s->rubbing * kernel_dahl(p, d, s->F_D_begun, goal - s->z_begun);
-    gas = d->c_gas * goal + kernel_effects_elastic(p, s, goal) - s->F_middle;
+    gas = kernel_gas_rise(p, d->F_0, d->c_gas, goal) + kernel_effects_elastic(p, s, goal) - s->F_middle;
     return (x * (1.0 + p->hardening * x * x) + p->tau_mount * rate) / p->C_mount - s->F_mount - friction - kernel_effects_rub(p, goal, v) - gas - p->m_rod * (s->goal_v1 - s->v_piston) / dt;
 }
 
@@ -1302,8 +1330,8 @@ static double kernel_share_above(double v0, double v1, double threshold)
 /* The three forces of equation 1 at the state `s`; `F_potential` is the intact fluid force [N] at `v` [m/s]. */
 static void kernel_set_forces(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double F_potential, double v)
 {
-    /* Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr; the paper's F_S is a slope, the force F_0 at stroke 0 is added here */
-    s->F_gas = d->c_gas * s->z - d->F_0;
+    /* Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr; the paper's F_S is a slope; F_0 at stroke 0 is added here */
+    s->F_gas = kernel_gas_rise(p, d->F_0, d->c_gas, s->z) - d->F_0;
     s->F_friction = kernel_stribeck(p, v) * s->F_D;
     s->F_fluid = F_potential * s->k_degr;
 }
@@ -1447,13 +1475,16 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
 
 /* Share [1] of the time that V1, without gas at the moment, vents gas while V2 is full.
    Cavitation brings gas into V1. Where venting is faster, V1 stays at zero gas and the flow slides between the two
-   cases; the share is the one that keeps it there (Filippov's convex combination). */
+   cases; the share is the one that keeps it there (Filippov's convex combination). With the reading `venting` the cases
+   follow each other step by step, as V1 has gas at the start of a step or not, and what a step vents too much is oil. One
+   step without venting is followed by as many with it as drive its gas out, whatever their length. */
 static double kernel_vented_share(struct kernel_Parameters* p, struct kernel_Derived* d, bool as_foam, double foaming, double cavitating)
 {
     double stays;
     double gained;
     double surplus;
     double change;
+    int64_t steps;
     if (as_foam || (cavitating <= 0.0))
     {
         return 0.0;
@@ -1469,6 +1500,11 @@ static double kernel_vented_share(struct kernel_Parameters* p, struct kernel_Der
     if (change >= 0.0)
     {
         return 1.0;
+    }
+    if (p->venting > 0)
+    {
+        steps = (int64_t)ceil(double_min(2, 1000000000.0, gained / (-change)));
+        return steps / (steps + 1.0);
     }
     return gained / (gained - change);
 }
@@ -1553,6 +1589,11 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
     kept = d->A_1 + freed - piston;
     if ((s->V1_gas <= 0.0) && (kept < 0.0))
     {
+        if (p->venting > 0)
+        {
+            oil += kept;
+            f->V3_oil -= kept;
+        }
         kept = 0.0;
     }
     foamable = gas + p->cavitation_foams * freed;
@@ -2694,13 +2735,15 @@ static int64_t kernel_curve_rule(struct kernel_Parameters* p, int64_t after, str
     return (rule > 0 ? rule + 3 : 0);
 }
 
-/* Number of the first rule beyond `after`, 7 to 13, that the dimensions or the oil break, else 0.
+/* Number of the first rule beyond `after`, 7 to 15, that the dimensions, the oil or the gas break, else 0.
    All parameters must be within their bounds. `d` is overwritten. Where the dimensions do not fit into each other, the
    volumes mean nothing and their rules are not asked. */
 static int64_t kernel_fit_rule(struct kernel_Parameters* p, struct kernel_Derived* d, int64_t after, struct kernel_Violation* violation)
 {
     double stretched;
     double pushed;
+    double ambient;
+    double present;
     if ((after < 7) && (p->D_li <= p->D_PR))
     {
         kernel_note(violation, 0, p->D_PR, p->D_li);
@@ -2742,6 +2785,22 @@ static int64_t kernel_fit_rule(struct kernel_Parameters* p, struct kernel_Derive
     {
         kernel_note(violation, 0, p->V_oil, pushed);
         return 13;
+    }
+    if (p->polytropic > 0)
+    {
+        /* Of both states: the preload may be lost later. The exponent has no say in whether there is room. */
+        ambient = 100000.0 * d->A_rod / p->stroke_max;
+        present = ambient + p->F_0 / p->stroke_max;
+        if ((after < 14) && (p->c_gas >= present))
+        {
+            kernel_note(violation, 0, p->c_gas, present);
+            return 14;
+        }
+        if ((after < 15) && (p->c_gas_lost >= ambient))
+        {
+            kernel_note(violation, 0, p->c_gas_lost, ambient);
+            return 15;
+        }
     }
     return 0;
 }

@@ -164,6 +164,8 @@ BROKEN: dict[int, dict[str, Any]] = {
     11: {"stroke_max": 0.3},
     12: {"V_oil": 1e-5},
     13: {"V_oil": 4e-3},
+    14: {"polytropic": 1, "c_gas": 2e4},
+    15: {"polytropic": 1, "c_gas_lost": 500.0},
 }
 
 
@@ -183,6 +185,8 @@ def test_both_kinds_and_the_interpreter_say_the_same_of_parameters(sa8_fmu: Path
             continue
         if isinstance(value, tuple):
             unit.slave.setReal([unit.refs[f"{fmi_name(item)}[{i + 1}]"] for i in range(len(value))], value)
+        elif item.metadata["integer"]:
+            unit.slave.setInteger([unit.refs[fmi_name(item)]], [value])
         else:
             unit.set(fmi_name(item), value)
     with pytest.raises(FMICallException):

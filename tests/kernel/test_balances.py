@@ -25,7 +25,7 @@ def dampers(draw: st.DrawFn, cavitating: bool) -> Parameters:
         shares |= {"Y_Co_cav": 0.0, "Y_Re_cav": 0.0}
     readings = {
         name: draw(st.integers(0, 1))
-        for name in ("leak_carries_oil", "foam_leaves_with_gas", "foam_decays", "cavitation_foams")
+        for name in ("leak_carries_oil", "foam_leaves_with_gas", "foam_decays", "cavitation_foams", "venting")
     }
     return replace(
         p,

@@ -108,6 +108,11 @@ def test_same_bits_as_interpreter_and_numba(name: str, tmp_path: Path) -> None:
     assert_same(damper.with_(oil_level=damper.measured_levels[-1], gas_preload=0), BLOCKS[-1], tmp_path)
 
 
+def test_same_bits_with_another_reading_and_a_polytropic_gas(tmp_path: Path) -> None:
+    damper = load("SA3").with_(oil_level=0.61, gas_preload=0, venting=1, polytropic=1)
+    assert_same(damper, BLOCKS[-1], tmp_path)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("velocity", BLOCKS)
 @pytest.mark.parametrize("name", names())

@@ -4,8 +4,9 @@ import pytest
 
 from twintube.dampers import load
 from twintube.dampers.dead_length import bounds, collapse_level
+from twintube.dampers.freed_gas import P_GAS, P_GASES, acting, condition
 from twintube.dampers.variants import REAR_COMPRESSION, REAR_REBOUND, rear_curve
-from twintube.demo.bands import Rides, Setting, assumptions, changed, dead_length, everything, rises
+from twintube.demo.bands import Rides, Setting, assumptions, changed, dead_length, everything, limited, rises
 from twintube.demo.sensitivity import combinations, mild
 from twintube.vehicle.cars import load_car
 
@@ -29,6 +30,17 @@ def test_what_matters_most_is_varied_together(rides: Rides) -> None:
     longest = dead_length(bounds(rides.damper)[1]).damper
     assert Setting("pushes_oil", car=(("d_links", 450.0),), damper=longest) in everything(rides)
     assert all(set(several) <= set(everything(rides)) for several in combinations(rides).values())
+
+
+@pytest.mark.parametrize("pressure", P_GASES)
+def test_the_limit_of_freed_gas_is_varied_with_its_pressure(rides: Rides, pressure: float) -> None:
+    """At 0.3 bar it is the way `limited`; the more pressure, the less gas the oil gives."""
+    setting = limited(pressure)
+    assert setting in everything(rides)
+    way = condition(rides.damper.with_(exhaustion=0.0), 0.6, 0, "limited").parameters.exhaustion
+    varied = condition(changed(rides.damper, setting), 0.6, 0, setting.freed_gas)
+    assert varied.parameters.exhaustion == pytest.approx(way * pressure / P_GAS)
+    assert acting(varied).startswith("limited" if pressure == P_GAS else "its own")
 
 
 def test_only_a_rear_damper_gets_the_rear_curve() -> None:

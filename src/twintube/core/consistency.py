@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from twintube.core.effects import Parameters, State
 from twintube.core.frame import stroke_limit
+from twintube.core.kernel.forces import P_AMBIENT
 from twintube.core.kernel.prepare import prepare
 from twintube.core.variables import FV_POINTS, Derived, var
 
@@ -60,7 +61,7 @@ def curve_rule(p: Parameters, after: int, violation: Violation) -> int:
 
 
 def fit_rule(p: Parameters, d: Derived, after: int, violation: Violation) -> int:
-    """Number of the first rule beyond `after`, 7 to 13, that the dimensions or the oil break, else 0.
+    """Number of the first rule beyond `after`, 7 to 15, that the dimensions, the oil or the gas break, else 0.
 
     All parameters must be within their bounds. `d` is overwritten. Where the dimensions do not fit into each other, the
     volumes mean nothing and their rules are not asked.
@@ -91,6 +92,16 @@ def fit_rule(p: Parameters, d: Derived, after: int, violation: Violation) -> int
     if after < 13 and p.V_oil > pushed:
         note(violation, 0, p.V_oil, pushed)
         return 13
+    if p.polytropic > 0:
+        # Of both states: the preload may be lost later. The exponent has no say in whether there is room.
+        ambient = P_AMBIENT * d.A_rod / p.stroke_max
+        present = ambient + p.F_0 / p.stroke_max
+        if after < 14 and p.c_gas >= present:
+            note(violation, 0, p.c_gas, present)
+            return 14
+        if after < 15 and p.c_gas_lost >= ambient:
+            note(violation, 0, p.c_gas_lost, ambient)
+            return 15
     return 0
 
 

@@ -22,6 +22,8 @@ RULES = {
     11: "geometry.stroke_max = %g m: must be below %g m, half of h_l - dead_length",
     12: "geometry.V_oil = %g m3: must be at least %g m3, or the intact damper draws gas in rebound",
     13: "geometry.V_oil = %g m3: must be at most %g m3, the room at full compression",
+    14: "gas_spring.c_gas = %g N/m: must be below %g N/m, or a polytropic gas has no room left at full compression",
+    15: "gas_spring.c_gas_lost = %g N/m: must be below %g N/m, or a polytropic gas has no room left at full compression",
 }
 
 # What both kinds of FMU say.

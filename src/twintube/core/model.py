@@ -44,7 +44,7 @@ def start(p: Parameters, d: Derived, s: State, z: float) -> None:
     if d.extended == 0:
         fill(p, d, s, z)
         return
-    pour(d, s, z, effects_level(p, p.oil_level) * p.V_oil)
+    pour(p, d, s, z, effects_level(p, p.oil_level) * p.V_oil)
     effects_reset(s)
     s.z_rod = z
     s.F_gas += effects_elastic(p, s, z)

@@ -6,8 +6,8 @@ from twintube.core import effects, hooks
 
 FOLDER = Path(__file__).parent
 KERNEL = (
-    "kernel/prepare.py",
     "kernel/forces.py",
+    "kernel/prepare.py",
     "kernel/rebound.py",
     "kernel/compression.py",
     "kernel/step.py",

@@ -117,6 +117,12 @@ class Parameters:
     c_gas_lost: float = var("gas_spring", "c_gas", "N/m", "gas spring stiffness after the loss of the preload", lower=0,
                             upper=1e5, source="Figure 7, unpublished", tunable=True)
 
+    polytropic: int = var("gas_spring", "", "1", "0: linear spring; 1: F_0 and c_gas are those of an enclosed gas that is "
+                          "compressed slowly, which follows p V^n_gas", lower=0, upper=1, integer=True,
+                          source="beyond the paper, which has a slope", default=0)
+    n_gas: float = var("gas_spring", "n", "1", "exponent of the polytropic gas: 1 slow, 1.4 nitrogen that exchanges no heat",
+                       lower=1, upper=1.4, source="assumed: little heat exchanged in a stroke", tunable=True, default=1.35)
+
     X_Re: float = var("degradation", "X_Re", "1", "oil share of the mixed flow through the piston valve in rebound",
                       lower=0, upper=1, source="Table 9, equation 22", tunable=True)
     L_PV: float = var("degradation", "L_PV", "1", "leakage: oil through the piston valve that makes no force", lower=0,
@@ -158,6 +164,9 @@ class Parameters:
                            upper=1, integer=True, source="open choice 5", default=1)
     cavitation_foams: int = var("reading", "", "1", "1: gas freed by cavitation foams as S_PV says", lower=0, upper=1,
                                 integer=True, source="equation 40 beside 30", default=0)
+    venting: int = var("reading", "", "1", "compression, cavitation brings gas into a full V1: 0, k_degr slides; 1, it goes "
+                       "step by step after what V1 holds", lower=0, upper=1, integer=True,
+                       source="equations 19 and 29", default=0)
     cavitation_loss: float = var("reading", "", "1", "oil loss from which cavitation acts in full, below it in proportion",
                                  lower=0, upper=1, source="open choice 3", default=0.2)
 

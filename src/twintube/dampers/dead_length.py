@@ -13,7 +13,7 @@ from twintube.dampers.damper import Damper
 SHORTEST, LONGEST = 0.060, 0.110  # [m]
 # Absolute pressures [bar]: a twin-tube damper is filled to 6-8 bar (PMG Sinter, 18 Nov 2021) or 3.4-6.9 bar (KYB), a
 # monotube to 20-30 bar (kfz-tech.de). No pressure is published for full compression; a low-pressure seal is assumed to stay
-# below the monotube's filling pressure.
+# below the monotube's filling pressure. The bound is of a slow compression: as driven, 20 bar are 30 (p V^1.35).
 FILLED, HIGHEST = 6.0, 20.0
 GRID = 1e-3  # [m] to which a bound is rounded, inwards
 
@@ -41,12 +41,15 @@ def reserve_gas(p: Parameters, d: Derived) -> float:
     return (d.A_1 + d.A_2) * d.half_length + d.V_reserve - p.V_oil
 
 
-def pressure(damper: Damper) -> float:
-    """Absolute gas pressure [bar] of the intact damper at full compression; infinite if the oil leaves no volume for it."""
+def pressure(damper: Damper, n: float = 1.0) -> float:
+    """Absolute gas pressure [bar] of the intact damper at full compression; infinite if the oil leaves no volume for it.
+
+    `n` is the exponent of the compression: 1 slow, `damper.parameters.n_gas` as driven.
+    """
     p, d = damper.parameters, prepared(damper.parameters)
     gas = reserve_gas(p, d)
     compressed = gas - d.A_rod * p.stroke_max
-    return FILLED * gas / compressed if compressed > 0.0 else math.inf
+    return FILLED * (gas / compressed) ** n if compressed > 0.0 else math.inf
 
 
 def bounds(damper: Damper) -> tuple[float, float]:

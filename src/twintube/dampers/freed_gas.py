@@ -19,6 +19,7 @@ HALF_LIFE_RETURN: Final = (6.1, 10.2)  # [s] until half of the gas is dissolved 
 HALF_LIFE_RELEASE: Final = (3.6, 7.6)  # [s] until half of the dissolved gas is released, Section 3.2
 SOLUBILITY: Final = (0.093, 0.113)  # gas per oil volume at ambient pressure, Section 3.2
 P_GAS: Final = 0.3  # [bar] absolute, at which the gas sits that `limited` counts (assumed)
+P_GASES: Final = (P_GAS, 0.5, 1.0)  # [bar] over which it is varied; 1 is that of an open reserve
 
 
 def rate(half_life: float) -> float:
@@ -28,6 +29,11 @@ def rate(half_life: float) -> float:
 
 MEAN_RETURN: Final = sum(HALF_LIFE_RETURN) / 2
 RETURNING = {"redissolution_rate": rate(MEAN_RETURN)}
+
+
+def limited(pressure: float) -> dict[str, float]:
+    """The parameters of gas that dissolves again, of which the oil frees what it holds at an absolute pressure [bar]."""
+    return RETURNING | {"exhaustion": pressure * 2 / sum(SOLUBILITY)}
 
 
 @dataclass(frozen=True)
@@ -51,8 +57,7 @@ WAYS: Final = {item.name: item for item in (
         redissolution_rate=rate(HALF_LIFE_RETURN[0])),
     way("dissolves_slow", f"half of it dissolves again in {HALF_LIFE_RETURN[1]} s",
         redissolution_rate=rate(HALF_LIFE_RETURN[1])),
-    way("limited", f"it dissolves again, and the oil frees no more gas than it holds, at {P_GAS} bar", **RETURNING,
-        exhaustion=P_GAS * 2 / sum(SOLUBILITY)),
+    way("limited", f"it dissolves again, and the oil frees no more gas than it holds, at {P_GAS} bar", **limited(P_GAS)),
     way("half_pushes_oil", "it dissolves again, and pushes half of the oil into the reserve instead of replacing it",
         **RETURNING, displaced_share=0.5),
     way("pushes_oil", "it pushes oil into the reserve: no oil is lost", displaced_share=1.0),

@@ -9,9 +9,9 @@ from typing import Any
 
 from tqdm import tqdm
 
-from twintube.dampers import Damper, ParameterError
+from twintube.dampers import Damper, ParameterError, freed_gas
 from twintube.dampers.dead_length import bounds
-from twintube.dampers.freed_gas import DEFAULT, VARIED, WAYS, condition
+from twintube.dampers.freed_gas import DEFAULT, P_GASES, VARIED, WAYS, condition
 from twintube.dampers.variants import rear_curve
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import Drive
@@ -40,6 +40,9 @@ class Setting:
     car: tuple[tuple[str, float], ...] = ()
     forces: float = 1.0
     damper: tuple[tuple[str, Any], ...] = ()
+
+
+POLYTROPIC = Setting(damper=(("polytropic", 1),))  # the gas spring is an enclosed gas
 
 
 def changed(damper: Damper, setting: Setting) -> Damper:
@@ -124,6 +127,11 @@ def dead_length(value: float) -> Setting:
     return Setting(damper=(("dead_length", value),))
 
 
+def limited(pressure: float) -> Setting:
+    """Freed gas that dissolves again and is limited as at a pressure [bar]."""
+    return Setting(damper=tuple(freed_gas.limited(pressure).items()))
+
+
 def fits(damper: Damper, setting: Setting) -> bool:
     """Whether the damper is admissible with a setting."""
     try:
@@ -162,7 +170,8 @@ def together(rides: Rides) -> list[Setting]:
 def everything(rides: Rides) -> list[Setting]:
     """All settings of the bands: one assumption varied at a time, and the most important ones together."""
     ends = [end for pair in assumptions(rides.damper, rides.car).values() for end in pair]
-    return list(dict.fromkeys([*seeds(), *ways(), *ends, *together(rides)]))
+    gas = [*map(limited, P_GASES), POLYTROPIC]
+    return list(dict.fromkeys([*seeds(), *ways(), *gas, *ends, *together(rides)]))
 
 
 def rises(rides: Rides, speed: float, level: float, settings: Iterable[Setting]) -> list[float]:

@@ -7,10 +7,11 @@ import numpy as np
 
 from twintube.dampers import Damper, load
 from twintube.dampers.dead_length import bounds, collapse_level
-from twintube.dampers.freed_gas import DEFAULT, WAYS
+from twintube.dampers.freed_gas import DEFAULT, P_GASES, WAYS
 from twintube.dampers.variants import rear_curve
 from twintube.demo.bands import (
     FORCES,
+    POLYTROPIC,
     SEEDS,
     SPEEDS,
     Rides,
@@ -19,6 +20,7 @@ from twintube.demo.bands import (
     dead_length,
     everything,
     fits,
+    limited,
     loss,
     rises,
 )
@@ -41,6 +43,9 @@ def settings(damper: Damper, car: CarSet) -> dict[str, Setting]:
     rows = {"default": Setting()}
     rows |= {f"links {value:g} N s/m": Setting(car=(("d_links", value),)) for value in LINKS}
     rows |= {f"freed gas `{name}`: {item.says}": Setting(freed_gas=name) for name, item in WAYS.items()}
+    rows |= {f"freed gas `limited`, it sits at {value:g} bar": limited(value) for value in P_GASES}
+    n_gas = damper.parameters.n_gas
+    rows[f"gas spring polytropic, exponent {n_gas:g}"] = POLYTROPIC
     low, high = bounds(damper)
     lengths = sorted({low, high, *(value for value in LENGTHS if low <= value <= high)})
     rows |= {f"dead length {1e3 * value:.0f} mm": dead_length(value) for value in lengths}
@@ -109,6 +114,7 @@ def combinations(rides: Rides) -> dict[str, list[Setting]]:
     longest = bounds(rides.damper)[1]
     length = dead_length(longest).damper
     rows = {"default": [Setting()], f"freed gas `{GENTLEST}`": [Setting(GENTLEST)]}
+    rows |= {f"freed gas `limited` at {value:g} bar": [limited(value)] for value in P_GASES}
     rows[f"dead length {1e3 * longest:.0f} mm"] = [Setting(damper=length)]
     rows[f"both: `{GENTLEST}` and {1e3 * longest:.0f} mm"] = [Setting(GENTLEST, damper=length)]
     for links in rides.car.band.get("d_links", ())[1:]:

@@ -9,6 +9,7 @@ from typing import Any
 from twintube.core.agreement import parted
 from twintube.core.effects import effects_parts, effects_remember, effects_scale_valve
 from twintube.core.frame import stroke_limit
+from twintube.core.kernel.forces import gas_rise
 from twintube.core.model import advance, advance_whole, set_up, start
 from twintube.core.outputs import reserve_gas, total_force
 
@@ -186,7 +187,7 @@ def run_means(
                     total += (s.impulse - from_impulse) / dt
                 elif d.extended == 0 and abs(way) > 1e-9:
                     # The work over the stroke is the mean force, wherever in the step it jumped.
-                    total += ((s.work - from_work) / way + d.c_gas * 0.5 * (at + goal) - d.F_0) / n
+                    total += ((s.work - from_work) / way + gas_rise(p, d.F_0, d.c_gas, 0.5 * (at + goal)) - d.F_0) / n
                 else:
                     total += total_force(s) / n
                 at = goal

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from twintube.core import variables
 from twintube.core.frame import Frame
+from twintube.core.kernel.forces import P_AMBIENT, gas_rise
 from twintube.core.variables import var
 
 TITLE = "Residual or wrong gas preload"
@@ -17,7 +18,6 @@ CAUSE = "The gas pressure differs from that of the parameter set, or some is lef
 ABSENCE = "The residual is a straight line over the stroke, the same in both directions and at every velocity."
 DECIDES = "a quasi-static record over the whole stroke, and the gas pressure read at the valve"
 NEEDS_TIME = False
-P_AMBIENT = 1e5  # [Pa]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,5 +39,5 @@ def gas_spring_elastic(p: Parameters, s: Frame, z: float) -> float:
     """Force [N] at the stroke `z` [m]."""
     if p.gas_preload > 0:
         whole = p.F_0 + P_AMBIENT * 0.25 * math.pi * p.D_PR * p.D_PR
-        return p.F_surplus * (p.c_gas * z / whole - 1.0)
+        return p.F_surplus * (gas_rise(p, p.F_0, p.c_gas, z) / whole - 1.0)
     return p.c_residual * z - p.F_residual

@@ -19,7 +19,7 @@ from twintube.core.effects import (
     effects_series,
 )
 from twintube.core.frame import Frame, end_weight, parts_of, stroke_limit, valve_force
-from twintube.core.kernel.forces import dahl, stribeck
+from twintube.core.kernel.forces import dahl, gas_rise, stribeck
 from twintube.core.variables import Derived, var
 
 TITLE = "Rubber mount in series"
@@ -96,7 +96,7 @@ def mount_compliance_excess(p: Parameters, d: Derived, s: State, v: float, dt: f
     x = s.x_begun + rate * s.end_share * dt
     goal = s.z_end - x
     friction = effects_scale_friction(p, s, goal, v) * s.rubbing * dahl(p, d, s.F_D_begun, goal - s.z_begun)
-    gas = d.c_gas * goal + effects_elastic(p, s, goal) - s.F_middle
+    gas = gas_rise(p, d.F_0, d.c_gas, goal) + effects_elastic(p, s, goal) - s.F_middle
     return (
         (x * (1.0 + p.hardening * x * x) + p.tau_mount * rate) / p.C_mount
         - s.F_mount

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 from twintube.core import variables
 from twintube.core.frame import Frame
+from twintube.core.kernel.forces import gas_rise
 from twintube.core.variables import var
 
 TITLE = "Heat of oil and gas"
@@ -86,7 +87,8 @@ def oil_temperature_scale_friction(p: Parameters, s: State, z: float, v: float) 
 
 def oil_temperature_elastic(p: Parameters, s: State, z: float) -> float:
     """Force [N] by which that of the preload changes at the stroke `z` [m]."""
-    return p.gas_preload * (p.gas_kelvin * s.warm + p.gas_heat * (p.H_start + s.heat)) * (p.c_gas * z - p.F_0)
+    hotter = p.gas_kelvin * s.warm + p.gas_heat * (p.H_start + s.heat)
+    return p.gas_preload * hotter * (gas_rise(p, p.F_0, p.c_gas, z) - p.F_0)
 
 
 def oil_temperature_finish(p: Parameters, s: State, dt: float) -> None:

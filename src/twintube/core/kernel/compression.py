@@ -1,7 +1,12 @@
 """Compression (Eq. 21): V2 empties through the bottom valve into V3 and through the piston valve into V1."""
 
+import math
+
 from twintube.core.kernel.forces import foam_factor
 from twintube.core.variables import Derived, Flow, Parameters, State
+
+# Steps of venting for one without beyond which they are all the time; an integer of C holds it.
+ALWAYS = 1e9
 
 
 def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavitating: float) -> None:
@@ -64,7 +69,10 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
     # V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13).
     kept = d.A_1 + freed - piston
     if s.V1_gas <= 0.0 and kept < 0.0:
-        kept = 0.0  # rounding of a sliding flow
+        if p.venting > 0:  # step by step: once the gas is out, oil follows it
+            oil += kept
+            f.V3_oil -= kept
+        kept = 0.0  # of a sliding flow it is rounding
     foamable = gas + p.cavitation_foams * freed
     if foaming > 0.0 and p.S_PV > 0.0 and foamable > 0.0 and (s.V1_oil > 0.0 or oil > 0.0):
         frothed = foaming * p.S_PV * foamable
@@ -86,7 +94,9 @@ def vented_share(p: Parameters, d: Derived, as_foam: bool, foaming: float, cavit
     """Share [1] of the time that V1, without gas at the moment, vents gas while V2 is full.
 
     Cavitation brings gas into V1. Where venting is faster, V1 stays at zero gas and the flow slides between the two
-    cases; the share is the one that keeps it there (Filippov's convex combination).
+    cases; the share is the one that keeps it there (Filippov's convex combination). With the reading `venting` the cases
+    follow each other step by step, as V1 has gas at the start of a step or not, and what a step vents too much is oil. One
+    step without venting is followed by as many with it as drive its gas out, whatever their length.
     """
     if as_foam or cavitating <= 0.0:
         return 0.0
@@ -98,4 +108,7 @@ def vented_share(p: Parameters, d: Derived, as_foam: bool, foaming: float, cavit
     change = stays * (d.A_2 - d.W_kBV_2 * d.A_2) - surplus
     if change >= 0.0:
         return 1.0
+    if p.venting > 0:
+        steps = math.ceil(min(ALWAYS, gained / -change))
+        return steps / (steps + 1.0)
     return gained / (gained - change)

@@ -6,6 +6,7 @@ from twintube.core.variables import FV_POINTS, Derived, Parameters, State
 
 # Friction [N] that is none: the force of before over a smaller one has no room in a number.
 FRICTIONLESS = 1e-9
+P_AMBIENT = 1e5  # [Pa]
 
 
 def branch(v: float, velocities: tuple[float, ...], forces: tuple[float, ...]) -> float:
@@ -73,9 +74,26 @@ def share_above(v0: float, v1: float, threshold: float) -> float:
     return (max(a, b) - threshold) / abs(a - b)
 
 
+def gas_rise(p: Parameters, F_0: float, c_gas: float, z: float) -> float:
+    """Gas force [N] at the stroke `z` [m] beyond `F_0` [N], that at stroke 0, where `c_gas` [N/m] is the stiffness.
+
+    Beyond the paper, with `polytropic`: at stroke 0 the gas has the absolute pressure P_AMBIENT + F_0/A_rod and the volume
+    that makes `c_gas` its stiffness when it is compressed slowly. Beyond the maximum stroke, where a damper has stops and
+    the gas may have no room left, the force goes on along its tangent.
+    """
+    rise = c_gas * z
+    if p.polytropic > 0:
+        whole = F_0 + P_AMBIENT * 0.25 * math.pi * p.D_PR * p.D_PR
+        inside = max(z, -p.stroke_max)
+        volume = 1.0 + c_gas * inside / whole
+        pressure = math.exp(-p.n_gas * math.log(volume))
+        rise = whole * (1.0 - pressure) + p.n_gas * c_gas * pressure / volume * (z - inside)
+    return rise
+
+
 def set_forces(p: Parameters, d: Derived, s: State, F_potential: float, v: float) -> None:
     """The three forces of equation 1 at the state `s`; `F_potential` is the intact fluid force [N] at `v` [m/s]."""
-    # Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr; the paper's F_S is a slope, the force F_0 at stroke 0 is added here
-    s.F_gas = d.c_gas * s.z - d.F_0
+    # Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr; the paper's F_S is a slope; F_0 at stroke 0 is added here
+    s.F_gas = gas_rise(p, d.F_0, d.c_gas, s.z) - d.F_0
     s.F_friction = stribeck(p, v) * s.F_D
     s.F_fluid = F_potential * s.k_degr

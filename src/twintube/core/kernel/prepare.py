@@ -2,6 +2,7 @@
 
 import math
 
+from twintube.core.kernel.forces import gas_rise
 from twintube.core.variables import Derived, Parameters, State
 
 
@@ -49,10 +50,10 @@ def fill(p: Parameters, d: Derived, s: State, z: float) -> None:
 
     The order no longer matters after the paper's six preconditioning oscillations.
     """
-    pour(d, s, z, p.oil_level * p.V_oil)
+    pour(p, d, s, z, p.oil_level * p.V_oil)
 
 
-def pour(d: Derived, s: State, z: float, oil: float) -> None:
+def pour(p: Parameters, d: Derived, s: State, z: float, oil: float) -> None:
     """As `fill`, with the volume `oil` [m3]."""
     V1 = d.A_1 * (d.half_length - z)
     V2 = d.A_2 * (d.half_length + z)
@@ -73,5 +74,5 @@ def pour(d: Derived, s: State, z: float, oil: float) -> None:
     s.k_degr = 1.0
     s.F_fluid = 0.0
     s.F_friction = 0.0
-    s.F_gas = d.c_gas * z - d.F_0
+    s.F_gas = gas_rise(p, d.F_0, d.c_gas, z) - d.F_0
     s.work = 0.0
