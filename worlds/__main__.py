@@ -21,7 +21,9 @@ def main() -> None:
 def imperfect(
     seed: Annotated[int, typer.Option(min=0, help="The same seed makes the same files.")],
     output: Annotated[Path, typer.Option(help="Folder for dataset/ and truth.json; neither may exist there.")],
-    world: Annotated[World | None, typer.Option(help="By default even seeds are unknown_fill, odd ones before_after.")] = None,
+    world: Annotated[
+        World | None, typer.Option(help="By default even seeds are unknown_fill, odd ones before_after.")
+    ] = None,
 ) -> None:
     """A damper that differs from its parameter set, on a bench that is not perfect."""
     try:

@@ -10,6 +10,8 @@ from worlds.imperfect.law import RATE, Array, Law, curve
 
 SPEEDS: Final = (0.025, 0.05, 0.1, 0.131, 0.262, 0.393, 0.524, 0.786, 1.048, 1.572)  # [m/s], VDA style
 AMPLITUDES: Final = (0.02, 0.025, 0.03, 0.04, 0.045, 0.05)  # [m]
+FASTEST: Final = 7.0  # [Hz] that a bench drives
+LONGEST: Final = 30.0  # [s] of a record
 V_SETTLING: Final = 0.05  # [m/s] of the slow oscillations that settle the oil before every record
 SETTLING: Final = 6
 HEAT: Final = (1100.0, 1600.0)  # [J/K] of damper and oil: 2 kg of steel, 0.2 to 0.3 kg of oil, and what sits on them
@@ -56,7 +58,7 @@ class Bench:
     stroke_noise: float  # RMS [m]
     compliance: float  # [m/N] of frame, clevis and load cell
     heat: float  # [J/K] of a damper on it
-    thermometer: bool
+    temperature: str  # column | start | none: what the files say about it
     slow_lead: bool  # whether recording begins with a slow cycle or in the steady motion
     style: int  # of the recorder's files
 
@@ -73,7 +75,8 @@ def draw_bench(rng: np.random.Generator) -> Bench:
         noise=float(np.exp(rng.uniform(np.log(1.0), np.log(8.0)))), corner=float(rng.uniform(5.0, 40.0)),
         hum=float(rng.uniform(0.0, 3.0)), delay=float(rng.uniform(0.0, 0.5e-3)),
         stroke_noise=float(rng.uniform(2e-6, 15e-6)), compliance=float(1.0 / rng.uniform(5e6, 30e6)),
-        heat=float(rng.uniform(*HEAT)), thermometer=bool(rng.random() < 0.5), slow_lead=bool(rng.random() < 0.5),
+        heat=float(rng.uniform(*HEAT)),
+        temperature=str(rng.choice(["column", "start", "none"], p=[0.4, 0.3, 0.3])), slow_lead=bool(rng.random() < 0.5),
         style=int(rng.integers(0, 3)),
     )  # fmt: skip
 
@@ -87,6 +90,7 @@ def settled(amplitude: float) -> Array:
 
 def sine(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Motion:
     """A sine after slow oscillations, taken up within a second; 5 to 8 s of it where fast, five cycles where slow."""
+    amplitude = max(amplitude, round(speed / (2 * np.pi * FASTEST), 3))
     before, period = settled(amplitude), 2 * np.pi * amplitude / speed
     lasts = float(np.clip(5 * period, 5.0 if speed > 0.8 else 8.0, 22.0))
     omega = np.concatenate([np.linspace(V_SETTLING, speed, RATE), np.full(round(lasts * RATE), speed)]) / amplitude
@@ -97,9 +101,10 @@ def sine(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Motion:
 
 
 def triangle(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Motion:
-    """A slow triangular motion with the corners that a controller leaves round over 0.1 s."""
+    """A cycle and a bit of a slow triangle, of at most LONGEST; a controller leaves its corners round over 0.1 s."""
+    amplitude = min(amplitude, round(LONGEST / 1.1 * speed / 4, 3))
     before, period = settled(amplitude), 4 * amplitude / speed
-    t = np.arange(0.0, min(1.5 * period, 30.0), 1.0 / RATE)
+    t = np.arange(0.0, min(1.5 * period, LONGEST), 1.0 / RATE)
     ramp = amplitude * 2 / np.pi * np.arcsin(np.sin(2 * np.pi * t / period))
     corner = np.hanning(RATE // 10)
     z = np.convolve(np.concatenate([before, ramp, np.full(RATE // 20, ramp[-1])]), corner / corner.sum(), "same")
@@ -108,7 +113,7 @@ def triangle(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Mot
 
 def road(bench: Bench, amplitude: float, rng: np.random.Generator, tag: str = "") -> Motion:
     """A drive: body near 1.3 Hz, wheel near 11 Hz, coloured noise in between, as a damper stroke."""
-    before, n = settled(amplitude), round(rng.uniform(15.0, 30.0) * RATE)
+    before, n = settled(amplitude), round(rng.uniform(15.0, LONGEST) * RATE)
     f = np.fft.rfftfreq(n, 1.0 / RATE)[1:]
     shape = 1.0 / np.hypot(1 - (f / 1.3) ** 2, 0.5 * f / 1.3) + 0.06 / np.hypot(1 - (f / 11.0) ** 2, 0.3 * f / 11.0)
     spectrum = shape * (f > 0.3) * (f < 25.0) * np.exp(2j * np.pi * rng.random(len(f))) / np.sqrt(f)

@@ -33,6 +33,11 @@ def span(rng: RNG, low: float, high: float) -> float:
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
+def evenly(rng: RNG, low: float, high: float) -> float:
+    """Evenly between the two."""
+    return float(rng.uniform(low, high))
+
+
 def sign(rng: RNG) -> float:
     """Either sign."""
     return float(rng.choice([-1.0, 1.0]))
@@ -79,21 +84,21 @@ CAUSES: Final = {item.key: item for item in (
     Cause("bleed_wear", "effect", "valve_wear", 1.5,
         "erosion or dirt on the discs: 3 to 50 % less at low velocity; clogged notches: up to 50 % more",
         lambda rng, law, a: {"bleed": either(rng, sign(rng) * span(rng, 0.03, 0.5))}),
-    Cause("blow_off_wear", "effect", "valve_wear", 1.5, "set or broken discs, 3 to 40 % of the force above the knee; rarely more force",
+    Cause("blow_off_wear", "effect", "valve_wear", 1.5, "set or broken discs: 3 to 40 % above the knee, rarely more force",
         lambda rng, law, a: {"blow_off": either(rng, (1 if rng.random() < 0.2 else -1) * span(rng, 0.03, 0.4))}),
-    Cause("seal_friction", "effect", "outside:seal_friction", 1.5, "20 to 60 N when new; worn 40 % of it, dry or swollen 3 times",
+    Cause("seal_friction", "effect", "outside:seal_friction", 1.5, "20 to 60 N when new; worn 40 % of it, dry 3 times",
         lambda rng, law, a: {"friction": span(rng, 0.4, 3.0)}, ("side_load_friction",)),
     Cause("side_load", "effect", "side_load_friction", 1.5,
         "struts: 100 to 1000 N across the guide, coefficient 0.03 to 0.1: 3 to 100 N",
         lambda rng, law, a: {"side_friction": span(rng, 3.0, 100.0)}),
-    Cause("bush", "effect", "mount_compliance", 2.0, "top mounts 0.3 to 3 kN/mm; clevises with play in the thread up to 10 kN/mm",
+    Cause("bush", "effect", "mount_compliance", 2.0, "top mounts 0.3 to 3 kN/mm, clevises in poor threads up to 10",
         lambda rng, law, a: {"bush": 1.0 / span(rng, 0.4e6, 1e7)}),
-    Cause("leak", "effect", "seal_leak", 2.0, "a torn seal wets the rig within minutes: 2 to 40 % of the oil in the later records",
+    Cause("leak", "effect", "seal_leak", 2.0, "a torn seal wets the rig within minutes: 2 to 40 % of the oil",
         leak, ("state",)),
-    Cause("aeration", "effect", "fluid_lag", 1.5, "0.2 to 8 % of air in 100 mm of oil column: 0.2 to 8 mm of stroke per reversal",
+    Cause("aeration", "effect", "fluid_lag", 1.5, "0.2 to 8 % of air in 100 mm of oil: 0.2 to 8 mm per reversal",
         lambda rng, law, a: aired(span(rng, 0.2e-3, 8e-3), 1.0), ("foam_decay",)),
     Cause("foam", "effect", "foam_decay", 1.5, "the same, from a fast run before, separating while the bench runs slower",
-        lambda rng, law, a: aired(span(rng, 0.4e-3, 10e-3), float(rng.uniform(0.05, 0.3))), ("fluid_lag",)),
+        lambda rng, law, a: aired(span(rng, 0.4e-3, 10e-3), evenly(rng, 0.05, 0.3)), ("fluid_lag",)),
     Cause("stop", "effect", "end_stop", 2.0, "wrong middle by 0.2 to 8 mm: rebound stop or buffer, 0.3 to 6 kN after 10 mm",
         stop_contact),
     Cause("gain", "fault", "force_gain", 2.0, "bridge supply, wrong range or shunt: 1.5 to 20 %; a calibration holds 1 %",
@@ -110,15 +115,15 @@ CAUSES: Final = {item.key: item for item in (
         lambda rng, law, a: {"unit": float(rng.choice([4.448222, 9.80665, 10.0]))}),
     Cause("loose_nut", "outside", "outside:loose_piston_nut", OUTSIDE, "heard from 0.1 mm on; threads give 2 mm",
         lambda rng, law, a: {"play": span(rng, 0.1e-3, 2e-3)}),
-    Cause("foot_valve", "outside", "outside:stuck_foot_valve", OUTSIDE, "the check disc closes late: 0.3 to 12 mm of compression",
+    Cause("foot_valve", "outside", "outside:stuck_foot_valve", OUTSIDE, "the check disc closes late by 0.3 to 12 mm",
         lambda rng, law, a: {"late_compression": span(rng, 0.3e-3, 12e-3)}),
-    Cause("chatter", "outside", "outside:valve_chatter", OUTSIDE, "hiss and chatter of blow-off discs: 60 to 180 Hz, 0.5 to 15 %",
-        lambda rng, law, a: {"chatter": (span(rng, 0.005, 0.15), float(rng.uniform(60.0, 180.0)))}),
+    Cause("chatter", "outside", "outside:valve_chatter", OUTSIDE, "chatter of blow-off discs: 60 to 180 Hz, 0.5 to 15 %",
+        lambda rng, law, a: {"chatter": (span(rng, 0.005, 0.15), evenly(rng, 60.0, 180.0))}),
     Cause("bent_rod", "outside", "outside:bent_rod", OUTSIDE, "a dent or bend over 5 to 20 mm of the rod, 3 to 150 N",
-        lambda rng, law, a: {"rod_bump": (span(rng, 3.0, 150.0), float(rng.uniform(-0.6, 0.6) * a), float(rng.uniform(5e-3, 20e-3)))},
+        lambda rng, law, a: {"rod_bump": (span(rng, 3.0, 150.0), a * evenly(rng, -0.6, 0.6), evenly(rng, 5e-3, 20e-3))},
         ("side_load_friction",)),
-    Cause("frame", "outside", "outside:bench_resonance", OUTSIDE, "a bolt of the crossbeam is loose: 25 to 70 Hz, damping 2 to 10 %",
-        lambda rng, law, a: {"ringing": (span(rng, 0.1, 2.0), float(rng.uniform(25.0, 70.0)), float(rng.uniform(0.02, 0.1)))}),
+    Cause("frame", "outside", "outside:bench_resonance", OUTSIDE, "a loose crossbeam: 25 to 70 Hz, damping 2 to 10 %",
+        lambda rng, law, a: {"ringing": (span(rng, 0.1, 2.0), evenly(rng, 25.0, 70.0), evenly(rng, 0.02, 0.1))}),
     Cause("connector", "outside", "outside:loose_connector", OUTSIDE, "steps of the bridge signal, 2 to 80 N",
         lambda rng, law, a: {"contact": span(rng, 2.0, 80.0)}),
 )}  # fmt: skip

@@ -31,7 +31,7 @@ def table(record: Recording, style: int) -> str:
 def manifest(world: World) -> str:
     """The text of dataset.toml."""
     delimiter, decimal, names, lines = STYLES[world.bench.style]
-    with_temperature = world.bench.thermometer
+    with_temperature = world.bench.temperature == "column"
     text = ['title = "Damper bench"', f'damper = "{world.damper}"']
     if delimiter != ",":
         text.append(f'delimiter = "{delimiter}"'.replace("\t", "\\t"))
@@ -45,7 +45,7 @@ def manifest(world: World) -> str:
         text += ["", "[[record]]", f'file = "{record.name}.csv"', f'measurement = "{record.measurement}"']
         text += ["oil_level = 1.0", "gas_preload = true"] if full else ['oil_level = "unknown"', 'gas_preload = "unknown"']
         text += ["reference = true"] * record.reference
-        text += [] if with_temperature else [f"start_temperature_degC = {record.start_temperature}"]
+        text += [f"start_temperature_degC = {record.start_temperature}"] * (world.bench.temperature == "start")
     return "\n".join(text) + "\n"
 
 

@@ -15,10 +15,11 @@ Array = NDArray[np.float64]
 
 RATE: Final = 2000  # [Hz] of everything before the recorder: 1 ms of lag is two samples, kept apart by interpolation
 V_KNEE: Final = 0.2  # [m/s] where the valves of car dampers blow off, 0.1 to 0.3
+A_DISCS: Final = 15.0  # [m/s2] from which discs no longer follow: 0.4 m/s in 25 ms
 T_PARAMETERS: Final = 25.0  # [degC] at which the parameter set holds
 P_GAS: Final = 6.0 / 5.0  # absolute over gauge pressure of 5 bar: the gauge pressure follows the absolute temperature
 LONGEST_LAG: Final = 1.5e-3  # [s] of valve discs and compressible oil, tenths of ms to 1 ms and a little more
-ITERATIONS: Final = 6  # of the compliant mount; the stroke then changes by less than a micrometre
+ITERATIONS: Final = 12  # of the compliant mount; for a hard one the stroke then changes by less than a micrometre
 
 # How specimens differ from their type, and by how much before all are scaled together: production tolerance of valve
 # stacks is 10 % of the force at a point, their knees scatter by 10 to 20 %, bleed notches are stamped to 10 % of area.
@@ -82,6 +83,7 @@ def curve(damper: Damper, v: Array) -> Array:
 
 
 def by_direction(v: Array, rebound: float, compression: float) -> Array:
+    """One value in rebound, the other in compression."""
     return np.asarray(np.where(v >= 0.0, rebound, compression))
 
 
@@ -97,7 +99,7 @@ def fluid_force(law: Law, state: State, z: Array, v: Array) -> Array:
     force *= 1.0 + by_direction(v, s.get("gain_re", 0.0), s.get("gain_co", 0.0)) + s.get("turbulent", 0.0) * speed
     force *= 1.0 + s.get("position", 0.0) * (x**2 - 0.3)
     # Valve discs lift late and fall late; where the bench hardly accelerates they have the time.
-    force *= 1.0 + s.get("loop", 0.0) * np.tanh(np.gradient(v) * RATE * np.sign(v) / 3.0)
+    force *= 1.0 + s.get("loop", 0.0) * np.tanh(np.gradient(v) * RATE * np.sign(v) / A_DISCS)
     force *= 1.0 + by_direction(v, *state.bleed) * low + by_direction(v, *state.blow_off) * v**2 / (v**2 + V_KNEE**2)
     return np.asarray(force)
 
@@ -129,21 +131,37 @@ def since_reversal(z: Array, v: Array) -> Array:
     return travel - np.maximum.accumulate(np.where(turned, travel, 0.0))
 
 
-def force(law: Law, state: State, z: Array, v: Array, warmth: Array) -> Array:
-    """Force [N] at strokes [m] and velocities [m/s] of the damper itself at temperatures [degC], all (n,) at RATE."""
-    own, n, p = law.damper, len(z), law.damper.parameters
+@dataclass(frozen=True)
+class Inside:
+    """What the kernel says about a motion: how far the chambers are full, friction and gas force [N]; arrays (n,)."""
+
+    k_degr: Array
+    friction: Array
+    gas: Array
+
+
+def inside(law: Law, state: State, z: Array) -> Inside:
+    """The kernel over a motion; where oil leaks out, between runs with the oil of different times."""
+    n, v = len(z), np.gradient(z) * RATE
     ends = (state.oil_level, state.oil_level if state.oil_level_end is None else state.oil_level_end)
     levels = np.linspace(*ends, 1 if ends[0] == ends[1] else 5)
-    with warnings.catch_warnings():  # a velocity seen through a mount is only nearly the stroke's derivative
-        warnings.simplefilter("ignore")
-        runs = [simulate(own.with_(oil_level=q, gas_preload=state.gas_preload), z, v, np.arange(n) / RATE) for q in levels]
     share = np.linspace(0.0, len(levels) - 1.0, n)
-    weights = [np.clip(1.0 - np.abs(share - i), 0.0, 1.0) for i in range(len(levels))]
-    k = np.sum([w * run.k_degr for w, run in zip(weights, runs, strict=True)], axis=0)
-    rubbing = np.sum([w * run.F_friction for w, run in zip(weights, runs, strict=True)], axis=0)
-    gas = np.sum([w * run.F_gas for w, run in zip(weights, runs, strict=True)], axis=0)
+    parts = np.zeros((3, n))
+    for i, level in enumerate(levels):
+        damper = law.damper.with_(oil_level=level, gas_preload=state.gas_preload)
+        with warnings.catch_warnings():  # the velocity seen through a mount is only nearly the stroke's derivative
+            warnings.simplefilter("ignore")
+            run = simulate(damper, z, v, np.arange(n) / RATE)
+        parts += np.clip(1.0 - np.abs(share - i), 0.0, 1.0) * np.array([run.k_degr, run.F_friction, run.F_gas])
+    return Inside(*parts)
+
+
+def force(law: Law, state: State, z: Array, warmth: Array, found: Inside) -> Array:
+    """Force [N] at strokes [m] of the damper itself at temperatures [degC], all (n,) at RATE."""
+    own, n, p = law.damper, len(z), law.damper.parameters
+    v, k, gas = np.gradient(z) * RATE, found.k_degr, found.gas
     if law.nominal:
-        return np.asarray(curve(own, v) * k + rubbing + gas)
+        return np.asarray(curve(own, v) * k + found.friction + gas)
     x, kelvin = z / p.stroke_max, warmth - T_PARAMETERS
     fluid = lagged(law, fluid_force(law, state, z, v)) * over_travel(k, z, law.smoothing)
     fluid *= 1.0 + law.viscosity * kelvin
@@ -157,7 +175,8 @@ def force(law: Law, state: State, z: Array, v: Array, warmth: Array) -> Array:
     tilt, bow = law.scale * law.traits.get("friction_tilt", 0.0), law.scale * law.traits.get("friction_bow", 0.0)
     bump, place, width = state.rod_bump
     extra = state.side_friction * (1.0 + 0.3 * x) + bump * np.exp(-(((z - place) / width) ** 2))
-    rubbing *= np.clip(state.friction * (1.0 + tilt * x + bow * (x**2 - 0.3)), 0.1, None) + extra / p.F_FrS
+    uneven = np.clip(state.friction * (1.0 + tilt * x + bow * (x**2 - 0.3)), 0.1, None)
+    rubbing = found.friction * (uneven + extra / p.F_FrS)
     total = fluid + rubbing
     if state.play > 0.0:
         total *= np.clip((turned / state.play - 0.8) / 0.2, 0.0, 1.0)
@@ -176,8 +195,10 @@ def through_mount(law: Law, state: State, compliance: float, z: Array, warmth: A
     p = law.damper.parameters
     stiffest = 1.5 * max(*np.gradient(p.F_re, p.v_re)[:3], p.F_re[0] / p.v_re[0], p.F_co[0] / p.v_co[0])
     lag = bilinear([1.0], [give * stiffest, 1.0], RATE)
-    inner = z.copy()
-    for _ in range(ITERATIONS):
-        acting = force(law, state, inner, np.gradient(inner) * RATE, warmth)
-        inner = inner - lfilter(*lag, inner + give * (acting - acting[0]) - z)
-    return force(law, state, inner, np.gradient(inner) * RATE, warmth), inner
+    inner = z
+    for _ in range(2):  # where the oil is hardly depends on the mount
+        found = inside(law, state, inner)
+        for _ in range(ITERATIONS // 2):
+            acting = force(law, state, inner, warmth, found)
+            inner = inner - lfilter(*lag, inner + give * (acting - acting[0]) - z)
+    return force(law, state, inner, warmth, found), inner

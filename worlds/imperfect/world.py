@@ -8,18 +8,31 @@ import numpy as np
 
 from twintube.dampers import names
 from worlds.imperfect.bench import (
-    AMPLITUDES, SPEEDS, STROKE_STEP, THERMOCOUPLE, Bench, Fault, Motion, draw_bench, noise, recorded, road, seen, sine,
-    triangle, warmed,
+    AMPLITUDES,
+    SPEEDS,
+    STROKE_STEP,
+    THERMOCOUPLE,
+    Bench,
+    Fault,
+    Motion,
+    draw_bench,
+    noise,
+    recorded,
+    road,
+    seen,
+    sine,
+    triangle,
+    warmed,
 )  # fmt: skip
-from worlds.imperfect.causes import CAUSES, RNG, Cause, span
+from worlds.imperfect.causes import CAUSES, RNG, Cause
 from worlds.imperfect.law import RATE, Array, Law, State, lfilter, through_mount
 from worlds.imperfect.specimen import specimen
 
 UNCHANGED: Final = 0.4  # share of before_after in which nothing happened
 STATED_WRONGLY: Final = 1 / 3  # share of the unknown fills that the operator calls full with preload
 CALIBRATION: Final = 0.004  # of the gain from day to day, never more than 1 %
+MOST_RECORDS: Final = 8
 PAUSES: Final = (20.0, 180.0)  # [s] between two records
-FASTEST_FULL_STROKE: Final = 1.6  # [m/s]
 IDENTIFYING: Final = (0.05, 0.131, 0.262, 0.524, 0.786, 1.048, 1.572)
 
 
@@ -91,8 +104,7 @@ def session(
         acting = part(state, i / len(motions), (i + 1) / len(motions))
         extra = np.linspace(*acting.heating, len(motion.z))
         zeros = np.zeros(len(motion.z))
-        contact = fault.contact * np.cumsum(rng.random(len(motion.z)) < 1.0 / RATE) % 2 if fault.contact else zeros
-        contact = fault.contact * contact if fault.contact else zeros
+        contact = fault.contact * (np.cumsum(rng.random(len(motion.z)) < 1.0 / RATE) % 2)  # about once a second
         force = through_mount(law, acting, bench.compliance, motion.z, warmth + extra)[0]
         plain = force if state == still else through_mount(law, still, bench.compliance, motion.z, warmth)[0]
         if fault.stroke_gain != 1.0 or fault.sign != 1:  # what the damper would do at the stroke that is read
@@ -104,7 +116,7 @@ def session(
         stroke = np.round((stroke + bench.stroke_noise * rng.standard_normal(n)) / STROKE_STEP) * STROKE_STEP
         felt = warmth + extra
         surface = lfilter([1.0], [THERMOCOUPLE * RATE, 1.0 - THERMOCOUPLE * RATE], felt - felt[0]) + felt[0] - 1.0
-        shown = np.round(surface[motion.first :: RATE // bench.rate], 1) if bench.thermometer else None
+        shown = np.round(surface[motion.first :: RATE // bench.rate], 1) if bench.temperature == "column" else None
         _, before = recorded(bench, motion, *seen(bench, Fault(), motion.z, plain, zeros))
         out.append(Recording(
             motion.name, motion.measurement, np.arange(n) / bench.rate, stroke, measured, shown, round(float(felt[0]), 1),
@@ -138,7 +150,7 @@ def programme(rng: RNG, law: Law, bench: Bench, count: int) -> list[Motion]:
     return motions + [sine(bench, float(v), amplitude) for v in left]
 
 
-def truth(world: str, seed: int, name: str, off: float, law: Law, bench: Bench, state: State, own: Bench | None = None) -> dict[str, Any]:
+def truth(world: str, seed: int, name: str, off: float, law: Law, bench: Bench, state: State) -> dict[str, Any]:
     """What both worlds tell."""
     level = state.oil_level if state.oil_level_end is None else [state.oil_level, state.oil_level_end]
     return {
@@ -170,7 +182,7 @@ def unknown_fill(seed: int) -> World:
     rng, name, law, off, bench, kernel = begin(seed, 1)
     level = 1.0 if rng.random() < 0.2 else float(rng.uniform(0.35, 1.0))
     state = State(oil_level=level, gas_preload=int(rng.random() < 0.5))
-    motions = programme(rng, law, bench, int(rng.integers(1, 9)))
+    motions = programme(rng, law, bench, int(rng.integers(1, MOST_RECORDS + 1)))
     recordings = session(rng, law, bench, draw_day(rng), motions, state, Fault(), reference=False)
     told = truth("unknown_fill", seed, name, off, law, bench, state) | {"kernel": kernel}
     if state != State():
@@ -191,9 +203,9 @@ def before_after(seed: int) -> World:
     first = [triangle(bench, slow, amplitude, "_a"), *(sine(bench, v, amplitude, "_a") for v in speeds)]
     again = sorted(float(v) for v in rng.choice(speeds, int(rng.integers(2, 4)), replace=False))
     later = [sine(bench, v, amplitude, "_b") for v in again]
-    if rng.random() < 0.3:
+    if rng.random() < 0.3 and len(first) + len(later) < MOST_RECORDS:
         later.insert(0, triangle(bench, slow, amplitude, "_b"))
-    elif rng.random() < 0.3 and len(first) + len(later) < 8:
+    elif rng.random() < 0.3 and len(first) + len(later) < MOST_RECORDS:
         later.append(road(bench, amplitude, rng, "_b"))
     cause: Cause | None = None
     drawn: dict[str, Any] = {}
