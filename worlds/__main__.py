@@ -26,11 +26,11 @@ def imperfect(
     ] = None,
 ) -> None:
     """A damper that differs from its parameter set, on a bench that is not perfect."""
-    try:
-        write(make(seed, None if world is None else world.value), output)
-    except FileExistsError as error:
-        typer.echo(f"error: {error.filename}: exists already", err=True)
-        raise typer.Exit(2) from error
+    for path in (output / "dataset", output / "truth.json"):
+        if path.exists():
+            typer.echo(f"error: {path}: exists already", err=True)
+            raise typer.Exit(2)
+    write(make(seed, None if world is None else world.value), output)
 
 
 if __name__ == "__main__":

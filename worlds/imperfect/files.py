@@ -50,14 +50,11 @@ def manifest(world: World) -> str:
 
 
 def write(world: World, output: Path) -> None:
-    """Write a world into the folder; raises FileExistsError where it holds one."""
-    truth = output / "truth.json"
-    if truth.exists():
-        raise FileExistsError(17, "exists", str(truth))
+    """Write a world into the folder; raises FileExistsError where that holds a dataset."""
     dataset = output / "dataset"
     dataset.mkdir(parents=True)
     for record in world.recordings:
         (dataset / f"{record.name}.csv").write_text(table(record, world.bench.style), encoding="utf-8")
     (dataset / "dataset.toml").write_text(manifest(world), encoding="utf-8")
     rounded = json.loads(json.dumps(world.truth), parse_float=lambda text: float(f"{float(text):.6g}"))
-    truth.write_text(json.dumps(rounded, indent=1) + "\n", encoding="utf-8")
+    (output / "truth.json").write_text(json.dumps(rounded, indent=1) + "\n", encoding="utf-8")

@@ -19,7 +19,10 @@ A_DISCS: Final = 15.0  # [m/s2] from which discs no longer follow: 0.4 m/s in 25
 T_PARAMETERS: Final = 25.0  # [degC] at which the parameter set holds
 P_GAS: Final = 6.0 / 5.0  # absolute over gauge pressure of 5 bar: the gauge pressure follows the absolute temperature
 LONGEST_LAG: Final = 1.5e-3  # [s] of valve discs and compressible oil, tenths of ms to 1 ms and a little more
-ITERATIONS: Final = 12  # of the compliant mount; for a hard one the stroke then changes by less than a micrometre
+# Kernel runs and iterations in each, of a damper between hard clevises (the stroke then changes by micrometres) and of a
+# bush that gives way by a millimetre.
+HARD_MOUNT: Final = (1, 4)
+SOFT_MOUNT: Final = (2, 7)
 
 # How specimens differ from their type, and by how much before all are scaled together: production tolerance of valve
 # stacks is 10 % of the force at a point, their knees scatter by 10 to 20 %, bleed notches are stamped to 10 % of area.
@@ -196,9 +199,10 @@ def through_mount(law: Law, state: State, compliance: float, z: Array, warmth: A
     stiffest = 1.5 * max(*np.gradient(p.F_re, p.v_re)[:3], p.F_re[0] / p.v_re[0], p.F_co[0] / p.v_co[0])
     lag = bilinear([1.0], [give * stiffest, 1.0], RATE)
     inner = z
-    for _ in range(2):  # where the oil is hardly depends on the mount
+    runs, iterations = HARD_MOUNT if state.bush == 0.0 else SOFT_MOUNT
+    for _ in range(runs):
         found = inside(law, state, inner)
-        for _ in range(ITERATIONS // 2):
+        for _ in range(iterations):
             acting = force(law, state, inner, warmth, found)
             inner = inner - lfilter(*lag, inner + give * (acting - acting[0]) - z)
     return force(law, state, inner, warmth, found), inner
