@@ -101,10 +101,10 @@ def sine(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Motion:
 
 
 def triangle(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Motion:
-    """A cycle and a half of a slow triangle, of at most LONGEST; a controller leaves its corners round over 0.1 s."""
-    amplitude = min(amplitude, round(LONGEST / 1.5 * speed / 4, 3))
+    """Nearly two cycles of a slow triangle, of at most LONGEST; a controller leaves its corners round over 0.1 s."""
+    amplitude = min(amplitude, round(LONGEST / 1.75 * speed / 4, 3))
     before, period = settled(amplitude), 4 * amplitude / speed
-    t = np.arange(0.0, min(1.5 * period, LONGEST), 1.0 / RATE)
+    t = np.arange(0.0, min(1.75 * period, LONGEST), 1.0 / RATE)
     ramp = amplitude * 2 / np.pi * np.arcsin(np.sin(2 * np.pi * t / period))
     corner = np.hanning(RATE // 10)
     z = np.convolve(np.concatenate([before, ramp, np.full(RATE // 20, ramp[-1])]), corner / corner.sum(), "same")
