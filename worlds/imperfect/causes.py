@@ -86,7 +86,7 @@ CAUSES: Final = {item.key: item for item in (
         lambda rng, law, a: {"bleed": either(rng, sign(rng) * span(rng, 0.03, 0.5))}),
     Cause("blow_off_wear", "effect", "valve_wear", 1.5, "set or broken discs: 3 to 40 % above the knee, rarely more force",
         lambda rng, law, a: {"blow_off": either(rng, (1 if rng.random() < 0.2 else -1) * span(rng, 0.03, 0.4))}),
-    Cause("seal_friction", "effect", "outside:seal_friction", 1.5, "20 to 60 N when new; worn 40 % of it, dry 3 times",
+    Cause("seal_friction", "outside", "outside:seal_friction", 1.5, "20 to 60 N when new; worn 40 % of it, dry 3 times",
         lambda rng, law, a: {"friction": span(rng, 0.4, 3.0)}, ("side_load_friction",)),
     Cause("side_load", "effect", "side_load_friction", 1.5,
         "struts: 100 to 1000 N across the guide, coefficient 0.03 to 0.1: 3 to 100 N",

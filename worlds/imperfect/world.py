@@ -9,6 +9,7 @@ import numpy as np
 from twintube.dampers import names
 from worlds.imperfect.bench import (
     AMPLITUDES,
+    COOLING,
     SPEEDS,
     STROKE_STEP,
     THERMOCOUPLE,
@@ -31,6 +32,7 @@ from worlds.imperfect.specimen import specimen
 UNCHANGED: Final = 0.4  # share of before_after in which nothing happened
 STATED_WRONGLY: Final = 1 / 3  # share of the unknown fills that the operator calls full with preload
 CALIBRATION: Final = 0.004  # of the gain from day to day, never more than 1 %
+UNRECORDED: Final = 3.0  # [K] by which the oil gets warmer between two records: some 10 K in a session
 MOST_RECORDS: Final = 8
 PAUSES: Final = (20.0, 180.0)  # [s] between two records
 IDENTIFYING: Final = (0.05, 0.131, 0.262, 0.524, 0.786, 1.048, 1.572)
@@ -98,7 +100,7 @@ def session(
 ) -> list[Recording]:
     """Records one after the other on one day."""
     out: list[Recording] = []
-    oil, still = day.room + float(rng.uniform(0.0, 4.0)), State()
+    oil, still = float(day.room + rng.uniform(0.0, 4.0)), State()
     for i, motion in enumerate(motions):
         warmth = warmed(law, bench, motion, oil, day.room)
         acting = part(state, i / len(motions), (i + 1) / len(motions))
@@ -122,7 +124,8 @@ def session(
             motion.name, motion.measurement, np.arange(n) / bench.rate, stroke, measured, shown, round(float(felt[0]), 1),
             reference, clean, before, motion.period, max(0, motion.steady - motion.first) * bench.rate // RATE,
         ))  # fmt: skip
-        oil = day.room + (warmth[-1] - day.room) * float(np.exp(-rng.uniform(*PAUSES) / 600.0))
+        # Setting up and repeats that nobody keeps warm it, too.
+        oil = rng.uniform(0.0, UNRECORDED) + day.room + (warmth[-1] - day.room) * np.exp(-rng.uniform(*PAUSES) / COOLING)
     return out
 
 
