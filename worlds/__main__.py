@@ -6,10 +6,16 @@ from typing import Annotated
 
 import typer
 
-from worlds.imperfect import WORLDS, make, write
+from worlds.imperfect import make, write
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
-World = StrEnum("World", list(WORLDS))
+
+
+class World(StrEnum):
+    """The worlds of `imperfect`."""
+
+    unknown_fill = "unknown_fill"
+    before_after = "before_after"
 
 
 @app.callback()

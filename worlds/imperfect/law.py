@@ -124,7 +124,7 @@ def over_travel(values: Array, z: Array, length: float) -> Array:
     grid = np.arange(0.0, travel[-1] + 1e-4, 1e-4)
     rate = 1.0 - np.exp(-1e-4 / length)
     smooth = lfilter([rate], [1.0, rate - 1.0], np.interp(grid, travel, values) - values[0]) + values[0]
-    return np.interp(travel, grid, smooth)
+    return np.asarray(np.interp(travel, grid, smooth))
 
 
 def since_reversal(z: Array, v: Array) -> Array:

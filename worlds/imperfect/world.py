@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, Final
 
 import numpy as np
+from scipy.signal import lfilter
 
 from twintube.dampers import names
 from worlds.imperfect.bench import (
@@ -26,7 +27,7 @@ from worlds.imperfect.bench import (
     warmed,
 )  # fmt: skip
 from worlds.imperfect.causes import CAUSES, RNG, Cause
-from worlds.imperfect.law import RATE, Array, Law, State, lfilter, through_mount
+from worlds.imperfect.law import RATE, Array, Law, State, through_mount
 from worlds.imperfect.specimen import specimen
 
 UNCHANGED: Final = 0.4  # share of before_after in which nothing happened
@@ -86,13 +87,14 @@ def part(state: State, begin: float, end: float) -> State:
     """The state in a record that takes the session from share `begin` to `end`."""
     level_end = state.oil_level if state.oil_level_end is None else state.oil_level_end
     low, high = (state.oil_level + q * (level_end - state.oil_level) for q in (begin, end))
-    heat, air = state.heating, state.dead_stroke
     # A run heats fast at first and towards a balance; air leaves at a rate.
-    heated = [heat[0] + (heat[1] - heat[0]) * (1 - np.exp(-2.5 * q)) for q in (begin, end)]
-    aired = [air[0] * (air[1] / air[0]) ** q if air[0] > 0.0 else 0.0 for q in (begin, end)]
+    (cold, hot), (air, left) = state.heating, state.dead_stroke
+    heat = [cold + (hot - cold) * (1.0 - float(np.exp(-2.5 * q))) for q in (begin, end)]
+    aired = [air * (left / air) ** q if air > 0.0 else 0.0 for q in (begin, end)]
     return replace(
-        state, oil_level=low, oil_level_end=high if high != low else None, heating=tuple(heated), dead_stroke=tuple(aired)
-    )
+        state, oil_level=low, oil_level_end=high if high != low else None, heating=(heat[0], heat[1]),
+        dead_stroke=(aired[0], aired[1]),
+    )  # fmt: skip
 
 
 def session(
@@ -106,7 +108,8 @@ def session(
         acting = part(state, i / len(motions), (i + 1) / len(motions))
         extra = np.linspace(*acting.heating, len(motion.z))
         zeros = np.zeros(len(motion.z))
-        contact = fault.contact * (np.cumsum(rng.random(len(motion.z)) < 1.0 / RATE) % 2)  # about once a second
+        loose = np.cumsum(rng.random(len(motion.z)) < 1.0 / RATE) % 2  # about once a second
+        contact: Array = np.asarray(fault.contact * loose, dtype=float)
         force = through_mount(law, acting, bench.compliance, motion.z, warmth + extra)[0]
         plain = force if state == still else through_mount(law, still, bench.compliance, motion.z, warmth)[0]
         if fault.stroke_gain != 1.0 or fault.sign != 1:  # what the damper would do at the stroke that is read
@@ -155,7 +158,7 @@ def programme(rng: RNG, law: Law, bench: Bench, count: int) -> list[Motion]:
 
 def truth(world: str, seed: int, name: str, off: float, law: Law, bench: Bench, state: State) -> dict[str, Any]:
     """What both worlds tell."""
-    level = state.oil_level if state.oil_level_end is None else [state.oil_level, state.oil_level_end]
+    level = state.oil_level if state.oil_level_end is None else state.oil_level_end  # what is left at the end
     return {
         "world": world, "seed": seed, "damper": name, "kind": "none", "causes": ["none"], "also_fits": [], "parameters": {},
         "source": "", "oil_level": level, "gas_preload": bool(state.gas_preload), "off_percent": off,
