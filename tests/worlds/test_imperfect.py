@@ -86,7 +86,7 @@ def test_every_cause_is_of_the_damper_or_of_the_channels() -> None:
     for cause in CAUSES.values():
         drawn = cause.draw(np.random.default_rng(1), law, 0.045)
         kind = Fault if drawn.keys() <= {item.name for item in fields(Fault)} else State
-        assert kind(**drawn) != kind(), cause.key  # type: ignore[arg-type]
+        assert kind(**drawn) != kind(), cause.key
         assert cause.source
         assert cause.kind in ("state", "effect", "fault", "outside")
 
