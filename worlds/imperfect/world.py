@@ -218,7 +218,7 @@ def before_after(seed: int) -> World:
     if rng.random() >= UNCHANGED:
         weights = np.array([item.weight for item in CAUSES.values()])
         cause = CAUSES[str(rng.choice(list(CAUSES), p=weights / weights.sum()))]
-        drawn = cause.draw(rng, law, amplitude)
+        drawn = cause.draw(rng, law, float(max(np.abs(item.z).max() for item in later)))
     channel = {item.name for item in fields(Fault)}
     state = State(**{key: value for key, value in drawn.items() if key not in channel})
     fault = Fault(**{key: value for key, value in drawn.items() if key in channel})
