@@ -12,13 +12,16 @@ import typer
 from benchmarks.calibrate import bench_calibrate
 from benchmarks.car import bench_car
 from benchmarks.challenge import WORKSHOP, bench_challenge
+from benchmarks.dead_length import bench_dead_length
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.identify import bench_identify
 from benchmarks.inspect import bench_inspect
 from benchmarks.kernel import bench_kernel
 from benchmarks.oil_leak_page import bench_oil_leak
+from benchmarks.small_strokes import bench_small_strokes
 from benchmarks.steps import bench_steps
+from benchmarks.tiring import bench_rough_road, bench_tiring
 from twintube.engine import compiled
 from twintube.errors import UserError
 
@@ -30,6 +33,10 @@ BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "identify": bench_identify,
     "inspect": bench_inspect,
     "steps": bench_steps,
+    "small_strokes": bench_small_strokes,
+    "dead_length": bench_dead_length,
+    "tiring": bench_tiring,
+    "rough_road": bench_rough_road,
 }
 SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,
@@ -55,7 +62,9 @@ def main(
     tables: Annotated[Path | None, typer.Option(help="Tables of the challenge or of oil_leak in Markdown.")] = None,
     damper: Annotated[Path | None, typer.Option(help="Parameter file for oil_leak; by default the paper's eight.")] = None,
 ) -> None:
-    """Measure speed and print a table; short jobs are run several times, the shortest time counts.
+    """Measure speed, or make a table of the documentation anew, and print it.
+
+    Short jobs are run several times, the shortest time counts.
 
     diagnosis and detection measure hit rates on hidden causes and take hours with 10 seeds.
     """

@@ -231,9 +231,8 @@ class TwinTube(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is untyped
         if text:
             return text
         self.time = time + h
-        if self.damper.remark:
-            self._say(self.damper.remark, Fmi2Status.warning)
-            self.damper.remark = ""
+        for remark in self.damper.remarks:
+            self._say(remark, Fmi2Status.warning)
         return ""
 
     # FMU state

@@ -55,7 +55,7 @@ static int credible(struct unit *quiet, struct memory *m)
     bind(&m->in_force);
     bind(&m->wanted);
     if (m->mode < INSTANTIATED || m->mode > TERMINATED || !is_flag(m->timed) || !is_flag(m->changed) || !is_flag(m->stale)
-        || !is_flag(m->warned) || m->unused != 0 || (m->stale && m->mode >= STEPPING))
+        || !is_flag(m->warned) || !is_flag(m->long_step) || (m->stale && m->mode >= STEPPING))
         return 0;
     if (!within(m->rate, -STEEPEST, STEEPEST) || !within(m->time, -2.0 * LONGEST, 2.0 * LONGEST)
         || !(m->stop == INFINITY || within(m->stop, -LONGEST, LONGEST)))

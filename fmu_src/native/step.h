@@ -79,6 +79,15 @@ static int begin(struct unit *u)
     return 1;
 }
 
+/* Say, once in a run, what a step of `h` [s] does to a wheel in the loop; whether there is one nobody knows here. */
+static fmi2Status timely(struct unit *u, double h)
+{
+    if (u->m.long_step || h <= SAFE_STEP + kernel_time_slack(u->m.time, h))
+        return fmi2OK;
+    u->m.long_step = 1;
+    return warn(u, SAY_LONG_STEP, u->m.time, h, SAFE_STEP);
+}
+
 /* One step of `h` >= 0 [s] while the velocity changes by `rate` [m/s2]; a message, and the state as before, where it is
    refused. */
 static fmi2Status move(struct unit *u, double h, double rate)
@@ -88,6 +97,7 @@ static fmi2Status move(struct unit *u, double h, double rate)
     const double end = z + (v + 0.5 * rate * h) * h;
     struct kernel_State before;
     struct kernel_Flow flow;
+    fmi2Status status;
 
     if (m->changed && !take_over(u))
         return fmi2Error;
@@ -103,7 +113,8 @@ static fmi2Status move(struct unit *u, double h, double rate)
         return refuse(u, SAY_NO_STEP, m->time);
     }
     publish(m);
-    return follow(u, &m->now.a, &m->now.stroke, &m->now.velocity, h);
+    status = timely(u, h);
+    return follow(u, &m->now.a, &m->now.stroke, &m->now.velocity, h) == fmi2OK ? status : fmi2Warning;
 }
 
 #endif

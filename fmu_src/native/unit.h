@@ -33,8 +33,8 @@ struct memory {
     int32_t timed;   /* whether `time` is known */
     int32_t changed; /* whether `wanted` differs from `in_force` */
     int32_t stale;   /* whether the start has to be computed again */
-    int32_t warned;
-    int32_t unused;
+    int32_t warned;    /* of a velocity that does not belong to its stroke */
+    int32_t long_step; /* whether a step longer than SAFE_STEP was warned of */
 };
 
 struct variable {

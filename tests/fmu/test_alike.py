@@ -294,6 +294,7 @@ def changed(path: tuple[str, ...], value: Any) -> Callable[[dict[str, Any]], Any
         changed(("damper", "further"), 1),
         changed(("damper", "changed"), 1),
         changed(("damper", "warned"), None),
+        changed(("damper", "long_step"), 0),
         changed(("damper", "agreement", "at_apart"), 0.003),
         changed(("damper", "agreement", "way_led"), -1e-9),
         changed(("damper", "agreement", "velocity"), 1e300),

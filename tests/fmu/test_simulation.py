@@ -210,4 +210,4 @@ def test_a_wrong_sign_of_the_velocity_is_noticed(sa8_fmu: Path) -> None:
             z, v = motion(i, 1e-2)
             damper.step(z, -v, 1e-2)
         assert any("check sign, unit and connection" in message for message in damper.messages)
-        assert len(damper.messages) == 1
+        assert len(damper.messages) == 2 and "communication step = 0.01 s" in damper.messages[0]

@@ -29,6 +29,11 @@ def driven(damper: DamperFmu, motion: Motion) -> None:
         damper.step(z[i], v[i], t[i + 1] - t[i])
 
 
+def of_velocity(damper: DamperFmu) -> list[str]:
+    """What was said but for the communication step, which `test_step_length.py` is about."""
+    return [message for message in damper.messages if "communication step" not in message]
+
+
 def until(motion: Motion, end: float) -> Motion:
     t, z, v = motion
     return t[t <= end], z[t <= end], v[t <= end]
@@ -47,9 +52,9 @@ def test_a_wrong_velocity_is_warned_of_once(sa8_native: Path, of: str, wrong: st
         z, v = np.interp(t, time, stroke), np.interp(t, time, velocity)
     with DamperFmu(sa8_native) as damper:
         driven(damper, (t, z, WRONG[wrong](v)))
-        assert len(damper.messages) == 1
-        assert damper.messages[0].startswith("Warning: time ") and damper.messages[0].endswith(SAID)
-        assert float(damper.messages[0].split()[2]) <= reversal((t, z, v), 2)
+        (said,) = of_velocity(damper)
+        assert said.startswith("Warning: time ") and said.endswith(SAID)
+        assert float(said.split()[2]) <= reversal((t, z, v), 2)
 
 
 @pytest.mark.parametrize("h", [1e-3, 4e-2])
@@ -61,7 +66,7 @@ def test_both_kinds_say_the_same(sa8_fmu: Path, sa8_native: Path, wrong: str, h:
         with DamperFmu(file) as damper:
             driven(damper, (t, z, WRONG[wrong](v)))
             said.append(damper.messages)
-    assert said[0] == said[1] and len(said[0]) == 1
+    assert said[0] == said[1] and len(said[0]) == 1 + (h > 2e-3)
 
 
 @pytest.mark.parametrize("h", [1e-3, 4e-2])
@@ -69,7 +74,8 @@ def test_a_stroke_that_is_not_connected_is_warned_of(sa8_fmu: Path, h: float) ->
     t, z, v = sine(0.02, 2.0, h, 1.0)
     with DamperFmu(sa8_fmu) as damper:
         driven(damper, (t, 0.0 * z, v))
-        assert len(damper.messages) == 1 and "stroke went 0 m, velocity led" in damper.messages[0]
+        (said,) = of_velocity(damper)
+        assert "stroke went 0 m, velocity led" in said
 
 
 @pytest.mark.parametrize("name", RIGHT)
@@ -78,7 +84,8 @@ def test_right_inputs_are_not_warned_of(sa8_native: Path, name: str) -> None:
     stroke, velocity = float(motion[1][0]), float(motion[2][0])
     with DamperFmu(sa8_native, stroke=stroke, velocity=velocity) as damper:
         driven(damper, motion)
-        assert damper.messages == []
+        assert of_velocity(damper) == []
+        assert len(damper.messages) == int(np.diff(motion[0]).max() > 2.1e-3)
 
 
 @pytest.mark.parametrize("speed", [30.0, 90.0])
@@ -126,7 +133,8 @@ def test_a_reset_unit_warns_again(sa8_native: Path) -> None:
             damper.fmu.enterInitializationMode()
             damper.fmu.exitInitializationMode()
             damper.now.value = 0.0
-        assert len(damper.messages) == 2 and damper.messages[0] == damper.messages[1]
+        said = of_velocity(damper)
+        assert len(said) == 2 and said[0] == said[1]
 
 
 def test_a_derivative_of_the_velocity_changes_nothing(sa8_native: Path) -> None:
@@ -138,7 +146,7 @@ def test_a_derivative_of_the_velocity_changes_nothing(sa8_native: Path) -> None:
             for i in range(len(t)):
                 damper.fmu.setRealInputDerivatives([reference], [1], [-factor * z[i] * (4.0 * np.pi) ** 2])
                 damper.step(z[i], factor * v[i], 1e-2)
-            assert len(damper.messages) == (factor != 1.0)
+            assert len(of_velocity(damper)) == (factor != 1.0)
 
 
 @pytest.fixture(scope="module")

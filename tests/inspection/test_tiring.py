@@ -12,12 +12,13 @@ from twintube.dampers import Damper, load
 from twintube.dampers.freed_gas import DEFAULT, with_freed_gas
 from twintube.dampers.variants import scalar_factor
 from twintube.engine.simulate import InputError
-from twintube.inspection import USUAL, Plate, conditions, inspected
+from twintube.inspection import USUAL, Plate, Setting, conditions, inspected
 from twintube.inspection.benches import DT
 from twintube.inspection.rough_road import road_growth
 from twintube.inspection.scatter import BENCHES, FADE, samples
 from twintube.inspection.tiring import (
     COAST,
+    COLLAPSED,
     CYCLES,
     ENOUGH,
     FREQUENCY,
@@ -26,6 +27,7 @@ from twintube.inspection.tiring import (
     LIMIT,
     PLATES,
     RUN_UP,
+    force_left,
     not_judged,
     returned,
     runs,
@@ -33,7 +35,8 @@ from twintube.inspection.tiring import (
     shaker,
     twice,
 )  # fmt: skip
-from twintube.report.inspection_tiring import SPENT, remarks
+from twintube.report.inspection import Inspection, sentence
+from twintube.report.inspection_tiring import remarks
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track
 
@@ -77,10 +80,11 @@ def test_without_freed_gas_nothing_tires():
 
 
 def test_a_plate_of_todays_amplitude_judges_nothing():
-    (run,) = runs(worn("SA8", 0.9), load_car().corner(load("SA8")), shaker([3e-3]), DT)
+    car = load_car().corner(load("SA8"))
+    (run,) = runs(worn("SA8", 0.9), car, shaker([3e-3]), DT)
     assert run.growth < 1.02
-    assert "stays below 0.9 m/s, where this damper cavitates" in not_judged(load("SA8"), [run])
-    assert "frees no gas" in not_judged(load("SA4"), [run])
+    assert "stays below 0.9 m/s, where this damper cavitates" in not_judged(load("SA8"), car, [run], DT)
+    assert "frees no gas" in not_judged(load("SA4"), car, [run], DT)
 
 
 def test_plates_are_run_until_one_tires_the_damper_or_is_fast_enough():
@@ -89,7 +93,7 @@ def test_plates_are_run_until_one_tires_the_damper_or_is_fast_enough():
     intact = runs(damper, car, PLATES, DT)
     assert [run.plate for run in intact] == list(PLATES[:2])
     assert intact[0].peak < ENOUGH <= intact[1].peak
-    assert not not_judged(damper, intact)
+    assert not not_judged(damper, car, intact, DT)
     assert [run.plate for run in runs(worn("SA8", 0.9), car, PLATES, DT)] == [PLATES[0]]
 
 
@@ -142,11 +146,69 @@ def test_a_plate_that_drifts_ends_at_another_frequency():
     assert len(drifting.begins) - len(even.begins) == pytest.approx(extra / CYCLES, abs=1.0)
 
 
-def test_what_is_spent_before_it_is_read_is_said():
-    entries = inspected(load("SA8"), load_car(), conditions((0.8, 0.4), None), ("tiring",))
-    assert [entry.passed for entry in entries] == [False, True]
-    assert remarks(entries)[1] == f"tiring at 40% oil: {SPENT}"
+@pytest.mark.parametrize(
+    ("name", "levels", "passed"),
+    [
+        ("SA8", (0.95, 0.75, 0.52, 0.35), [False, False, None, None]),
+        ("SA5", (0.95, 0.45, 0.2), [True, None, None]),
+        ("SA1", (0.85, 0.25), [True, None]),
+        ("SA2", (0.97, 0.35), [True, None]),
+    ],
+)
+def test_what_has_collapsed_before_it_is_read_does_not_pass(name, levels, passed):
+    entries = inspected(load(name), load_car(), conditions(levels, None), ("tiring",))
+    assert [entry.passed for entry in entries] == passed
+    said = entries[-1].as_json
+    assert said["passed"] is None and said["not_judged"] == said["not_judged_ways"][DEFAULT] == COLLAPSED
+    assert remarks(entries)[-1].endswith(f"oil: {COLLAPSED}")
+    headline = sentence(Inspection([load(name)], load_car(), entries, [], [DEFAULT], 1), load(name))
+    lowest = [level for level, holds in zip(levels, passed, strict=True) if holds]
+    assert headline.endswith(f"down to {lowest[-1]:.0%} oil." if lowest else "at none of these oil levels.")
+
+
+@pytest.mark.parametrize("factor", [1.0, 0.75, 0.4])
+def test_a_weak_curve_has_all_its_force_left(factor):
+    """It is judged, and passes."""
+    damper = load("SA8").with_(**scalar_factor(factor))
+    car = load_car().corner(damper)
+    assert force_left(damper, car, PLATES[0], DT) == pytest.approx(1.0, abs=0.02)
+    assert not_judged(damper, car, runs(damper, car, PLATES, DT), DT) == ""
+
+
+def test_an_empty_damper_has_only_its_friction_left():
+    damper = load("SA8")
+    assert force_left(worn("SA8", 0.0), load_car().corner(damper), PLATES[0], DT) < 0.05
+
+
+def test_a_plate_that_takes_all_force_at_once_judges_nothing():
+    """The SA8 with 80 % oil tires at 6 mm; 12 mm leave nothing to be read."""
+    entries = [
+        inspected(load("SA8"), load_car(), conditions((0.8,), None), ("tiring",), setting=Setting(shaker=shaker([a])))[0]
+        for a in (6e-3, 12e-3)
+    ]
+    assert [entry.passed for entry in entries] == [False, None]
     assert "tiring" not in USUAL
+
+
+def test_a_damper_that_is_never_judged_is_not_called_unseen() -> None:
+    run = RUNNER.invoke(app, ["inspect", "SA4", "--method", "tiring", "--oil-level", "0.9", "--scatter", "20", "--processes", "1",
+                              "--freed-gas", "dissolves"])  # fmt: skip
+    assert run.exit_code == 0, run.output
+    assert (
+        "SA4 is not judged by tiring of the damper: in this damper's parameter set cavitation frees no gas (Y = 0)"
+        in run.output
+    )
+    assert "at oil level none, as it does not judge this damper" in run.output and "passes" not in run.output
+
+
+def test_what_other_benches_see_counts_though_tiring_does_not_judge_it():
+    """The headline of several methods: tiring judges the SA8 where it has something to lose, the SA6 never."""
+    lines = {}
+    for name in ("SA8", "SA6"):
+        entries = inspected(load(name), load_car(), conditions((1.0, 0.4), None), ("eusama", "tiring"))
+        lines[name] = sentence(Inspection([load(name)], load_car(), entries, [], [DEFAULT], 1), load(name))
+    assert lines["SA8"] == "SA8 passes every method down to 100% oil."
+    assert lines["SA6"].startswith("SA6 passes every method but tiring of the damper, which does not judge it, down to 100%")
 
 
 def test_a_rough_road_tires_a_damper_too():
@@ -164,7 +226,10 @@ def test_the_command_says_what_tires_what_returns_and_what_is_not_judged(tmp_pat
     run = RUNNER.invoke(app, ["inspect", "SA8", "SA6", *options, "--json", str(file), "--output", str(tmp_path / "page")])
     assert run.exit_code == 0, run.output
     assert "dissolves 100%, pushes_oil 100%: oil loss: heat would have stayed" in run.output
-    assert "SA6 is not judged by tiring of the damper." in run.output
+    assert (
+        "SA6 is not judged by tiring of the damper: in this damper's parameter set cavitation frees no gas (Y = 0)"
+        in run.output
+    )
     found = json.loads(file.read_text())
     intact, tired, *others = found["entries"]
     assert (intact["damper"], intact["oil_level"], intact["passed"], tired["passed"]) == ("SA8", 1.0, True, False)

@@ -69,6 +69,7 @@ static void fields_of(enum set which, int mode)
         with_whole(&i, "changed", FIELD(changed), wrong[k]);
         with_whole(&i, "stale", FIELD(stale), wrong[k]);
         with_whole(&i, "warned", FIELD(warned), wrong[k]);
+        with_whole(&i, "long_step", FIELD(long_step), wrong[k]);
     }
     for (int k = 0; k < 3; k++) {
         with_number(&i, "time", FIELD(time), odd[k]);

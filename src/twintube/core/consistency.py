@@ -14,6 +14,10 @@ from twintube.core.variables import FV_POINTS, Derived, var
 
 # Times [s] that a simulation may have: their differences still resolve a step.
 LONGEST = 1e12
+# The longest communication step [s] that is safe with a wheel in the loop. The force is that of the step before and holds
+# within this one: it comes one and a half steps late. A wheel hops at some 12 Hz, of which 2 ms are then 13 degrees: 3 % of
+# the damping are lost; at 5 ms it is a sixth, at 10 ms more than half. `python -m benchmarks steps` measures it.
+SAFE_STEP = 0.002
 # Rounding may leave a phase [m3] this far below zero.
 TRACE = 1e-12
 

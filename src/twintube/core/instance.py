@@ -12,7 +12,7 @@ from typing import Any
 from twintube.core import messages
 from twintube.core.agreement import Agreement, followed, parted, ways
 from twintube.core.checks import out_of_bounds, out_of_range, outside, problems
-from twintube.core.consistency import possible
+from twintube.core.consistency import SAFE_STEP, possible, time_slack
 from twintube.core.effects import Parameters, State
 from twintube.core.frame import stroke_limit
 from twintube.core.model import advance, set_up, start
@@ -61,7 +61,8 @@ class Instance:
         self.changed = False  # `wanted` differs from `p`
         self.a: Agreement = blank(Agreement)
         self.warned = False  # that velocity and stroke have parted; then nobody looks any more
-        self.remark = ""  # of the last step
+        self.long_step = False  # that a step longer than SAFE_STEP was warned of
+        self.remarks: list[str] = []  # of the last step
 
     def set_parameter(self, name: str, index: int, value: float) -> None:
         """Let a value wait for the next step; `index` is that in an array, -1 for a single value."""
@@ -135,16 +136,26 @@ class Instance:
                     setattr(record, name, value)
             publish(self.d, s, self.o)
             return messages.NO_STEP % time
-        if not self.warned and parted(self.a, z, v, h):
-            self.warned = True
-            self.remark = messages.parted(time, *ways(self.a))
+        self.remarks = self.warnings(time, h)
         return ""
+
+    def warnings(self, time: float, h: float) -> list[str]:
+        """What is to be said of the step, each kind of warning once in a run."""
+        texts = []
+        if not self.long_step and h > SAFE_STEP + time_slack(time, h):
+            self.long_step = True
+            texts.append(messages.LONG_STEP % (time, h, SAFE_STEP))
+        if not self.warned and parted(self.a, self.inputs.stroke, self.inputs.velocity, h):
+            self.warned = True
+            texts.append(messages.parted(time, *ways(self.a)))
+        return texts
 
     def kept(self) -> dict[str, Any]:
         """The state as numbers and lists."""
         return {
             "changed": self.changed,
             "warned": self.warned,
+            "long_step": self.long_step,
             "parameters": asdict(self.p),
             "wanted": dict(self.wanted),
             "inputs": asdict(self.inputs),
@@ -156,14 +167,15 @@ class Instance:
     @classmethod
     def restored(cls, state: Any, *, begun: bool) -> "Instance":
         """A damper in a state that was kept; raises StateError otherwise. `begun`: the start was computed."""
-        keys = {"changed", "warned", "parameters", "wanted", "inputs", "state", "flow", "agreement"}
+        keys = {"changed", "warned", "long_step", "parameters", "wanted", "inputs", "state", "flow", "agreement"}
         if not isinstance(state, dict) or set(state) != keys:
             raise StateError("fields")
-        if type(state["changed"]) is not bool or type(state["warned"]) is not bool:
+        if any(type(state[flag]) is not bool for flag in ("changed", "warned", "long_step")):
             raise StateError("flags")
         p, wanted = record_of(Parameters, state["parameters"]), record_of(Parameters, state["wanted"])
         new = cls(asdict(p))
         new.wanted, new.changed, new.warned = asdict(wanted), state["changed"], state["warned"]
+        new.long_step = state["long_step"]
         kinds = {"inputs": Inputs, "state": State, "flow": Flow, "agreement": Agreement}
         new.inputs, new.s, new.f, new.a = (record_of(kind, state[key]) for key, kind in kinds.items())
         beyond = [out_of_range(item, getattr(new.inputs, item.name)) for item in fields(Inputs)]

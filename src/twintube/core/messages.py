@@ -40,6 +40,11 @@ PARTED = (
     "time %g s: %s went %g m, %s led %g m in the same time, and the two parted by %g m; "
     "check sign, unit and connection of %s"
 )
+# Arguments: time, step, longest safe step.
+LONG_STEP = (
+    "time %g s: communication step = %g s: with a wheel in the loop at most %g s are safe; in longer steps the force comes "
+    "late and an intact damper looks worn. A motion that does not answer to the force, as one from a record, may have them"
+)
 NO_STATE = "%s: the bytes are not an FMU state"
 OTHER_STATE = "%s: the state belongs to another FMU"
 DAMAGED_STATE = "%s: the state is damaged"

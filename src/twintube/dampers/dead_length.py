@@ -15,7 +15,25 @@ SHORTEST, LONGEST = 0.060, 0.110  # [m]
 # monotube to 20-30 bar (kfz-tech.de). No pressure is published for full compression; a low-pressure seal is assumed to stay
 # below the monotube's filling pressure. The bound is of a slow compression: as driven, 20 bar are 30 (p V^1.35).
 FILLED, HIGHEST = 6.0, 20.0
+NAME = "geometry.dead_length"  # in the tables of sources
 GRID = 1e-3  # [m] to which a bound is rounded, inwards
+
+
+def beyond_parts(damper: Damper) -> str:
+    """Why a dead length is refused that the parts of a car's damper do not take; empty where it is none or measured.
+
+    A damper of another build may have another length. Whoever measured it says so among the sources of the parameter set;
+    what is assumed stays within the sums of parts.
+    """
+    length = damper.parameters.dead_length
+    if SHORTEST <= length <= LONGEST or (NAME in damper.sources and NAME not in damper.assumed):
+        return ""
+    instead = ", and delete it under [assumed]" if NAME in damper.assumed else ""
+    return (
+        f"{NAME} = {length:g} m: must be from {SHORTEST:g} to {LONGEST:g} m, which piston with valves (30-40 mm), foot "
+        "valve (15-25 mm) and rebound stop (15-35 mm) take; it decides at which oil level the damper fails. If you measured "
+        f'it, say so under [sources]: "{NAME}" = "measured ..."{instead}'
+    )
 
 
 def prepared(p: Parameters) -> Derived:

@@ -1,7 +1,7 @@
 """What is possible but hardly meant: admissible values that belong to another unit.
 
 Limits follow from other values of the same parameter set: forces from friction and tube, the way of the friction from
-the stroke, the gas spring from the gas that compresses. Those of the dead length are sums of parts.
+the stroke, the gas spring from the gas that compresses.
 """
 
 import math
@@ -9,7 +9,7 @@ import math
 from twintube.core.effects import Parameters
 from twintube.core.kernel import fluid_force
 from twintube.core.variables import Derived
-from twintube.dampers.dead_length import LONGEST, SHORTEST, prepared, reserve_gas
+from twintube.dampers.dead_length import prepared, reserve_gas
 
 V_TYPICAL = 1.0  # [m/s]: at this velocity dampers are compared, and none is weaker than its friction
 STRENGTH = 1e9  # [Pa] tensile strength of the strongest steel of precision tubes
@@ -27,12 +27,6 @@ def doubts(p: Parameters) -> list[str]:
         texts.append(
             f"friction.sigma_0 = {p.sigma_0:g} N/m: the friction of {p.F_FrS:g} N would need {reversal:.3g} m to turn "
             f"round, more than stroke_max = {p.stroke_max:g} m; check its unit"
-        )
-    if not SHORTEST <= p.dead_length <= LONGEST:  # no error: a damper of another build may be outside
-        texts.append(
-            f"geometry.dead_length = {p.dead_length:g} m: in a car's damper piston with valves (30-40 mm), foot valve "
-            f"(15-25 mm) and rebound stop (15-35 mm) take {SHORTEST:g} to {LONGEST:g} m; it decides at which oil level the "
-            "damper fails"
         )
     return texts + gas(p, d)
 

@@ -16,7 +16,7 @@ from twintube.core.variables import fmi_name
 from twintube.dampers import freed_gas
 from twintube.dampers.curve import BRANCHES, as_listed, given, read_curve
 from twintube.dampers.damper import Damper, ParameterError, explained, refuse, suggestion
-from twintube.dampers.dead_length import collapse_level
+from twintube.dampers.dead_length import beyond_parts, collapse_level
 from twintube.dampers.doubts import doubts
 from twintube.dampers.quantity import quantity
 from twintube.errors import InputWarning
@@ -110,7 +110,7 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     refuse(file, [located(text, as_listed(message, curve)) for message in explained(problems(p), p)])
     levels, amplitude = read_measured(content, text, p, messages)
     refuse(file, messages)
-    return Damper(
+    damper = Damper(
         name=name or Path(file).stem,
         title=title,
         parameters=p,
@@ -119,6 +119,9 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
         measured_levels=levels,
         measured_amplitude=amplitude,
     )
+    length = beyond_parts(damper)
+    refuse(file, [located(text, length)] if length else [])
+    return damper
 
 
 def read_freed_gas(content: dict[str, Any], text: str, values: dict[str, Any]) -> list[str]:

@@ -43,6 +43,7 @@ def precondition(damper: DamperFmu) -> None:
     """The paper's six oscillations at 0.05 m/s; the damper ends at stroke 0."""
     for z, following in pairwise(conditioning().tolist()):
         damper.step(z, (following - z) / CONDITIONING_STEP, CONDITIONING_STEP)
+    damper.messages.clear()  # of these long steps: the motion is given, no wheel answers
 
 
 def interpolated(values: Array, n: int) -> Array:

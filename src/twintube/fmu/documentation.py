@@ -26,7 +26,8 @@ MEANING = """
 <em>stroke + velocity &middot; step</em>, and the velocity holds within the step. Give the mean velocity of the coming step
 where you know it. Outputs are those at the end of the step and change in doStep only. The error shrinks in proportion
 to the communication step. With a wheel in the loop 1 ms is usual and 2 ms the most: at 10 ms an intact damper already lets
-the wheel load fluctuate a quarter more, as a worn one would.</p>
+the wheel load fluctuate a quarter more, as a worn one would. Of a step above 2 ms a warning is logged, once in a run. A
+motion that does not answer to the force, as one from a record, may have longer steps.</p>
 <p>A degraded damper must be preconditioned before its force means anything: the paper moves it six times at
 0.05 m/s. At rest the model holds still, however long,
 unless an effect that acts with time is switched on.</p>

@@ -61,6 +61,7 @@ def said() -> str:
     rules = [messages.RULES[number] for number in range(1, len(messages.RULES) + 1)]
     limits = {
         "LONGEST": consistency.LONGEST,
+        "SAFE_STEP": consistency.SAFE_STEP,
         "LOWEST_VELOCITY": float(VELOCITY["lower"]),
         "HIGHEST_VELOCITY": float(VELOCITY["upper"]),
     }

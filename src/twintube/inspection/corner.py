@@ -53,7 +53,11 @@ class Entry:
     @property
     def not_judged(self) -> str:
         """Why the bench cannot judge this damper; empty where it can."""
-        return self.watched.not_judged if self.watched else ""
+        return self.not_judged_under(self.condition.freed_gas)
+
+    def not_judged_under(self, freed_gas: str) -> str:
+        """The same under a way of `readings`."""
+        return self.watched.not_judged[freed_gas] if self.watched else ""
 
     @property
     def passed(self) -> bool | None:
@@ -62,7 +66,7 @@ class Entry:
 
     def passes_under(self, freed_gas: str) -> bool | None:
         """The same under a way of `readings`."""
-        return None if self.not_judged else METHODS[self.method].passed(self.readings[freed_gas])
+        return None if self.not_judged_under(freed_gas) else METHODS[self.method].passed(self.readings[freed_gas])
 
     @property
     def as_json(self) -> dict[str, Any]:

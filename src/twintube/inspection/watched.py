@@ -17,15 +17,16 @@ STAYS = "heat, or freed gas that has not dissolved in the rest"
 class Watched:
     """One damper on the plates in turn, and rested where one tired it."""
 
-    not_judged: str  # why; empty where it is judged
-    runs: tuple[Tired, ...]  # of the first way of the freed gas
+    not_judged: Mapping[str, str]  # why, by way of the freed gas; empty where it is judged
+    runs: tuple[Tired, ...]  # of the first way
     rested: Mapping[str, tuple[Tired, Tired]]  # by way: the run that tired it, and the one after the rest
 
     @property
     def as_json(self) -> dict[str, Any]:
         """For JSON, beside figure and verdict."""
         return {
-            "not_judged": self.not_judged or None,
+            "not_judged": next(iter(self.not_judged.values())) or None,
+            "not_judged_ways": {name: why for name, why in self.not_judged.items() if why},
             "runs": [
                 {"amplitude_m": run.plate.amplitude, "peak_velocity_m_s": run.peak, "first_m_s": float(run.answer[0]),
                  "largest_m_s": float(run.answer.max()), "last_m_s": float(run.answer[-1]), "growth": run.growth,
@@ -58,4 +59,5 @@ def watched(by_way: Mapping[str, Damper], car: Car, setting: Setting, dt: float)
         for name, several in found.items()
         if several[-1].growth > LIMIT
     }
-    return Watched(not_judged(by_way[first], found[first]), tuple(found[first]), rested)
+    why = {name: not_judged(by_way[name], car, several, dt) for name, several in found.items()}
+    return Watched(why, tuple(found[first]), rested)

@@ -125,8 +125,15 @@ def by_way(texts: Mapping[str, str]) -> str:
     return f"{first[1]}, but {', '.join(flips)}"
 
 
+def never_judged(result: Inspection, damper: Damper, method: Method) -> bool:
+    """Whether a method judges the damper at none of the oil levels."""
+    return all(entry.not_judged for entry in result.of(damper, method))
+
+
 def seen_in_words(result: Inspection, damper: Damper, method: Method) -> str:
     """From which oil level on a method sees the loss, and under which ways from another one."""
+    if never_judged(result, damper, method):
+        return "none, as it does not judge this damper"
     if method.name == "tiring":
         levels = {name: seen_at(result, damper, method, name) for name in result.ways}
         return by_way({name: listed(f"{x:.0%}" for x in at) if at else "not seen" for name, at in levels.items()})
@@ -144,11 +151,12 @@ def share_or(level: float | None, otherwise: str) -> str:
 
 
 def passed_down_to(result: Inspection, damper: Damper, freed_gas: str) -> float | None:
-    """The lowest oil level down to which the damper passes every method under a way; what is not judged does not count."""
+    """The lowest oil level down to which the damper passes every method that judges it under a way; one has to."""
     passed = None
     for level in sorted({e.condition.oil_level for e in result.entries}, reverse=True):
         own = (e for e in result.entries if (e.damper, e.condition.oil_level) == (damper.name, level))
-        if any(e.passes_under(freed_gas) is False for e in own):
+        answers = {e.passes_under(freed_gas) for e in own}
+        if False in answers or True not in answers:
             break
         passed = level
     return passed
@@ -156,11 +164,12 @@ def passed_down_to(result: Inspection, damper: Damper, freed_gas: str) -> float 
 
 def sentence(result: Inspection, damper: Damper) -> str:
     """Down to which oil level the damper passes every method, and under which ways down to another one."""
-    open_ones = {e.method: e.not_judged for e in result.entries if e.damper == damper.name and e.not_judged}
-    if len(open_ones) == len(result.methods):
-        return f"{damper.name} is not judged by {result.methods[0].title}."
+    never = {m.title: never_judged(result, damper, m) for m in result.methods}
+    if all(never.values()):
+        why = {e.not_judged.removeprefix("not judged: ") for e in result.entries if e.damper == damper.name}
+        return f"{damper.name} is not judged by {result.methods[0].title}{': ' + why.pop() if len(why) == 1 else ''}."
     names = "every method" if len(result.methods) > 1 else result.methods[0].title
-    names += "".join(f" but {METHODS[name].title}, which does not judge it," for name in open_ones)
+    names += "".join(f" but {title}, which does not judge it," for title, holds in never.items() if holds)
     levels = {freed_gas: passed_down_to(result, damper, freed_gas) for freed_gas in result.ways}
     texts = {name: "at none of these oil levels" if x is None else f"down to {x:.0%} oil" for name, x in levels.items()}
     return f"{damper.name} passes {names} {by_way(texts)}."

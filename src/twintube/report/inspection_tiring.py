@@ -24,10 +24,10 @@ RESTS_ON = (
     "does not grow within 20 s above its v_cav, or an intact one whose velocity grows by more than heat explains."
 )
 PASSES = "passes"
-SPENT = "passes, as it lost its force before it was read, or loses none: see the other benches"
 BLIND = (
-    "A damper that has lost its force before the first half second ends does not tire any more, and passes here: it fails "
-    "on the other benches. A damper whose velocity stays below v_cav is not judged."
+    "A damper that has lost half of its force before the first half second ends, and does not tire any more, is not judged "
+    "here, see the other benches. A damper whose velocity stays below v_cav is not judged either, nor one in which "
+    "cavitation frees no gas."
 )
 
 
@@ -42,19 +42,11 @@ def words(entry: Entry) -> str:
     return f"fails; of the growth has returned after {REST:g} s of rest, with freed gas {rested}"
 
 
-def verdicts(entries: Sequence[Entry]) -> list[str]:
-    """`words` of each entry, from the highest oil level down; one that passes below one that fails may be spent."""
-    texts, failed = [], False
-    for entry in entries:
-        texts.append(SPENT if failed and entry.passed else words(entry))
-        failed |= entry.passed is False
-    return texts
-
-
 def remarks(entries: Sequence[Entry]) -> list[str]:
     """What the terminal says below the figures: once each, with the oil levels to which it applies."""
     levels: dict[str, list[str]] = {}
-    for entry, text in zip(entries, verdicts(entries), strict=True):
+    for entry in entries:
+        text = words(entry)
         if text != PASSES:
             levels.setdefault(text, []).append(f"{entry.condition.oil_level:.0%}")
     return [f"tiring at {', '.join(at)} oil: {text}" for text, at in levels.items()]
@@ -103,13 +95,13 @@ def course(damper: Damper, corner: Car, entries: Sequence[Entry]) -> Figure:
 def table(entries: Sequence[Entry]) -> Table:
     """One row per oil level."""
     rows = []
-    for entry, text in zip(entries, verdicts(entries), strict=True):
+    for entry in entries:
         assert entry.watched is not None, "entries of `tiring`"
         run = max(entry.watched.runs, key=lambda each: each.growth)
         rows.append([
             f"{entry.condition.oil_level:.0%}", f"{run.plate.amplitude * 1e3:g}",
             *(f"{x:.2f}" for x in (run.peak, run.answer[0], run.answer.max(), run.growth, run.force_growth)),
-            f"{run.contact_lost:.0%}", f"{run.work / 1e3:.0f}", text,
+            f"{run.contact_lost:.0%}", f"{run.work / 1e3:.0f}", words(entry),
         ])  # fmt: skip
     head = ["oil", "plate [mm]", "fastest [m/s]", "first [m/s]", "largest [m/s]", "growth", "of the force", "off the plate",
             "work [kJ]", "verdict"]  # fmt: skip

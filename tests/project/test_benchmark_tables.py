@@ -1,0 +1,55 @@
+"""The commands that make tables of the documentation anew give what the pages say."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from benchmarks.dead_length import rises, turning
+from benchmarks.small_strokes import bench_small_strokes
+from benchmarks.tiring import row
+from twintube import load
+from twintube.dampers.freed_gas import condition
+from twintube.dampers.variants import scalar_factor
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def rows(head: str, page: str = "inspection.md") -> list[list[str]]:
+    """The cells of all rows of a page that begin with the expression `head`, without bold."""
+    lines = (DOCS / page).read_text(encoding="utf-8").replace("**", "").splitlines()
+    return [line.strip("| ").split(" | ")[1:] for line in lines if re.match(rf"\| {head} \|", line)]
+
+
+def test_small_strokes() -> None:
+    found = bench_small_strokes()
+    for name, state in (("SA1", "50"), ("SA4", "50"), ("SA6", "40"), ("SA8", "56")):
+        (said,) = rows(f"{name} at {state} %", "claims.md")
+        assert [f"{x:.2f}" for x in found[name][f"{state}% oil"].values()] == said[:4]
+    assert {x for states in found.values() for x in states["90% oil"].values()} == {1.0}
+
+
+@pytest.mark.parametrize("name", ["SA8", "SA7", "SA1"])
+def test_where_eusama_turns(name: str) -> None:
+    (said,) = rows(rf"{name} \(\d+ mm\)")
+    for length, cell in ((0.06, said[0]), (0.11, said[5])):
+        assert f"{turning(load(name).with_(dead_length=length))} %" == cell
+
+
+def test_the_wheel_load_at_the_longest_dead_length() -> None:
+    found = rises(load("SA8").with_(dead_length=0.11))
+    page = " ".join((DOCS / "inspection.md").read_text(encoding="utf-8").split())
+    half, less = ([found[f"{level} {v} km/h pushes_oil"] for v in (30, 50)] for level in ("50%", "40%"))
+    assert f"110 mm {half[0]:g} and {half[1]:g} % (30 and 50 km/h) are left" in page
+    assert f"at 40 % it is {less[0]:g} and {less[1]:g} %" in page
+
+
+@pytest.mark.parametrize(
+    ("head", "changes", "level"),
+    [("intact", 1.0, None), ("F-v curve x 0.75", 0.75, None), ("F-v curve x 0.5", 0.5, None), ("90 % oil", 1.0, 0.9)],
+)
+def test_the_plate_that_watches(head: str, changes: float, level: float | None) -> None:
+    damper = load("SA8").with_(**scalar_factor(changes)) if level is None else condition(load("SA8"), level, 0)
+    found = row(damper, 6.0)
+    figures = [f"{found[name]:.2f}" for name in ("first", "largest", "growth", "force growth")]
+    assert [*figures, f"{100 * found['off the plate']:.0f} %"] in rows(re.escape(head))
