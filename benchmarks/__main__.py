@@ -11,11 +11,10 @@ import typer
 
 from benchmarks.calibrate import bench_calibrate
 from benchmarks.car import bench_car
-from benchmarks.challenge import WORKSHOP, bench_challenge
 from benchmarks.dead_length import bench_dead_length
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
-from benchmarks.identify import bench_identify
+from benchmarks.identify import SEEDS, bench_identify
 from benchmarks.inspect import bench_inspect
 from benchmarks.kernel import bench_kernel
 from benchmarks.oil_leak_page import bench_oil_leak
@@ -24,13 +23,13 @@ from benchmarks.steps import bench_steps
 from benchmarks.tiring import bench_rough_road, bench_tiring
 from twintube.engine import compiled
 from twintube.errors import UserError
+from worlds.scoring import tables as score_tables
 
 BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "kernel": bench_kernel,
     "fmu_step": bench_fmu_step,
     "quarter_car": bench_quarter_car,
     "car": bench_car,
-    "identify": bench_identify,
     "inspect": bench_inspect,
     "steps": bench_steps,
     "small_strokes": bench_small_strokes,
@@ -41,8 +40,11 @@ BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
 SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,
     "detection": bench_detection,
+    "identify": lambda seeds, _: bench_identify(seeds),
 }
-OTHERS = ("challenge", WORKSHOP, "calibrate", "oil_leak")
+FEW = {"identify": SEEDS}  # seeds by default, where not MANY
+MANY = 10
+OTHERS = ("calibrate", "oil_leak")
 NAMES = ", ".join((*BENCHMARKS, *SEEDED, *OTHERS))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
@@ -51,47 +53,48 @@ app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions
 def main(
     name: Annotated[str, typer.Argument(help=f"One of {NAMES}.")],
     json_file: Annotated[Path | None, typer.Option("--json", help="Write the figures to this file.")] = None,
-    seeds: Annotated[int, typer.Option(min=1, help="Datasets of each kind, for diagnosis and detection.")] = 10,
+    seeds: Annotated[
+        int | None,
+        typer.Option(min=1, help=f"Datasets of each kind, for those that draw some; {MANY}, for identify {SEEDS}."),
+    ] = None,
     keep: Annotated[
         Path | None,
-        typer.Option(help="File that outcomes of diagnosis or detection are added to; those in it are not run again."),
+        typer.Option(help="Folder that datasets and answers of diagnosis or detection stay in; those there count again."),
     ] = None,
-    first_seed: Annotated[int, typer.Option(min=0, help="First seed of challenge or workshop.")] = 0,
-    causes: Annotated[str, typer.Option(help="Causes of the challenge, joined by commas; by default the seed draws.")] = "",
-    plot: Annotated[Path | None, typer.Option(help="Picture of the challenge's reliability, or of oil_leak.")] = None,
-    tables: Annotated[Path | None, typer.Option(help="Tables of the challenge or of oil_leak in Markdown.")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Picture of oil_leak.")] = None,
+    tables: Annotated[Path | None, typer.Option(help="Tables of oil_leak in Markdown.")] = None,
     damper: Annotated[Path | None, typer.Option(help="Parameter file for oil_leak; by default the paper's eight.")] = None,
 ) -> None:
     """Measure speed, or make a table of the documentation anew, and print it.
 
     Short jobs are run several times, the shortest time counts.
 
-    diagnosis and detection measure hit rates on hidden causes and take hours with 10 seeds.
+    diagnosis and detection answer datasets with hidden causes one after the other, and take hours with 10 seeds. Other
+    datasets: python -m worlds run.
     """
     if name not in (*BENCHMARKS, *SEEDED, *OTHERS):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
     if name == "calibrate" and (keep is None or not keep.exists()):
-        typer.echo(f"error: keep = {keep}: calibrate needs a file that the challenge has kept", err=True)
+        typer.echo(f"error: keep = {keep}: calibrate needs the folder of a run of the challenge", err=True)
         raise typer.Exit(2)
+    seeds = FEW.get(name, MANY) if seeds is None else seeds
     compiled.module()
     figures: dict[str, Any]
-    if name in ("challenge", WORKSHOP):
-        hidden = WORKSHOP if name == WORKSHOP else causes
-        first = max(first_seed, 1) if name == WORKSHOP else first_seed  # its seeds begin at 1
-        figures = bench_challenge(seeds, keep, first, hidden, plot, tables)
-    elif name == "oil_leak":
-        try:
+    try:
+        if name == "oil_leak":
             figures = bench_oil_leak(damper, plot, tables)
-        except UserError as error:
-            typer.echo(f"error: {error}", err=True)
-            raise typer.Exit(2) from error
-    elif name == "calibrate" and keep is not None:
-        figures = dict(bench_calibrate(keep))
-    else:
-        figures = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds, keep)
+        elif name == "calibrate" and keep is not None:
+            figures = dict(bench_calibrate(keep))
+        else:
+            figures = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds, keep)
+    except UserError as error:
+        typer.echo(f"error: {error}", err=True)
+        raise typer.Exit(2) from error
     typer.echo(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}")
-    for key, value in figures.items():
+    if name == "diagnosis":
+        typer.echo(score_tables(figures), nl=False)
+    for key, value in figures.items() if name != "diagnosis" else ():
         if isinstance(value, float):
             typer.echo(f"{key:32}{value:12.3f}")
         elif isinstance(value, dict):

@@ -1,7 +1,7 @@
 """The weights of the probabilities, fitted by maximum likelihood to answers of the challenge whose truth is known.
 
-`python -m benchmarks calibrate --keep FILE` prints them for rules.py; with them the marks of the same answers are
-printed, too. Answers of one set of seeds must not be marked with weights that were fitted to the same.
+`python -m benchmarks calibrate --keep FOLDER` prints them for rules.py. Answers of one set of seeds must not be marked
+with weights that were fitted to the same.
 """
 
 import json
@@ -18,8 +18,9 @@ from twintube.diagnosis.fits.candidates import RECALIBRATE
 from twintube.diagnosis.measurement.faults import PUT_RIGHT
 from twintube.diagnosis.result import Tried
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.verdict.confidence import WEIGHTS, Evidence, evidence, features, probabilities
-from twintube.lab.challenge.score import wanted
+from twintube.diagnosis.verdict.confidence import WEIGHTS, Evidence, evidence, features
+from worlds.scoring.pairs import holding
+from worlds.scoring.truth import read_truths
 
 PRIOR = 4.0  # standard deviation of a weight: a feature that seldom occurs does not run away
 OTHERS = (*PUT_RIGHT, RECALIBRATE, "none", "unknown")
@@ -37,14 +38,6 @@ def shown(answer: dict[str, Any]) -> Evidence:
 def candidates(answer: dict[str, Any]) -> list[str]:
     """The candidates of an answer."""
     return [name for name in answer["probabilities"] if name not in OTHERS]
-
-
-def restated(outcome: dict[str, Any]) -> dict[str, Any]:
-    """An outcome with the probabilities that the rules of today give its answer."""
-    answer = outcome["answer"]
-    if "probabilities" not in answer:
-        return outcome
-    return outcome | {"answer": answer | {"probabilities": probabilities(shown(answer), candidates(answer))}}
 
 
 def fitted_weights(rows: Sequence[Row]) -> dict[str, float]:
@@ -65,15 +58,15 @@ def fitted_weights(rows: Sequence[Row]) -> dict[str, float]:
 
 
 def bench_calibrate(keep: Path) -> dict[str, float]:
-    """Weights fitted to the answers in a file of the challenge."""
-    outcomes = [json.loads(line) for line in keep.read_text(encoding="utf-8").splitlines()]
+    """Weights fitted to the answers in the folder of a run."""
     rows: list[Row] = []
-    for outcome in outcomes:
-        answer = outcome["answer"]
-        if "probabilities" not in answer:
+    for folder in holding([keep]):
+        path = folder / "answer" / "diagnosis.json"
+        if not path.is_file():
             continue
+        answer = json.loads(path.read_text(encoding="utf-8"))
         names, table = features(shown(answer), candidates(answer))
-        truth = [name for name in wanted(outcome["truth"]) if name in names]
+        truth = [name for name in read_truths(folder / "truth.json")[""].wanted if name in names]
         if truth:
             rows.append((names, table, truth))
     return fitted_weights(rows)

@@ -16,12 +16,13 @@ from worlds.imperfect.bench import Fault, draw_bench, sine
 from worlds.imperfect.causes import CAUSES
 from worlds.imperfect.law import RATE, State, force, inside
 from worlds.imperfect.specimen import specimen
-from worlds.imperfect.world import before_after, change
+from worlds.imperfect.world import before_after, change, unknown_fill
 
 KEYS = {
     "world", "seed", "kind", "causes", "parameters", "oil_level", "gas_preload", "off_percent", "effect_over_noise", "damper",
 }  # fmt: skip
 SHORT, UNCHANGED = 4, 1  # seeds: one record in unknown_fill, nothing happened in before_after
+CAVITATING = 5  # seed of unknown_fill: 41 % of the oil, no gas
 
 
 def stated(folder: Path, level: float, preload: bool) -> None:
@@ -109,3 +110,22 @@ def test_where_nothing_changed_the_days_differ_by_the_tolerances_of_a_bench() ->
         assert abs(zero) < 25.0
         left = after[:n] - gain * before[:n] - zero
         assert np.sqrt(np.mean(left**2)) < world.bench.noise_rms + 0.01 * np.abs(before).max()
+
+
+@pytest.mark.parametrize(("seed", "seen"), [(SHORT, False), (CAVITATING, True)])
+def test_the_truth_tells_whether_the_force_shows_the_oil_level(seed: int, seen: bool) -> None:
+    world = unknown_fill(seed)
+    assert world.truth["level_seen"] == seen
+    # More oil and less: where one of them makes the same force, the level is open to that side.
+    sizes = [
+        max(float(np.abs(item.clean - item.moved[i]).max()) for item in world.recordings)
+        for i in range(len(world.recordings[0].moved))
+    ]
+    assert len(sizes) == 2
+    assert (min(sizes) > 5 * world.bench.noise_rms) == seen
+
+
+def test_of_a_fill_that_nobody_states_the_state_and_nothing_new_are_one_answer() -> None:
+    told = unknown_fill(SHORT).truth
+    assert told["causes"] == ["state"]
+    assert told["also_fits"] == ([] if told["stated_as_full"] else ["none"])

@@ -35,6 +35,7 @@ STATED_WRONGLY: Final = 1 / 3  # share of the unknown fills that the operator ca
 CALIBRATION: Final = 0.004  # of the gain from day to day, never more than 1 %
 UNRECORDED: Final = 3.0  # [K] by which the oil gets warmer between two records: some 10 K in a session
 MOST_RECORDS: Final = 8
+LEVEL_STEP: Final = 0.03  # of the oil, both ways: where this shows, an interval of 0.1 is no feat
 PAUSES: Final = (20.0, 180.0)  # [s] between two records
 IDENTIFYING: Final = (0.05, 0.131, 0.262, 0.524, 0.786, 1.048, 1.572)
 
@@ -64,6 +65,7 @@ class Recording:
     plain: Array  # the same without the cause
     period: float
     steady: int  # sample from which cycles are equal
+    moved: tuple[Array, ...] = ()  # `clean` with other oil levels
 
 
 @dataclass(frozen=True)
@@ -98,9 +100,10 @@ def part(state: State, begin: float, end: float) -> State:
 
 
 def session(
-    rng: RNG, law: Law, bench: Bench, day: Day, motions: list[Motion], state: State, fault: Fault, *, reference: bool
-) -> list[Recording]:
-    """Records one after the other on one day."""
+    rng: RNG, law: Law, bench: Bench, day: Day, motions: list[Motion], state: State, fault: Fault, *, reference: bool,
+    levels: tuple[float, ...] = (),
+) -> list[Recording]:  # fmt: skip
+    """Records one after the other on one day; `levels` are those for which `moved` is to be told."""
     out: list[Recording] = []
     oil, still = float(day.room + rng.uniform(0.0, 4.0)), State()
     for i, motion in enumerate(motions):
@@ -116,6 +119,10 @@ def session(
             plain = through_mount(law, still, bench.compliance, fault.sign * fault.stroke_gain * motion.z, warmth)[0]
         stroke, clean = recorded(bench, motion, *seen(bench, fault, motion.z, force, contact))
         zero = day.zero + float(rng.normal(0.0, 1.5))
+        others = [
+            through_mount(law, replace(acting, oil_level=x), bench.compliance, motion.z, warmth + extra)[0] for x in levels
+        ]
+        moved = tuple(recorded(bench, motion, *seen(bench, fault, motion.z, other, contact))[1] for other in others)
         n = len(clean)
         measured = day.gain * clean + zero + noise(bench, n, rng)
         stroke = np.round((stroke + bench.stroke_noise * rng.standard_normal(n)) / STROKE_STEP) * STROKE_STEP
@@ -126,6 +133,7 @@ def session(
         out.append(Recording(
             motion.name, motion.measurement, np.arange(n) / bench.rate, stroke, measured, shown, round(float(felt[0]), 1),
             reference, clean, before, motion.period, max(0, motion.steady - motion.first) * bench.rate // RATE,
+            moved,
         ))  # fmt: skip
         # Setting up and repeats that nobody keeps warm it, too.
         oil = rng.uniform(0.0, UNRECORDED) + day.room + (warmth[-1] - day.room) * np.exp(-rng.uniform(*PAUSES) / COOLING)
@@ -175,6 +183,12 @@ def over_noise(recordings: list[Recording], bench: Bench) -> float:
     return float(np.sqrt(np.mean([np.mean(change(item) ** 2) for item in recordings])) / bench.noise_rms)
 
 
+def level_over_noise(recordings: list[Recording], bench: Bench) -> float:
+    """As `over_noise`, of the other oil level in `moved` that changes the force least."""
+    others = [[replace(item, plain=item.moved[i]) for item in recordings] for i in range(len(recordings[0].moved))]
+    return min(over_noise(some, bench) for some in others)
+
+
 def begin(seed: int, world: int) -> tuple[RNG, str, Law, float, Bench, str]:
     """Generator, damper, specimen, deviation, bench and which kernel."""
     rng = np.random.default_rng([seed, world])
@@ -189,12 +203,17 @@ def unknown_fill(seed: int) -> World:
     level = 1.0 if rng.random() < 0.2 else float(rng.uniform(0.35, 1.0))
     state = State(oil_level=level, gas_preload=int(rng.random() < 0.5))
     motions = programme(rng, law, bench, int(rng.integers(1, MOST_RECORDS + 1)))
-    recordings = session(rng, law, bench, draw_day(rng), motions, state, Fault(), reference=False)
+    levels = tuple(x for x in (level - LEVEL_STEP, level + LEVEL_STEP) if x <= 1.0)
+    recordings = session(rng, law, bench, draw_day(rng), motions, state, Fault(), reference=False, levels=levels)
     told = truth("unknown_fill", seed, name, off, law, bench, state) | {"kernel": kernel}
     if state != State():
         told |= {"kind": "state", "causes": ["state"], "effect_over_noise": over_noise(recordings, bench)}
         told["parameters"] = {"oil_level": level, "gas_preload": state.gas_preload}
+    told["level_over_noise"] = level_over_noise(recordings, bench)
+    told["level_seen"] = told["level_over_noise"] > 1.0
     wrong = bool(rng.random() < STATED_WRONGLY)
+    if not wrong:  # of a fill that nobody has stated, the state and "nothing has changed" are the same answer
+        told["also_fits"] = ["none" if told["kind"] == "state" else "state"]
     return World(name, bench, (wrong, wrong), recordings, told | {"stated_as_full": wrong})
 
 

@@ -1,0 +1,116 @@
+"""Before and after on a damper with other physics: the virtual rig, whose force is no kernel's, on the bench of `imperfect`.
+
+Its causes are those of `imperfect` that the rig knows as physics of its own, or that lie in the channels.
+"""
+
+from collections.abc import Callable
+from dataclasses import asdict, replace
+from typing import Any, Final
+
+import numpy as np
+
+from twintube import load
+from twintube.lab.virtual_rig import VirtualDamper, run, virtual_damper
+from twintube.lab.virtual_rig.dimensions import DIMENSIONS
+from worlds.imperfect.bench import (
+    AMPLITUDES,
+    STROKE_STEP,
+    Bench,
+    Fault,
+    Motion,
+    draw_bench,
+    noise,
+    recorded,
+    seen,
+    sine,
+    triangle,
+)  # fmt: skip
+from worlds.imperfect.causes import CAUSES, RNG, span
+from worlds.imperfect.law import RATE, Array, Law
+from worlds.imperfect.world import IDENTIFYING, STATED_WRONGLY, UNCHANGED, Day, Recording, World, draw_day, over_noise
+
+STATES: Final = ("oil_lost", "oil_and_gas_lost", "preload_lost")
+CHANNELS: Final = ("gain", "zero", "delay", "stroke", "signs", "unit")
+# Changes of the rig's own damper, each under the cause of `imperfect` whose name and range it has.
+INSIDE: Final[dict[str, Callable[[RNG, VirtualDamper], VirtualDamper]]] = {
+    "gas_leaked": lambda rng, d: replace(d, preload=d.preload * (1.0 - span(rng, 0.05, 0.8))),
+    "bleed_wear": lambda rng, d: replace(d, piston_bleed=d.piston_bleed * (1.0 + span(rng, 0.03, 0.5))),
+    "blow_off_wear": lambda rng, d: replace(d, piston_crack=d.piston_crack * (1.0 - span(rng, 0.03, 0.4))),
+    "side_load": lambda rng, d: with_friction(d, span(rng, 3.0, 100.0)),
+}
+WARMER: Final = (3.0, 60.0)  # [K] by which a hot run begins above the room
+
+
+def with_friction(damper: VirtualDamper, more: float) -> VirtualDamper:
+    """The damper with more friction [N]."""
+    return replace(damper, F_static=damper.F_static + more, F_sliding=damper.F_sliding + more)
+
+
+def force(damper: VirtualDamper, z: Array, level: float, preload: bool, room: float, warmer: float) -> Array:
+    """Force of the rig [N] (n,) at strokes [m] at RATE, with oil that is `warmer` [K] than the room."""
+    return run(damper, np.arange(len(z)) / RATE, z, level, preload, room + warmer).force
+
+
+def session(
+    rng: RNG, healthy: VirtualDamper, damper: VirtualDamper, bench: Bench, day: Day, motions: list[Motion],
+    state: dict[str, Any], fault: Fault, warmer: float, *, reference: bool,
+) -> list[Recording]:  # fmt: skip
+    """Records one after the other on one day; `state` holds oil_level and gas_preload where they are not as delivered."""
+    level, preload = float(state.get("oil_level", 1.0)), bool(state.get("gas_preload", 1))
+    out = []
+    for motion in motions:
+        own = force(damper, motion.z, level, preload, day.room, warmer)
+        read = fault.sign * fault.stroke_gain * motion.z  # what the damper would do at the stroke that is read
+        plain = own if reference else force(healthy, read, 1.0, True, day.room, 0.0)
+        zeros = np.zeros(len(motion.z))
+        stroke, clean = recorded(bench, motion, *seen(bench, fault, motion.z, own, zeros))
+        _, before = recorded(bench, motion, *seen(bench, Fault(), motion.z, plain, zeros))
+        n = len(clean)
+        measured = day.gain * clean + day.zero + float(rng.normal(0.0, 1.5)) + noise(bench, n, rng)
+        stroke = np.round((stroke + bench.stroke_noise * rng.standard_normal(n)) / STROKE_STEP) * STROKE_STEP
+        out.append(Recording(
+            motion.name, motion.measurement, np.arange(n) / bench.rate, stroke, measured, None,
+            round(day.room + warmer, 1), reference, clean, before, motion.period,
+            max(0, motion.steady - motion.first) * bench.rate // RATE,
+        ))  # fmt: skip
+    return out
+
+
+def virtual_rig(seed: int) -> World:
+    """Reference records as delivered, and later ones of another day, after one cause or none."""
+    rng = np.random.default_rng([seed, 3])
+    name = str(rng.choice(sorted(DIMENSIONS)))
+    healthy, bench = virtual_damper(name), draw_bench(rng)
+    bench = replace(bench, temperature=str(rng.choice(["start", "none"])))  # the rig's oil has no thermocouple
+    amplitude = float(rng.choice([a for a in AMPLITUDES[1:] if a <= 0.9 * healthy.half]))
+    speeds = [0.05, *sorted(float(v) for v in rng.choice(IDENTIFYING[1:], 4, replace=False))]
+    first = [triangle(bench, 2e-3, amplitude, "_a"), *(sine(bench, v, amplitude, "_a") for v in speeds)]
+    again = sorted(float(v) for v in rng.choice(speeds, int(rng.integers(2, 4)), replace=False))
+    later = [sine(bench, v, amplitude, "_b") for v in again]
+    key = "" if rng.random() < UNCHANGED else str(rng.choice([*STATES, *CHANNELS, *INSIDE, "hot_run"]))
+    damper, warmer = healthy, 0.0
+    drawn: dict[str, Any] = {}
+    if key == "hot_run":
+        warmer = span(rng, *WARMER)
+        drawn = {"warmer_K": warmer}
+    elif key in INSIDE:
+        damper = INSIDE[key](rng, healthy)
+        drawn = {item: value for item, value in asdict(damper).items() if value != asdict(healthy)[item]}
+    elif key:
+        drawn = CAUSES[key].draw(rng, Law(load(name), {}, 0.0, 1, 1e-3, 0.0), amplitude)
+    state = drawn if key in STATES else {}
+    fault = Fault(**drawn) if key in CHANNELS else Fault()
+    days = draw_day(rng), draw_day(rng)
+    before = session(rng, healthy, healthy, bench, days[0], first, {}, Fault(), 0.0, reference=True)
+    after = session(rng, healthy, damper, bench, days[1], later, state, fault, warmer, reference=False)
+    wrong = bool(rng.random() < STATED_WRONGLY)
+    truth = {
+        "world": "virtual_rig", "seed": seed, "damper": name, "kind": "none", "causes": ["none"], "also_fits": [],
+        "parameters": drawn, "oil_level": state.get("oil_level", 1.0), "gas_preload": bool(state.get("gas_preload", 1)),
+        "effect_over_noise": 0.0, "noise_N": bench.noise_rms, "bench": asdict(bench), "stated_as_full": wrong,
+    }  # fmt: skip
+    if key:
+        cause = CAUSES[key]
+        truth |= {"kind": cause.kind, "causes": [cause.name], "also_fits": list(cause.also), "source": cause.source}
+        truth["effect_over_noise"] = over_noise(after, bench)
+    return World(name, bench, (True, wrong), [*before, *after], truth)
