@@ -7,12 +7,12 @@ from twintube.arrays import Array
 from twintube.core import effects
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import load
+from twintube.dampers.gas_spring import P_ATM, gas_factors
 from twintube.data.condition import is_intact
 from twintube.engine import compiled
 from twintube.fitting.intervals import impulse, means
 from twintube.fitting.least_squares import STEP, bounded, derivatives, pulls, sandwich
 from twintube.fitting.parameters import DEGRADATION, FASTER, ranges
-from twintube.fitting.simulation import P_ATM, gas_factors
 from twintube.fitting.splits import distinct
 
 LOW, HIGH = np.array([0.0, 10.0]), np.array([1.0, 30.0])

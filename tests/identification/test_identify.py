@@ -36,7 +36,7 @@ def test_truth_is_at_the_noise_floor(basic: Damper, records: list[Harmonic]) -> 
 def test_swarm_of_the_paper_recovers_table_6(basic: Damper, records: list[Harmonic]) -> None:
     """Equation 42 with 48 particles and 100 iterations: what the data determine comes back."""
     objective = Objective(basic.with_(X_Re=0.5, X_Co1=0.5, X_Co2=0.5, G_PV=0.5), TABLE_6, records, with_work=False)
-    best = minimise(objective, objective.bounds, population=48, generations=100, seed=1)
+    best = minimise(objective, objective.bounds, method="pso", population=48, generations=100, seed=1)
     values = dict(zip(TABLE_6, best.x, strict=True))
     p = basic.parameters
     assert best.evaluations == 4800
@@ -106,7 +106,7 @@ def test_a_killed_run_resumes_to_the_same_result(method: str, tmp_path: Path) ->
 
 def test_pso_seed_is_pinned() -> None:
     """A change of pymoo's random stream would silently change every identification."""
-    best = minimise(bowl, BOUNDS, population=10, generations=5, seed=1)
+    best = minimise(bowl, BOUNDS, method="pso", population=10, generations=5, seed=1)
     assert best.error == pytest.approx(PINNED, rel=1e-9)
 
 

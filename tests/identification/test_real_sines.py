@@ -13,9 +13,9 @@ from twintube.dampers import Damper, load, to_toml
 from twintube.data import LoadedDataset, load_dataset
 from twintube.diagnosis.engine import diagnose
 from twintube.fitting.averaging import asked, averaging, through
+from twintube.fitting.prediction import predicted
 from twintube.identification import Harmonic, harmonic, identify_dataset
 from twintube.identification.sines import identify_sines
-from twintube.identification.validation import predicted
 
 # The labcontrol damper's gas pushes the rod out only if both signs are turned.
 TURNED = "stroke_sign = -1\nforce_sign = -1\n"

@@ -4,7 +4,7 @@ import json
 import math
 import re
 import warnings
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -94,6 +94,7 @@ def simulate(
     from twintube.data import listed_record
     from twintube.data.motion import Motion, read_moved
     from twintube.engine.simulate import disagreement, simulate_quietly, unit_of
+    from twintube.fitting import prediction
 
     if record is not None and not record.exists():
         raise InputError(f"{record}: the file does not exist")
@@ -107,9 +108,10 @@ def simulate(
     assumed = [ASSUMED if value is None else "" for value in (level, preload)]
     level, preload = 1.0 if level is None else level, preload is not False
     chosen = chosen.with_(oil_level=level, gas_preload=int(preload))
-    chosen = as_published(chosen) if published else chosen
+    # A record of a bench is simulated as it is identified from: by the paper's equations, which are fitted to such records.
+    chosen = as_published(chosen) if published or entry else chosen
     if entry is not None:
-        measured = entry[1]
+        measured = replace(entry[1], oil_level=level, gas_preload=preload)
         motion = Motion(measured.time, measured.stroke, measured.velocity, measured.force)
         usable = measured.usable
         state = f"{100 * level:.4g} % of the oil{assumed[0]}, gas {'present' if preload else 'lost'}{assumed[1]}"
@@ -120,8 +122,11 @@ def simulate(
             typer.echo(str(finding))
         usable = np.ones(len(motion.time), dtype=bool)
     time = motion.time
-    result = simulate_quietly(chosen, motion.stroke, motion.velocity, time)
-    doubtful = disagreement(time, result.stroke, result.velocity)
+    if entry is None:
+        result = simulate_quietly(chosen, motion.stroke, motion.velocity, time)
+    else:
+        result = prediction.driven(chosen, prediction.calm(measured))
+    doubtful = disagreement(time, motion.stroke, motion.velocity)
     if doubtful:
         warnings.warn(f"{'' if record is None else f'{record}: '}{doubtful}", InputWarning, stacklevel=1)
     head = ["time [s]", "stroke [m]", "velocity [m/s]"]
@@ -145,7 +150,9 @@ def simulate(
     if motion.force is not None:
         from twintube.report.simulated_record import deviation
 
-        typer.echo(deviation(motion.stroke, motion.force, result.force, usable).sentence)
+        against = motion.stroke, motion.force, result.force, usable
+        against = against if entry is None else prediction.compared(chosen, measured, result)
+        typer.echo(deviation(*against).sentence)
     if plot is not None:
         from twintube.report.simulated_record import picture
 

@@ -31,6 +31,7 @@ class Damper:
     assumed: Mapping[str, str]  # the same for stand-ins of unpublished values: the reasoning
     measured_levels: tuple[float, ...] = ()  # oil levels of the degraded states that were measured, highest first
     measured_amplitude: float | None = None  # [m] of the harmonic measurements, where it is not 90 % of the maximum stroke
+    gas_pressure: float | None = None  # [Pa] gauge, cold, at which the gas spring was measured; see gas_spring.py
 
     def with_(self, **changes: Any) -> "Damper":
         """The same damper with other parameters, e.g. `oil_level=0.4, gas_preload=0`; raises ParameterError.

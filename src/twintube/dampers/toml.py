@@ -29,6 +29,7 @@ FEW_MISSING = 5  # parameters; whoever lacks more began without a complete file
 LONGEST_TEXT = 200  # characters of a name or title
 MOST_LEVELS = 20  # measured oil levels
 SMALLEST_AMPLITUDE = 1e-4  # [m] of a measurement
+PRESSURES = (1.0, 10e6)  # [Pa] gauge, of the gas of a damper; a ratio of pressures needs one above 0
 
 
 def names() -> list[str]:
@@ -77,7 +78,7 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     messages: list[str] = []
     values: dict[str, Any] = {}
     known: dict[str, set[str]] = {
-        "": {"name", "title", "sources", "assumed", "measured_oil", "measured_amplitude", "freed_gas"},
+        "": {"name", "title", "sources", "assumed", "measured_oil", "measured_amplitude", "gas_pressure", "freed_gas"},
         "fv": {"velocity_unit", "force_unit"},
     }
     missing: list[str] = []
@@ -109,6 +110,7 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
     p = Parameters(**values)
     refuse(file, [located(text, as_listed(message, curve)) for message in explained(problems(p), p)])
     levels, amplitude = read_measured(content, text, p, messages)
+    pressure = read_pressure(content, text, messages)
     refuse(file, messages)
     damper = Damper(
         name=name or Path(file).stem,
@@ -118,6 +120,7 @@ def from_content(content: dict[str, Any], text: str, file: str) -> Damper:
         assumed=assumed,
         measured_levels=levels,
         measured_amplitude=amplitude,
+        gas_pressure=pressure,
     )
     length = beyond_parts(damper)
     refuse(file, [located(text, length)] if length else [])
@@ -213,6 +216,21 @@ def read_measured(
     return tuple(volume / p.V_oil for volume in volumes), amplitude
 
 
+def read_pressure(content: dict[str, Any], text: str, messages: list[str]) -> float | None:
+    """The gauge pressure [Pa] at which the gas spring holds; what is wrong with it goes to `messages`."""
+    if "gas_pressure" not in content:
+        return None
+    place = line_of(text, "", "gas_pressure")
+    try:
+        pressure = quantity(content["gas_pressure"], "Pa")
+    except ValueError as error:
+        messages.append(f"{place}gas_pressure: {error}")
+        return None
+    message = outside("gas_pressure", pressure, *PRESSURES, "Pa")
+    messages += [place + message] if message else []
+    return pressure
+
+
 def wrong_tables(content: dict[str, Any], text: str, tables: set[str]) -> list[str]:
     """Messages about groups that are given as a single value."""
     return [
@@ -276,6 +294,9 @@ def to_toml(damper: Damper) -> str:
     if damper.measured_amplitude is not None:
         document["measured_amplitude"] = damper.measured_amplitude
         document["measured_amplitude"].comment("m")
+    if damper.gas_pressure is not None:
+        document["gas_pressure"] = damper.gas_pressure
+        document["gas_pressure"].comment("Pa gauge, cold, at which gas_spring holds")
     p = damper.parameters
     way = freed_gas.way_of(freed_gas.own_values(damper))
     if way is not None:

@@ -13,6 +13,7 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
+from twintube.dampers.gas_spring import gas_force
 from twintube.data.condition import is_intact
 from twintube.data.findings import Notes
 from twintube.data.manifest import Entry
@@ -80,7 +81,7 @@ def told_by(damper: Damper, record: Record) -> str:
     """
     p = damper.parameters
     level = 0.0 if record.oil_level is None else record.oil_level  # unknown: the one with most friction, which hides most
-    gas = p.F_0 if record.gas_pressure is None else record.gas_pressure * np.pi / 4 * p.D_PR**2
+    gas = gas_force(damper, record.gas_pressure)
     some = np.flatnonzero(record.usable)[:: 1 + len(record.time) // MOST]
     if not len(some):
         return UNTOLD

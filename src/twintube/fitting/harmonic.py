@@ -26,6 +26,7 @@ class Harmonic:
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through, see averaging.py
     recorded: Array | None = None  # (n,) the stroke with its noise, where `stroke` is without
     usable: NDArray[np.bool_] | None = None  # (n,) False where the force says nothing; None: everywhere it does
+    gas_pressure: float | None = None  # gauge, cold [Pa], of gas that is there
 
     def __post_init__(self) -> None:
         """Shared by all who read it."""

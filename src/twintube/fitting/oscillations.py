@@ -126,4 +126,5 @@ def harmonic(record: Record) -> Harmonic:
         name=record.name,
         recorded=recorded[kept][:end],
         usable=record.usable[kept][:end],
+        gas_pressure=record.gas_pressure if gas_preload else None,
     )

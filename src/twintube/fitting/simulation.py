@@ -11,9 +11,9 @@ from twintube.arrays import Array
 from twintube.core import effects
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper
+from twintube.dampers.gas_spring import gas_factors
 from twintube.engine import compiled
 
-P_ATM = 1e5  # [Pa]
 MARGIN = 1.02  # of the velocity threshold of foam
 
 
@@ -44,15 +44,6 @@ class Driven(Protocol):
 def tolerant(damper: Damper) -> Damper:
     """The damper for measured velocities: the rig's slow block moves at the threshold of foam, and they scatter about it."""
     return damper.with_(v_foam=MARGIN * damper.parameters.v_foam)
-
-
-def gas_factors(damper: Damper, pressure: float | None) -> tuple[float, float]:
-    """Factors [1] of the gas force and of its stiffness for a gauge pressure [Pa] other than that of the parameter set."""
-    p = damper.parameters
-    if pressure is None or p.F_0 <= 0.0:
-        return 1.0, 1.0
-    given = p.F_0 / (0.25 * np.pi * p.D_PR**2)
-    return pressure / given, (pressure + P_ATM) / (given + P_ATM)
 
 
 class SimulatedRecords:

@@ -16,6 +16,8 @@ from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.oscillations import harmonic
 from twintube.fitting.splits import distinct
 from twintube.fitting.strokes import quiet
+from twintube.identification.optimise import DEFAULT
+from twintube.identification.pressure import at_one_pressure
 from twintube.identification.remarks import EQUAL_SPEEDS, SINGLE, continuation, noisy, reach, signs
 from twintube.identification.validation import Validated, intact, validate_drives, validate_harmonic
 from twintube.identification.workflow import PAPER, Budget, Identification, identify_damper
@@ -39,7 +41,7 @@ class Result:
 def identify(
     path: str | Path,
     *,
-    method: str = "pso",
+    method: str = DEFAULT,
     budget: Budget = PAPER,
     seed: int = 1,
     journal: Path | None = None,
@@ -49,7 +51,7 @@ def identify(
 
     Args:
         path: a folder with dataset.toml and its records, or that file.
-        method: pso (the paper's), cma or de.
+        method: de searches all parameters together; pso (the paper's) or cma first take the paper's steps.
         budget: PAPER, QUICK or a Budget: how long to search.
         seed: of all random numbers.
         journal: a folder that makes a killed run resumable.
@@ -65,7 +67,7 @@ def identify(
 def identify_dataset(
     dataset: LoadedDataset,
     *,
-    method: str = "pso",
+    method: str = DEFAULT,
     budget: Budget = PAPER,
     seed: int = 1,
     journal: Path | None = None,
@@ -94,15 +96,20 @@ def identify_dataset(
     fitted = [h for h, kind in zip(sines, split, strict=True) if kind == "fit"]
     if not fitted:
         raise InputError(f"{dataset.title}: all harmonic records are held out, none is left to identify from")
+    pressure, whole, still, told = at_one_pressure(
+        [h for h in fitted if h.intact], [r for r in slow if intact(r) and r.split != "heldout"]
+    )
+    remarks += told
+    dataset = replace(dataset, damper=replace(dataset.damper, gas_pressure=pressure)) if whole else dataset
     result = identify_damper(
         dataset.damper,
-        next((loop(r) for r in slow if intact(r) and r.split != "heldout"), None),
-        [h for h in fitted if h.intact],
+        next(map(loop, still), None),
+        whole,
         [h for h in fitted if not h.intact],
         slow_lost=[(r.fill[0], loop(r)) for r in slow if not r.gas_preload and r.split != "heldout"],
         method=method, budget=budget, seed=seed, journal=journal, progress=progress,
     )  # fmt: skip
-    measured = [h for h in fitted if h.intact]
+    measured = whole
     levels = sorted({h.oil_level for h in sines if not h.intact}, reverse=True)
     damper = with_origin(
         replace(result.damper, measured_levels=tuple(levels)), dataset, result, method, seed, len(fitted), reach(measured)

@@ -6,19 +6,28 @@ from typing import Any
 
 import numpy as np
 
+from twintube.core.effects import Parameters
 from twintube.data.condition import is_intact
 from twintube.identification.dataset import Result
+from twintube.identification.judgement import judgement, next_step
 from twintube.identification.remarks import EQUAL_SPEEDS
 from twintube.identification.validation import Validated
 from twintube.words import counted
 
 
-def summary(result: Result) -> dict[str, Any]:
-    """The result as JSON takes it."""
+def unit(name: str) -> str:
+    """Unit of a parameter."""
+    return str(Parameters.__dataclass_fields__[name].metadata["unit"])
+
+
+def summary(result: Result, folder: str = "identified") -> dict[str, Any]:
+    """The result as JSON takes it; `folder` is where identified.toml is written."""
     identified = result.identification
     return {
         "dataset": result.dataset.title,
         "damper": identified.damper.name,
+        "judgement": judgement(result),
+        "next_step": next_step(result, folder),
         "remarks": result.remarks,
         "steps": [
             {
@@ -29,7 +38,7 @@ def summary(result: Result) -> dict[str, Any]:
         ],
         "parameters": {
             e.name: {
-                "value": e.value, "interval": [e.low, e.high], "bounds": e.bounds,
+                "value": e.value, "unit": unit(e.name), "interval": [e.low, e.high], "bounds": e.bounds,
                 "determined": e.determined, "at_bound": e.at_bound,
             }
             for e in identified.estimates
@@ -75,6 +84,18 @@ def totals(rows: Sequence[Validated], split: str) -> dict[str, Any] | None:
         figures[f"work_error_{which}_of_intact"] = float(np.median(known)) if known else None
         figures[f"work_error_{which}_of_intact_worst"] = max(known) if known else None
     return figures
+
+
+def table(result: Result) -> list[str]:
+    """The identified parameters for a terminal; nothing where there are none."""
+    if not result.identification.estimates:
+        return []
+    lines = [f"{'parameter':15}{'value':>10} {'unit':6}{'interval (95 % for all together)':34}note"]
+    for e in result.identification.estimates:
+        doubts = ["not determined"] * (not e.determined) + ["at its bound"] * e.at_bound
+        between = f"{e.low:.3g} to {e.high:.3g}"
+        lines.append(f"{e.name:15}{e.value:10.3g} {unit(e.name):6}{between:34}{', '.join(doubts)}".rstrip())
+    return lines
 
 
 def headline(part: dict[str, Any]) -> str:

@@ -63,7 +63,15 @@ class Objective(SimulatedRecords):
 
     def residuals(self, X: Array) -> Array:
         """Errors of the force (m, n) [N] of the parameter sets X (m, k): all intervals of all measured oscillations."""
-        return np.array([np.concatenate([e for e, _ in records]) for records in self._all(X)])
+        return self.misfits(X)[0]
+
+    def misfits(self, X: Array) -> list[Array]:
+        """The errors whose root mean squares the objective adds: of the force (m, n) [N], and of the works (m, c) [J]."""
+        every = self._all(X)
+        return [
+            np.array([np.concatenate([errors[part] for errors in records]) for records in every])
+            for part in range(1 + self.with_work)
+        ]
 
     def damper_at(self, x: Array) -> Damper:
         """The given damper with the parameters x (k,)."""

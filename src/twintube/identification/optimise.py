@@ -19,9 +19,10 @@ class Best:
     error: float
     trace: Array
     evaluations: int
+    last: Array  # (m, k) the last generation where the method keeps one, else the best; best first
 
 
-def pso(journal: Journal, bounds: Array, population: int, generations: int, seed: int, start: Array | None) -> None:
+def pso(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> Array:
     """Particle swarm of pymoo, a whole swarm per call."""
     from pymoo.algorithms.soo.nonconvex.pso import PSO
     from pymoo.core.problem import Problem
@@ -32,65 +33,54 @@ def pso(journal: Journal, bounds: Array, population: int, generations: int, seed
             out["F"] = journal(X)[:, None]
 
     problem = Vectorised(n_var=len(bounds), n_obj=1, xl=bounds[:, 0], xu=bounds[:, 1])
-    swarm = (
-        PSO(pop_size=population)
-        if start is None
-        else PSO(pop_size=population, sampling=around(bounds, population, seed, start))
-    )
-    minimize(problem, swarm, ("n_gen", generations), seed=seed, verbose=False)
+    minimize(problem, PSO(pop_size=population), ("n_gen", generations), seed=seed, verbose=False)
+    return journal.x[None]
 
 
-def around(bounds: Array, population: int, seed: int, start: Array | None) -> Array:
-    """A first generation (population, k), evenly random, with the start in it."""
-    points = np.random.default_rng(seed).uniform(bounds[:, 0], bounds[:, 1], (population, len(bounds)))
-    if start is not None:
-        points[0] = start
-    return points
-
-
-def cma_es(journal: Journal, bounds: Array, population: int, generations: int, seed: int, start: Array | None) -> None:
-    """CMA-ES of the package cma, in the unit cube, from its middle or, in smaller steps, from the start."""
+def cma_es(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> Array:
+    """CMA-ES of the package cma, in the unit cube, from its middle."""
     import cma
 
     width = bounds[:, 1] - bounds[:, 0]
     options = {"bounds": [0, 1], "popsize": population, "seed": seed + 1, "verbose": -9, "maxiter": generations}
-    first, size = (np.full(len(bounds), 0.5), 0.3) if start is None else ((start - bounds[:, 0]) / width, 0.1)
-    strategy = cma.CMAEvolutionStrategy(first, size, options)
+    strategy = cma.CMAEvolutionStrategy(np.full(len(bounds), 0.5), 0.3, options)
     while journal.generation < generations and not strategy.stop():
         asked = strategy.ask()
         strategy.tell(asked, journal(bounds[:, 0] + np.array(asked) * width).tolist())
+    return journal.x[None]
 
 
-def de(journal: Journal, bounds: Array, population: int, generations: int, seed: int, start: Array | None) -> None:
+def de(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> Array:
     """Differential evolution of scipy, without polishing."""
     from scipy.optimize import differential_evolution
 
-    differential_evolution(
-        lambda X: journal(X.T), bounds, init=around(bounds, population, seed, start), maxiter=generations - 1, rng=seed,
-        polish=False, vectorized=True, updating="deferred", tol=0, atol=0,
+    first = np.random.default_rng(seed).uniform(bounds[:, 0], bounds[:, 1], (population, len(bounds)))
+    found = differential_evolution(
+        lambda X: journal(X.T), bounds, init=first, maxiter=generations - 1, rng=seed, polish=False, vectorized=True,
+        updating="deferred", tol=0, atol=0,
     )  # fmt: skip
+    return np.asarray(found.population[np.argsort(found.population_energies, kind="stable")])
 
 
-METHODS = {"pso": pso, "cma": cma_es, "de": de}
+METHODS = {"de": de, "pso": pso, "cma": cma_es}
+DEFAULT = "de"  # of every door; docs/open_choices.md says what was measured
 
 
 def minimise(
     objective: Objective,
     bounds: Array,
     *,
-    method: str = "pso",
+    method: str = DEFAULT,
     population: int,
     generations: int,
     seed: int = 1,
-    start: Array | None = None,
     journal: Path | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Best:
     """Minimise `objective`, which takes X (m, k) to (m,), within `bounds` (k, 2).
 
-    `start` (k,) is a point to begin at; `journal` is a file that makes the run resumable; `progress` is called with the
-    best error after each generation.
+    `journal` is a file that makes the run resumable; `progress` is called with the best error after each generation.
     """
     memory = Journal(objective, journal, progress)
-    METHODS[method](memory, np.asarray(bounds, dtype=float), population, generations, seed, start)
-    return Best(memory.x, memory.error, np.array(memory.trace), memory.evaluations)
+    last = METHODS[method](memory, np.asarray(bounds, dtype=float), population, generations, seed)
+    return Best(memory.x, memory.error, np.array(memory.trace), memory.evaluations, last)

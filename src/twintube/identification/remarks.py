@@ -7,7 +7,7 @@ from twintube.data import LoadedDataset
 from twintube.data.signs import AS_STATED, SIGNS, TURNED, errors
 from twintube.engine.simulate import simulate
 from twintube.fitting.harmonic import Harmonic
-from twintube.identification.validation import state
+from twintube.fitting.prediction import state
 
 EQUAL_SPEEDS = 1.03  # velocities of sines, free of noise, that differ by a smaller factor are taken for equal
 NOISY = 0.02  # of the length over which friction builds up: a quarter of it changes the friction by some 5 %
@@ -52,7 +52,7 @@ def signs(dataset: LoadedDataset, sines: Sequence[Harmonic]) -> list[str]:
         return found
     told = []
     for h in sines:
-        damper, used = state(dataset.damper, h.oil_level, h.gas_preload), h.counts(slice(None))
+        damper, used = state(dataset.damper, h.oil_level, h.gas_preload, h.gas_pressure), h.counts(slice(None))
         stated, mirrored = (simulate(damper, side * h.stroke, side * h.velocity, h.time).force for side in (1.0, -1.0))
         told.append(errors(h.force[used], stated[used], mirrored[used]).told)
     if TURNED not in told or AS_STATED in told:

@@ -9,12 +9,8 @@ from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.data import Record
 from twintube.data.condition import is_intact
-from twintube.engine.simulate import simulate_quietly
-from twintube.fitting.averaging import averaged
 from twintube.fitting.harmonic import Harmonic
-from twintube.fitting.oscillations import smooth_velocity
-from twintube.fitting.simulation import tolerant
-from twintube.fitting.strokes import quiet
+from twintube.fitting.prediction import calm, driven, predicted
 
 ALIKE = 0.05  # of path length and duration, by which drives of equal strokes may differ
 
@@ -30,6 +26,7 @@ class Validated:
     split: str
     top_speed: float  # [m/s]
     force_rmse: float  # [N], every sample of the measured part
+    force_rms: float  # [N], measured, root mean square
     force_peak: float  # [N], measured
     work_measured: tuple[float, ...]
     work_simulated: tuple[float, ...]
@@ -38,18 +35,7 @@ class Validated:
     amplitude: float = 0.0  # [m], half the range of the stroke
     stroke_noise: float = 0.0  # [m] RMS, taken out of the stroke before anything is simulated
     force_rmse_recorded: float | None = None  # [N] simulated over the stroke as recorded, where that has noise
-
-
-def state(damper: Damper, level: float, preload: bool | int) -> Damper:
-    """The damper in the condition of a record, for a measured velocity."""
-    return tolerant(damper.with_(oil_level=level, gas_preload=int(preload)))
-
-
-def predicted(damper: Damper, record: Harmonic, offset: float) -> Array:
-    """What the force channel would show of the model (n,) [N]: with its zero and through its moving mean."""
-    condition = state(damper, record.oil_level, record.gas_preload)
-    force = simulate_quietly(condition, record.stroke, record.velocity, record.time).force
-    return averaged(record.time, force + offset, record.averaged)
+    force_rmse_full: float | None = None  # [N] of the same set as if no oil were lost, where some is
 
 
 def recorded(record: Harmonic) -> Harmonic:
@@ -64,14 +50,17 @@ def validate_harmonic(damper: Damper, record: Harmonic, split: str, offset: floa
     measured = record.works()
     noise, usable = record.stroke_noise, record.counts(span)
     over_noise = predicted(damper, recorded(record), offset) if noise else force
+    full = predicted(damper, replace(record, oil_level=1.0), offset) if record.oil_level < 1.0 else None
     cycles = [slice(a, b + 1) for a, b in zip(record.marks[:-1], record.marks[1:], strict=True)]
     simulated = [float(np.trapezoid(force[c], record.stroke[c])) for c in cycles]
     return Validated(
         record.name, "harmonic", record.oil_level, bool(record.gas_preload), split, record.top_speed,
-        rms((force - record.force)[span][usable]), float(np.abs(record.force[span][usable]).max()),
-        (float(measured[0]), float(measured[-1])), (simulated[0], simulated[-1]),
+        rms((force - record.force)[span][usable]), rms(record.force[span][usable]),
+        float(np.abs(record.force[span][usable]).max()), (float(measured[0]), float(measured[-1])),
+        (simulated[0], simulated[-1]),
         amplitude=float(np.ptp(record.stroke[span])) / 2, stroke_noise=noise,
         force_rmse_recorded=rms((over_noise - record.force)[span][usable]) if noise else None,
+        force_rmse_full=None if full is None else rms((full - record.force)[span][usable]),
     )  # fmt: skip
 
 
@@ -80,31 +69,26 @@ def validate_drives(damper: Damper, records: Sequence[Record], offset: float = 0
 
     `offset` is the zero of the load cell [N].
     """
-    calm = [replace(r, stroke=quiet(r.time, r.stroke)) for r in records]
-    forces = [driven(damper, r) + offset for r in calm]
+    still = [calm(r) for r in records]
+    forces = [driven(damper, r).force + offset for r in still]
     works = [
-        [float(np.trapezoid(F, r.stroke)) for F in (r.force, simulated)] for r, simulated in zip(calm, forces, strict=True)
+        [float(np.trapezoid(F, r.stroke)) for F in (r.force, simulated)] for r, simulated in zip(still, forces, strict=True)
     ]
     rows = []
-    for r, still, force, (measured, simulated) in zip(records, calm, forces, works, strict=True):
+    for r, clean, force, (measured, simulated) in zip(records, still, forces, works, strict=True):
         twin = next((i for i, other in enumerate(records) if intact(other) and equal_drives(other, r)), None)
         degraded = twin is not None and not intact(r)
-        noise = rms(r.stroke - still.stroke)
+        noise = rms(r.stroke - clean.stroke)
         rows.append(Validated(
             r.name, r.measurement, *r.fill, "heldout", float(np.abs(r.velocity).max()),
-            rms((force - r.force)[r.usable]), float(np.abs(r.force[r.usable]).max()), (measured,), (simulated,),
+            rms((force - r.force)[r.usable]), rms(r.force[r.usable]), float(np.abs(r.force[r.usable]).max()),
+            (measured,), (simulated,),
             measured / works[twin][0] if twin is not None and degraded else None,
             simulated / works[twin][1] if twin is not None and degraded else None,
-            amplitude=float(np.ptp(still.stroke)) / 2, stroke_noise=noise,
-            force_rmse_recorded=rms((driven(damper, r) + offset - r.force)[r.usable]) if noise else None,
+            amplitude=float(np.ptp(clean.stroke)) / 2, stroke_noise=noise,
+            force_rmse_recorded=rms((driven(damper, r).force + offset - r.force)[r.usable]) if noise else None,
         ))  # fmt: skip
     return rows
-
-
-def driven(damper: Damper, record: Record) -> Array:
-    """Force (n,) [N] of the model over a record's stroke."""
-    condition = state(damper, *record.fill)
-    return simulate_quietly(condition, record.stroke, smooth_velocity(record), record.time).force
 
 
 def intact(record: Record) -> bool:

@@ -1,7 +1,7 @@
 """The paper's four-step parameterisation (Section 3.2) as one function, and the intervals of its result."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -14,34 +14,37 @@ from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.parameters import DEGRADATION, TABLE_6, TABLES_7_8
 from twintube.identification.intact import identify_intact, quasi_static
 from twintube.identification.objective import FINE, Objective
-from twintube.identification.optimise import Best, minimise
+from twintube.identification.optimise import DEFAULT, Best
 from twintube.identification.sines import identify_sines
+from twintube.identification.together import VALLEYS, search, together
 from twintube.identification.uncertainty import Estimate, estimates, polished
 from twintube.provenance import fingerprint
 
 SLOW = 0.53  # Table 6 is fitted to records up to 0.5 m/s, which is the bench's 0.524 m/s
-# A few percent of cavitation per stroke empty a chamber within a block: the search looks more closely at small shares.
-POWERS = {"Y_Co_cav": 3.0, "Y_Re_cav": 3.0}
+TOGETHER = "all together"
 Slow = tuple[Array, Array]  # stroke [m] and force [N] of a quasi-static record
 
 
 @dataclass(frozen=True)
 class Budget:
-    """Population and generations of the searches, walkers and steps of the intervals."""
+    """Population and generations of the searches, walkers and steps of the intervals.
+
+    The first two are those of the paper's steps, which only the methods pso and cma take.
+    """
 
     table_6: tuple[int, int]
     tables_7_8: tuple[int, int]
     together: tuple[int, int]
     intervals: tuple[int, int]
 
-    @property
-    def generations(self) -> int:
-        """All generations, for a progress bar; a step of the walkers is two half generations."""
-        return self.table_6[1] + self.tables_7_8[1] + 2 * self.together[1] + 2 * self.intervals[1]
+    def generations(self, method: str) -> int:
+        """All calls of `progress`, for a progress bar; a step of the walkers is two half generations."""
+        paper = 0 if method == DEFAULT else self.table_6[1] + self.tables_7_8[1]
+        return paper + self.together[1] + VALLEYS + 2 * self.intervals[1]
 
 
-PAPER = Budget((48, 100), (120, 500), (40, 300), (64, 600))
-QUICK = Budget((24, 40), (40, 60), (32, 200), (40, 200))
+PAPER = Budget((48, 100), (120, 500), (40, 75), (64, 300))  # the swarms as the paper has them
+QUICK = Budget((24, 40), (40, 60), (40, 40), (40, 100))
 
 
 @dataclass(frozen=True)
@@ -73,7 +76,7 @@ def identify_damper(
     degraded: Sequence[Harmonic],
     *,
     slow_lost: Sequence[tuple[float, Slow]] = (),
-    method: str = "pso",
+    method: str = DEFAULT,
     budget: Budget = PAPER,
     seed: int = 1,
     journal: Path | None = None,
@@ -87,7 +90,7 @@ def identify_damper(
         intact: harmonic records of the intact damper; without any, F-v curve, friction and gas spring stay.
         degraded: harmonic records of degraded states; without any, only the intact damper is identified.
         slow_lost: oil level and quasi-static record of states without preload.
-        method: pso, cma or de, for the third and fourth step.
+        method: de searches all parameters together; pso or cma first take the third and fourth step of the paper.
         budget: how long to search.
         seed: of all random numbers.
         journal: a folder that makes a killed run resumable.
@@ -103,47 +106,39 @@ def identify_damper(
     if not degraded:
         remarks.append("no degraded record: only the intact damper is identified")
         return Identification(damper, [], known, [], offset, remarks)
-    calm = [r for r in degraded if r.top_speed <= SLOW]
     steps: list[Step] = []
 
-    def search(title: str, objective: Objective, size: tuple[int, int], how: str, start: Array | None = None) -> Array:
-        power = np.array([POWERS.get(name, 1.0) for name in objective.names])
-        low, high = objective.bounds.T
+    def told(title: str) -> Callable[[float], None] | None:
+        return None if progress is None else lambda error: progress(title, error)
 
-        def natural(U: Array) -> Array:
-            values: Array = low + (high - low) * U**power
-            return values
+    def kept(title: str, objective: Objective, best: Best) -> Array:
+        steps.append(Step(title, objective.names, best, "N + J" if objective.with_work else "N"))
+        return best.x
 
-        best = minimise(
-            lambda U: objective(natural(U)), np.tile([0.0, 1.0], (len(low), 1)), method=how,
-            population=size[0], generations=size[1], seed=seed,
-            start=None if start is None else ((start - low) / (high - low)) ** (1 / power),
-            journal=journal_file(journal, len(steps), objective),
-            progress=None if progress is None else lambda error: progress(title, error),
-        )  # fmt: skip
-        steps.append(Step(title, objective.names, replace(best, x=natural(best.x)), "N + J" if objective.with_work else "N"))
-        return steps[-1].best.x
+    def alone(title: str, objective: Objective, size: tuple[int, int]) -> Array:
+        file = journal_file(journal, len(steps), objective)
+        return kept(title, objective, search(objective, size, method=method, seed=seed, journal=file, progress=told(title)))
 
-    if calm:
-        bare = Objective(damper.with_(**NO_FOAM, **NO_CAVITATION), TABLE_6, calm, with_work=False)
-        x = search("Table 6", bare, budget.table_6, method)
-        damper = damper.with_(**dict(zip(TABLE_6, x.tolist(), strict=True)))
-    else:
-        remarks.append(f"no degraded record up to {SLOW} m/s: Table 6 is fitted together with the others")
-    full = Objective(damper, TABLES_7_8, degraded, with_work=True)
-    damper = full.damper_at(search("Tables 7 and 8", full, budget.tables_7_8, method))
-    # The third step leaves out foam, which its own records may hold: all parameters once more together, from the result
-    # of the four steps and, as the error has many valleys, from the middle of the ranges.
+    starts: list[Array] = []
+    if method != DEFAULT:  # the third and fourth step of the paper
+        calm = [r for r in degraded if r.top_speed <= SLOW]
+        if calm:
+            bare = Objective(damper.with_(**NO_FOAM, **NO_CAVITATION), TABLE_6, calm, with_work=False)
+            x = alone("Table 6", bare, budget.table_6)
+            damper = damper.with_(**dict(zip(TABLE_6, x.tolist(), strict=True)))
+        else:
+            remarks.append(f"no degraded record up to {SLOW} m/s: Table 6 is fitted together with the others")
+        full = Objective(damper, TABLES_7_8, degraded, with_work=True)
+        damper = full.damper_at(alone("Tables 7 and 8", full, budget.tables_7_8))
+        starts = [np.array([getattr(damper.parameters, name) for name in DEGRADATION])]
+    # The third step leaves out foam, which its own records may hold, and the fourth cannot undo that.
     names = DEGRADATION
     every = Objective(damper, names, degraded, with_work=True)
-    reached = np.clip([getattr(damper.parameters, name) for name in names], *every.bounds.T)
-    candidates = [
-        reached,
-        search("all together", every, budget.together, "cma", reached),
-        search("all together, afresh", every, budget.together, "cma"),
-    ]
+    file = journal_file(journal, len(steps), every)
+    best = together(every, budget.together, seed=seed, starts=starts, journal=file, progress=told(TOGETHER))
+    candidates = [kept(TOGETHER, every, best)]
     fine = Objective(damper, names, degraded, with_work=True, samples=FINE)
-    candidates += [polished(fine, candidate) for candidate in candidates[1:]]
+    candidates.append(polished(fine, candidates[0]))
     x = candidates[int(np.argmin(fine(np.array(candidates))))]
     # How far the sampling alone moves the optimum: an error that the noise does not show.
     moved = np.abs(polished(every, x) - x)
@@ -151,7 +146,7 @@ def identify_damper(
     intervals, related = estimates(
         every, x, moved, walkers=budget.intervals[0], steps=budget.intervals[1], seed=seed,
         journal=journal_file(journal, len(steps), every),
-        progress=None if progress is None else lambda error: progress("intervals", error),
+        progress=told("intervals"),
     )  # fmt: skip
     pairs = [
         (names[i], names[j], float(related[i, j]))

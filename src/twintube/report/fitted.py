@@ -1,6 +1,7 @@
 """The damper identified from records as by `twintube identify`, stored as a parameter file in the report's folder."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from twintube import dampers
@@ -8,11 +9,12 @@ from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.files import write_text
 from twintube.identification import Harmonic
-from twintube.identification.workflow import PAPER, Budget, identify_damper
+from twintube.identification.optimise import DEFAULT
+from twintube.identification.workflow import PAPER, identify_damper
 
-HOW = "identified from the virtual rig's records in the paper's four steps and two searches over all parameters together"
-# Small swarms: eight dampers in minutes. The walkers compute intervals, which this report does not show.
-QUICK = Budget(table_6=(32, 60), tables_7_8=(64, 120), together=(24, 100), intervals=(32, 2))
+HOW = "identified from the virtual rig's records as by twintube identify"
+# The walkers compute intervals, which this report does not show.
+BUDGET = replace(PAPER, intervals=(32, 2))
 
 
 def fit(
@@ -33,12 +35,18 @@ def fit(
         file.parent.mkdir(parents=True, exist_ok=True)
         journal = file.with_suffix("")
         journal.mkdir(exist_ok=True)
-        budget = QUICK if quick else PAPER
-        result = identify_damper(damper, slow, intact, degraded, budget=budget, journal=journal, progress=progress)
+        result = identify_damper(
+            damper, slow, intact, degraded, method=method(quick), budget=BUDGET, journal=journal, progress=progress
+        )
         write_text(file, dampers.to_toml(result.damper.with_(oil_level=1.0, gas_preload=1)))
     return dampers.load(file, as_published=True)
 
 
+def method(quick: bool) -> str:
+    """The default, or the paper's swarms."""
+    return DEFAULT if quick else "pso"
+
+
 def generations(quick: bool) -> int:
     """Largest number of calls of `progress`."""
-    return (QUICK if quick else PAPER).generations
+    return BUDGET.generations(method(quick))

@@ -11,12 +11,14 @@ from twintube.core.kernel import fluid_force
 from twintube.dampers.freed_gas import as_published
 from twintube.files import write_bytes, write_text
 from twintube.fitting.parameters import DEGRADATION
+from twintube.fitting.prediction import predicted
 from twintube.fitting.splits import distinct
 from twintube.identification import Harmonic, Result
-from twintube.identification.figures import totals
+from twintube.identification.figures import totals, unit
 from twintube.identification.intact import fv_points
+from twintube.identification.judgement import judgement, next_step
 from twintube.identification.remarks import reach
-from twintube.identification.validation import Validated, predicted
+from twintube.identification.validation import Validated
 from twintube.report import style
 from twintube.report.live import Curve, Look, live
 from twintube.report.page import Picture, Section, Table, html
@@ -196,13 +198,16 @@ def parameter_table(result: Result) -> Table:
             [
                 e.name,
                 f"{e.value:.3g}",
+                unit(e.name),
                 f"{e.low:.3g} to {e.high:.3g}",
                 f"{e.bounds[0]:g} to {e.bounds[1]:.3g}",
                 ", ".join(doubts),
             ]
         )
     return Table(
-        ["parameter", "value", "interval", "allowed", ""], rows, "Intervals hold with 95 % for all parameters together"
+        ["parameter", "value", "unit", "interval", "allowed", ""],
+        rows,
+        "Intervals hold with 95 % for all parameters together",
     )
 
 
@@ -254,14 +259,15 @@ def write_report(result: Result, folder: Path) -> list[Path]:
         pictures["drives"] = drives(relative)
         sections.append(section("drives", "Drives", pictures, "Not used for fitting."))
     table = Table(
-        ["record", "split", "oil", "m/s", "force error", "peak", "work measured", "work simulated"],
-        [[r.name, r.split, f"{r.oil_level:.0%}", f"{r.top_speed:.3g}", f"{r.force_rmse:.1f} N", f"{r.force_peak:.0f} N",
+        ["record", "split", "oil", "speed", "force error", "peak", "work measured", "work simulated"],
+        [[r.name, r.split, f"{r.oil_level:.0%}", f"{r.top_speed:.3g} m/s", f"{r.force_rmse:.1f} N", f"{r.force_peak:.0f} N",
           " / ".join(f"{w:.2f}" for w in r.work_measured) + " J", " / ".join(f"{w:.2f}" for w in r.work_simulated) + " J"]
          for r in result.validation],
         "Works of the first and the last oscillation, of drives in total",
     )  # fmt: skip
     sections.append(Section("records", "All records", tables=[table]))
-    text = html(f"Identification: {result.dataset.title}", result.remarks, sections, [errors])
+    lead = [*judgement(result), f"Next: {next_step(result, folder.name)}.", *result.remarks]
+    text = html(f"Identification: {result.dataset.title}", lead, sections, [errors])
     files = [folder / f"{name}.png" for name in pictures]
     for file, figure in zip(files, pictures.values(), strict=True):
         write_bytes(file, style.png(figure))
