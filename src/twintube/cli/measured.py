@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -61,18 +62,24 @@ def identify(
         "identified"
     ),
     method: Annotated[
-        str, typer.Option(help="Optimiser of the third and fourth step: pso (the paper's), cma or de.")
-    ] = "pso",
-    quick: Annotated[bool, typer.Option("--quick", help="A tenth of the paper's budget, for a first result.")] = False,
+        str,
+        typer.Option(
+            help="de: all parameters together, by differential evolution and least squares; before that, pso (the paper's "
+            "swarms) or cma take the paper's third and fourth step."
+        ),
+    ] = "de",
+    quick: Annotated[
+        bool, typer.Option("--quick", help="A shorter search and rougher intervals, for a first result.")
+    ] = False,
     seed: Annotated[int, typer.Option(help="Seed of all random numbers.", min=0)] = 1,
 ) -> None:
-    """Identify a damper from measured data with the paper's four steps, and validate it on the held-out records.
+    """Identify a damper from measured data, validate it on the held-out records, and say what it is good for.
 
     An interrupted run continues when it is started again with the same output folder.
     """
     from twintube.dampers import to_toml
     from twintube.data import load_dataset
-    from twintube.identification import METHODS, PAPER, QUICK, headline, identify_dataset, require_known, summary
+    from twintube.identification import METHODS, PAPER, QUICK, headline, identify_dataset, require_known, summary, table
 
     if method not in METHODS:
         raise InputError(f"--method {method}: must be one of {', '.join(METHODS)}")
@@ -84,7 +91,7 @@ def identify(
     journal = output / "journal"
     journal.mkdir(parents=True, exist_ok=True)
     mark_folder(output, made_from)
-    with tqdm(total=budget.generations, unit="generation", leave=False) as bar:
+    with tqdm(total=budget.generations(method), unit="generation", leave=False) as bar:
 
         def progress(title: str, error: float) -> None:
             bar.set_description(title)
@@ -95,20 +102,20 @@ def identify(
     from twintube.report.identification import write_report
 
     write_text(output / "identified.toml", to_toml(result.identification.damper))
-    figures = summary(result)
+    figures = summary(result, str(output))
     write_text(output / "identification.json", json.dumps(figures, indent=1) + "\n")
     write_report(result, output)
     shutil.rmtree(journal)
     for remark in result.remarks:
         typer.echo(f"note: {remark}")
-    for e in result.identification.estimates:
-        suffix = "" if e.determined else "  not determined"
-        typer.echo(
-            f"{e.name:10}{e.value:9.3g}   {e.low:.3g} to {e.high:.3g}{suffix}{'  at its bound' if e.at_bound else ''}"
-        )
-    for kind in ("fit", "heldout"):
+    for line in table(result):
+        typer.echo(line)
+    for kind, text in (("fit", "fitted"), ("heldout", "held out")):
         if figures[kind] is not None:
-            typer.echo(f"{kind:8}{headline(figures[kind])}")
+            typer.echo(f"{text}: {headline(figures[kind])}")
+    for sentence in figures["judgement"]:
+        typer.echo(sentence)
+    typer.echo(f"Next: {figures['next_step']}.")
     typer.echo(f"{output}: identified.toml, identification.json, report.html")
 
 
@@ -151,6 +158,7 @@ def diagnose(
     extended.toml is written where something is named that changes the parameter set. docs/diagnosis.md gives the hit rates.
     """
     from twintube.dampers import to_toml
+    from twintube.data import ReferenceGivenError, UnknownFillError
     from twintube.diagnosis import as_json
     from twintube.diagnosis import diagnose as run
     from twintube.diagnosis.rules import RULES
@@ -159,10 +167,25 @@ def diagnose(
     from twintube.report.engineering import in_words
 
     accepted = share_of(tolerance, RULES.most_tolerance, "--tolerance")
+    written: list[str] | None = None
     made_from = {"command": "diagnose", "dataset": str(dataset.resolve())}
     check_folder(output, ("diagnosis.json",), made_from)
     with tqdm(bar_format="{elapsed}  {desc}", leave=False) as bar:
-        result = run(dataset, lambda text: bar.set_description_str(in_words(text)), tolerance=accepted)
+
+        def progress(text: str) -> None:
+            bar.set_description_str(in_words(text))
+
+        try:
+            result = run(dataset, progress, tolerance=accepted)
+        except (UnknownFillError, ReferenceGivenError):
+            if accepted > 0.0:
+                raise InputError("--tolerance: cannot be given where a fill is unknown or records are a reference") from None
+            written = by_evidence(dataset, output, progress)
+    if written is not None:
+        mark_folder(output, made_from)
+        for line in written:
+            typer.echo(line)
+        return
     mark_folder(output, made_from)
     extended = output / "extended.toml"
     if has_extension(result):
@@ -176,6 +199,28 @@ def diagnose(
         typer.echo(line)
     files = ["report.html", "diagnosis.json", *([extended.name] if has_extension(result) else [])]
     typer.echo(f"{output}: {', '.join(files)} ({result.seconds:.0f} s)")
+
+
+def by_evidence(dataset: Path, output: Path, progress: Callable[[str], None]) -> list[str]:
+    """Find fills that are unknown, and what has happened since a reference; write the answer; its lines for the terminal."""
+    from twintube.dampers import to_toml
+    from twintube.data import load_dataset
+    from twintube.evidence import answer
+    from twintube.evidence.contract import as_json
+    from twintube.report.answered import lines, write_report
+
+    read = load_dataset(dataset)
+    found = answer(read, progress)
+    output.mkdir(parents=True, exist_ok=True)
+    write_text(output / "diagnosis.json", json.dumps(as_json(found), indent=1, allow_nan=False) + "\n")
+    extended = output / "extended.toml"
+    if found.extended is not None:
+        write_text(extended, to_toml(found.extended))
+    else:
+        extended.unlink(missing_ok=True)
+    write_report(read.title, found, output)
+    files = ["report.html", "diagnosis.json", *(["extended.toml"] if found.extended is not None else [])]
+    return [*lines(found), f"{output}: {', '.join(files)} ({found.seconds:.0f} s)"]
 
 
 def share_of(text: str, most: float, option: str) -> float:

@@ -14,7 +14,16 @@ fills.py (states of filling), reference.py.
 from twintube.data.dataset import Dataset, LoadedDataset, check_dataset, listed_record, load_dataset
 from twintube.data.findings import DataError, Finding, report
 from twintube.data.motion import read_motion
-from twintube.data.record import GIVEN, GRADIENT, MEASURED, Record, require_fills
+from twintube.data.record import (
+    GIVEN,
+    GRADIENT,
+    MEASURED,
+    Record,
+    ReferenceGivenError,
+    UnknownFillError,
+    has_reference,
+    require_fills,
+)
 
 __all__ = [
     "GIVEN",
@@ -25,7 +34,10 @@ __all__ = [
     "Finding",
     "LoadedDataset",
     "Record",
+    "ReferenceGivenError",
+    "UnknownFillError",
     "check_dataset",
+    "has_reference",
     "listed_record",
     "load_dataset",
     "read_motion",

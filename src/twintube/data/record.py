@@ -81,11 +81,25 @@ class Record:
         return np.full(len(self.time), self.reference)
 
 
+class UnknownFillError(InputError):
+    """A fill that nobody knows stands where a known one is needed."""
+
+
+class ReferenceGivenError(InputError):
+    """Records are a reference where none is asked for."""
+
+
+def has_reference(records: Iterable[Record]) -> bool:
+    """Whether some records, or parts of them, show the damper as it was, and others do not."""
+    some = list(records)
+    return any(r.reference or r.reference_window for r in some) and not all(r.reference for r in some)
+
+
 def require_fills(records: Iterable[Record], remedy: str) -> None:
-    """Raise InputError, which names the records whose fill is unknown and the remedy, where there are such."""
+    """Raise UnknownFillError, which names the records whose fill is unknown and the remedy, where there are such."""
     unknown = [record for record in records if record.unknown]
     if unknown:
-        raise InputError(not_stated(unknown, remedy))
+        raise UnknownFillError(not_stated(unknown, remedy))
 
 
 def not_stated(unknown: Sequence[Record], remedy: str) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from twintube.arrays import Array
 from twintube.dampers.freed_gas import as_before, as_published
+from twintube.data import ReferenceGivenError, has_reference, require_fills
 from twintube.data.findings import unconfirmed
 from twintube.data.signs import SIGNS
 from twintube.diagnosis.fits.candidates import LATE, RECALIBRATE, candidates
@@ -51,6 +52,11 @@ def diagnose(path: str | Path, progress: Callable[[str], None] = lambda text: No
     began = time.monotonic()
     progress("reading the records")
     given, turned = read(path)
+    require_fills(given.records, "`twintube diagnose` and twintube.evidence.answer seek it")
+    if has_reference(given.records):
+        raise ReferenceGivenError(
+            "some records are a reference: `twintube diagnose` and twintube.evidence.answer compare with it"
+        )
     # Blocks of seconds, on which the paper's equations alone were fitted.
     dataset = replace(given, damper=as_published(given.damper))
     records = prepare(dataset)

@@ -9,7 +9,7 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from twintube.arrays import Array
 from twintube.core.checks import tube_limit
-from twintube.data import LoadedDataset, Record, require_fills
+from twintube.data import LoadedDataset, Record
 from twintube.data.defects import resolution
 from twintube.diagnosis.records.noise import noise
 from twintube.diagnosis.records.record import PreparedRecord
@@ -23,7 +23,6 @@ from twintube.fitting.strokes import quiet
 
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
     """All records of a dataset; raises InputError where a fill is unknown or a stroke leaves the tube."""
-    require_fills(dataset.records, "state the fill in dataset.toml")
     begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
     usual = float(np.median(begins)) if begins else 0.0
     ready = [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
@@ -61,7 +60,9 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
     top_speed = float(np.quantile(np.abs(velocity), RULES.speed_quantile))
     force = means(record.time[at], impulse(record.time, record.force)[at])
     levels = resolution(record.force)
-    oil_level, gas_preload = record.fill
+    # What nobody knows is sought; full until then.
+    oil_level = 1.0 if record.oil_level is None else record.oil_level
+    gas_preload = True if record.gas_preload is None else record.gas_preload
     ready = PreparedRecord(
         name=record.name, measurement=record.measurement, oil_level=oil_level, gas_preload=int(gas_preload),
         split=record.split, top_speed=top_speed, path=path, stroke_noise=noise_of_stroke(record.stroke)[0],

@@ -100,13 +100,17 @@ class SeenRecords(SimulatedRecords):
         states[degraded, 0] = np.clip(states[degraded, 0] - lost[degraded] / row["V_oil"], 0.0, 1.0)
         return states
 
-    def simulate(self, changes: Sequence[tuple[str, float]]) -> tuple[Array, Array]:
-        """Mean forces over the intervals and those of the samples alone, both (n,) [N], with values changed."""
+    def simulate(self, changes: Sequence[tuple[str, float]], states: Array | None = None) -> tuple[Array, Array]:
+        """Mean forces over the intervals and those of the samples alone, both (n,) [N], with values changed.
+
+        `states` (r, 4) are those of the records where they are not given.
+        """
         values = dict(changes)
         gain, base, delay, clock, mass = (values.pop(name, x) for name, x in AS_RECORDED.items())
         z, v = self.moved(delay, clock) if delay or clock else (self.z, self.v)
         fills = {name: values.pop(name) for name in list(values) if name.startswith(FILL)}
-        states = self.refilled(fills) if fills else self.states
+        if states is None:
+            states = self.refilled(fills) if fills else self.states
         if CARRIED in values:
             carried = values.pop(CARRIED)
             states = self.drained(values, carried)
@@ -135,7 +139,10 @@ class SeenRecords(SimulatedRecords):
 
     def forces(self, values: Mapping[str, float]) -> Array:
         """Predicted mean forces (n,) [N], measurement included."""
-        force, point = self.simulated(self.damping(values))
+        return self.observed(*self.simulated(self.damping(values)), values)
+
+    def observed(self, force: Array, point: Array, values: Mapping[str, float]) -> Array:
+        """Forces (n,) [N] with what the measurement adds to mean forces and those of samples (n,) [N]."""
         values = {**self.usual, **values}
         seen = point + sum(values[name] * part for name, part in self.parts_of_samples(force, point, values).items())
         settling = values.get(SETTLING, 0.0)

@@ -1,0 +1,19 @@
+"""What the records say of the damper's state: one probability model, the model's own error and the bench in it.
+
+numbers        all priors, in physical units, with their sources
+discrepancy    D: what a damper's law is off, and what degradation is off
+bench          the records under a simulation, and what the bench may add to their forces
+memory, sizes  noise with memory; how large the model's own errors are
+frame          the evidence of errors, all of this integrated out
+state          probability over oil level and preload
+mechanisms     effects and faults, with what is known of their strengths
+search         the evidence of a mechanism
+base           what always acts, and is no change
+changes        the probability of every hypothesis about what has happened since the reference
+heldout        what a cause is worth on records that it was not fitted to
+answer         from a dataset to its answer; contract: diagnosis.json
+"""
+
+from twintube.evidence.answer import Answer, StateAnswer, answer, states
+
+__all__ = ["Answer", "StateAnswer", "answer", "states"]

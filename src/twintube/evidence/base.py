@@ -1,0 +1,59 @@
+"""What a damper and its bench always have beyond the model: it acts in every record, and is no change."""
+
+import numpy as np
+
+from twintube.arrays import Array
+from twintube.evidence.bench import Bench
+from twintube.evidence.frame import Frame
+from twintube.evidence.mechanisms import Mechanism
+from twintube.evidence.numbers import NUMBERS
+from twintube.evidence.search import SLOPE, Found, Search
+
+
+class Base:
+    """Mechanisms that always act, found one after the other; their strengths stay open to what the records say."""
+
+    def __init__(self, bench: Bench, acting: Array) -> None:
+        self.bench, self.acting = bench, acting
+        self.mechanisms: list[Mechanism] = []
+        self.at: Array = np.zeros(0)  # coordinates of all their strengths
+
+    def add(self, found: Found) -> None:
+        """Let a mechanism act in every record, and seek the strengths of all of them anew."""
+        self.mechanisms.append(found.mechanism)
+        self.bench.at_usual({})
+        every = np.ones(len(self.acting), dtype=bool)
+        alone = Search(self.bench, Frame(self.bench, self.bench.states, more=set_up(self.bench, self.acting)), every)
+        self.at = alone.optimum(self.joint, found.evidence.sizes, np.concatenate([self.at, found.at]))
+        self.bench.at_usual(self.joint.values(self.at))
+
+    @property
+    def joint(self) -> Mechanism:
+        """All of them as one."""
+        return Mechanism("base", "base", "base", tuple(s for m in self.mechanisms for s in m.strengths))
+
+    def has(self, mechanism: Mechanism) -> bool:
+        """Whether a strength of a mechanism is among theirs."""
+        return bool({s.name for s in mechanism.strengths} & {s.name for s in self.joint.strengths})
+
+    def search(self) -> Search:
+        """The search for changes beside it."""
+        more = np.hstack([slopes_of(self.bench, self.joint, self.at), set_up(self.bench, self.acting)])
+        return Search(self.bench, Frame(self.bench, self.bench.states, more=more), self.acting, more)
+
+
+def slopes_of(bench: Bench, joint: Mechanism, at: Array) -> Array:
+    """What forces (n, k) [N] change by with the strengths of a base, each by a standard deviation of its prior."""
+    columns = []
+    for s, u in zip(joint.strengths, at, strict=True):
+        (low, a), (high, b) = ((x, {s.name: s.value(x)}) for x in np.clip((u - SLOPE, u + SLOPE), *s.span))
+        columns.append((bench.forces(b) - bench.forces(a)) / (high - low))
+    return np.column_stack(columns) if columns else np.zeros((len(bench.z), 0))
+
+
+def set_up(bench: Bench, acting: Array) -> Array:
+    """What the samples `acting` (n,) have of their own day: zero, gain, temperature; (n, 3) [N] of size one."""
+    force, n = bench.forces({}), NUMBERS
+    fluid = bench.fluid(force, bench.full(bench.states)[1], bench.states)
+    day = np.column_stack([np.full(len(force), n.zero * bench.peak), n.gain * force, n.begun * fluid])
+    return np.asarray(acting[:, None] * day)

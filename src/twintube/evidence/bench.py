@@ -1,0 +1,149 @@
+"""Records under a simulation: what the bench and the model's own error may add to their forces, as columns with a scale."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from twintube.arrays import Array
+from twintube.dampers import Damper
+from twintube.diagnosis.records.noise import colour, noise
+from twintube.diagnosis.records.record import PreparedRecord
+from twintube.diagnosis.records.seen import REMEMBERED, SeenRecords
+from twintube.evidence.discrepancy import Discrepancy, degraded, discrepancy
+from twintube.evidence.numbers import NUMBERS
+
+FLOOR = 0.3  # of the largest force: drawings allow some per cent and 20 to 30 N
+TURNED = 0.03  # of the largest force, above which the share of the fluid force that is left is read
+LATEST = [2, 5]  # columns of `degraded` in which a loss comes latest
+ALIKE = 0.05  # logarithm of the ratio of strokes, and of speeds, up to which two motions are one
+REPEATING = ("harmonic", "quasi-static")  # motions whose oscillations are alike
+PHASES = 32  # of an oscillation
+MORE = 0.2  # numerics of a derivative
+TURN = 0.01  # [m/s] speed at which friction has turned
+
+
+class Bench(SeenRecords):
+    """The records of a dataset, simulated, and the contributions to their forces."""
+
+    def __init__(self, damper: Damper, records: Sequence[PreparedRecord], usual: Mapping[str, float] | None = None) -> None:
+        super().__init__(damper, records, usual)
+        self.measured = np.concatenate([r.force for r in records])
+        self.peak = max(r.peak for r in records)
+        self.slices = [slice(a, b) for a, b in zip(self.starts[:-1], self.starts[1:], strict=True)]
+        self.noisy(np.concatenate([r.noise for r in records]))
+        self.fulls: dict[bytes, tuple[Array, Array]] = {}
+        self.law: Discrepancy = discrepancy(self.v, float(np.abs(self.z).max()), FLOOR * self.peak)
+        p = self.damper.parameters
+        rebound, compression = (np.interp(s * self.v, (0.0, *v), (0.0, *f)) for s, v, f in (
+            (1.0, p.v_re, p.F_re), (-1.0, p.v_co, p.F_co)
+        ))  # fmt: skip
+        self.intact = np.where(self.v >= 0.0, rebound, compression)
+
+    def noisy(self, noise: Array) -> None:
+        """Take `noise` (n,) [N] for that of the mean forces."""
+        edges = np.concatenate([r.edges for r in self.records])
+        self.sigma = np.sqrt(noise**2 + edges**2 + (NUMBERS.model_noise * self.peak) ** 2)
+
+    def noise_in(self, left: Array) -> Array:
+        """Noise (n,) [N] of the mean forces, from what does not repeat in the errors (n,) [N] that a model leaves."""
+        alike = colour(self.records, np.split(left, self.starts[1:-1]))
+        records = [replace(r, colour=alike) for r in self.records]
+        return np.concatenate([noise(r, left[at]) for r, at in zip(records, self.slices, strict=True)])
+
+    def at_usual(self, values: Mapping[str, float]) -> None:
+        """Simulate with these values where no others are given."""
+        self.usual = dict(values)
+
+    def in_state(self, which: NDArray[np.bool_], preload: int, oil_level: float) -> None:
+        """Let the records `which` (r,) be in a state."""
+        self.states[which, 0], self.states[which, 1] = oil_level, preload
+        self.simulated = lru_cache(REMEMBERED)(self.simulate)
+
+    def with_states(self, states: Array) -> Array:
+        """Forces (n,) [N] of the records in other states (r, 4), measurement included."""
+        return self.observed(*self.simulate(self.damping({}), states), {})
+
+    def full(self, states: Array) -> tuple[Array, Array]:
+        """Forces and friction in them (n,) [N] with all of the oil and the preload of the states (r, 4)."""
+        key = states[:, 1].tobytes()
+        if key not in self.fulls:
+            filled = states.copy()
+            filled[:, 0] = 1.0
+            rows = self.rows()
+            rows[0]["F_FrS"] *= 1.0 + MORE
+            force = self.with_states(filled)
+            self.fulls[key] = force, (self.sampled(rows, (), None, filled)[1] - force) / MORE
+        return self.fulls[key]
+
+    def loss(self, states: Array) -> Array:
+        """Force (n,) [N] that missing oil takes away, friction apart, which rises with it."""
+        rows = self.rows()
+        rows[0]["oil_loss_gain"] = 0.0
+        return np.asarray(self.sampled(rows, (), None, states)[1] - self.full(states)[0])
+
+    def fluid(self, force: Array, friction: Array, states: Array) -> Array:
+        """The fluid part (n,) [N] of a simulated force, gas and `friction` (n,) [N] taken off."""
+        p = self.damper.parameters
+        preload = np.repeat(states[:, 1] * states[:, 2], np.diff(self.starts))
+        return np.asarray(force - preload * (p.c_gas * self.z - p.F_0) - friction)
+
+    def motions(self) -> list[list[int]]:
+        """The records of each motion: what a model gets wrong in one it gets wrong in another like it."""
+        groups: list[list[int]] = []
+        for i, record in enumerate(self.records):
+            for group in groups:
+                first = self.records[group[0]]
+                sizes = (np.abs(record.stroke).max() / np.abs(first.stroke).max(), record.top_speed / first.top_speed)
+                if record.measurement == first.measurement and np.all(np.abs(np.log(sizes)) < ALIKE):
+                    group.append(i)
+                    break
+            else:
+                groups.append([i])
+        return groups
+
+    def repeating(self, i: int) -> Array:
+        """Contributions (n, p) [N] of size one to record `i` that are the same in each oscillation of a motion."""
+        at, record = self.slices[i], self.records[i]
+        if record.measurement not in REPEATING:
+            return np.zeros((len(record.time), 0))
+        z, v = self.z[at], self.v[at]
+        phase = np.arctan2(v / record.top_speed, z / np.abs(z).max()) * PHASES / (2.0 * np.pi)
+        apart = np.abs((phase[:, None] - np.arange(PHASES) + PHASES / 2.0) % PHASES - PHASES / 2.0)
+        return np.asarray(np.maximum(0.0, 1.0 - apart) * np.hypot(self.intact[at], FLOOR * self.peak)[:, None])
+
+    def contributions(self, states: Array) -> list[tuple[Array, Array, Array]]:
+        """For each record shared (n, k) and own (n, m) contributions of size one [N], and those of what lasts (n,) [N]."""
+        # All but the loss is that of the full damper: levels that do not differ in it are alike to the last digit.
+        (whole, friction), loss = self.full(states), self.loss(states)
+        fluid = self.fluid(whole + loss, friction, states)
+        turn = np.clip(1.0 - np.abs(loss) / np.maximum(self.intact, TURNED * self.peak), 0.0, 1.0)
+        p = self.damper.parameters
+        rubs = float(np.hypot(NUMBERS.rubbing * p.F_FrS, NUMBERS.side * self.peak))
+        out = []
+        for at in self.slices:
+            z, v = (0.5 * (x[at] + np.concatenate([x[at][:1], x[at][:-1]])) for x in (self.z, self.v))
+            F, along = (whole + loss)[at], z / self.law.span
+            rate = np.gradient(F, self.t[at])
+            law = self.law.columns(z, v, fluid[at], self.t[at], turn[at])
+            one, rubbing = np.ones_like(F), np.tanh(v / TURN)
+            rub = rubs / p.F_FrS * friction[at]
+            # Without preload some gas is left, too.
+            gas = NUMBERS.preload * np.column_stack([p.F_0 * one, p.c_gas * z])
+            lost = degraded(self.z[at], v, loss[at])
+            still = np.column_stack([rub, rub * along, rub * (1.5 * along**2 - 0.5), gas, lost])
+            n = NUMBERS
+            zero = n.zero * self.peak
+            bend = np.gradient(rate, self.t[at]) * np.median(np.diff(self.t[at])) ** 2
+            # Oil and load cell get warm within a record.
+            passed = (self.elapsed[at] - 0.5 * self.elapsed[at].max()) / max(1e-9, 0.5 * self.elapsed[at].max())
+            warm = [n.begun * fluid[at], n.begun * fluid[at] * passed, zero * passed]
+            others = [zero * along, n.filtered * bend, zero * rubbing]
+            bench = np.column_stack([zero * one, n.gain * F, n.late * rate, *warm, *others])
+            # Steps of the state itself apart, how steep the force is does not depend on the state.
+            lasts = np.hypot(self.intact[at], FLOOR * self.peak) + n.timed * np.abs(np.gradient(whole[at], self.t[at]))
+            lasts += n.placed * np.abs(lost[:, LATEST]).sum(axis=1)
+            out.append((np.hstack([still, law]), np.hstack([bench, self.law.own(z, v, fluid[at], turn[at])]), lasts))
+        return out

@@ -1,0 +1,218 @@
+r"""Evidence of errors with Gaussian contributions integrated out: the probability model of the diagnosis.
+
+The measured less the simulated forces of a record r are
+
+    y_r = S_r a + O_r b_r + \epsilon_r,    a ~ N(0, diag(s^2)),  b_r ~ N(0, diag(o^2)),  \epsilon_r ~ N(0, N_r)
+
+S are contributions that all records share (the model's own error D, friction, gas, degradation that is off), O those of a
+single record (zero, gain, delay, temperature, its own error), N is white noise and an error that lasts. a and b are
+integrated out in closed form. Everything follows from the inner products of the columns without their noise, so that other
+sizes of the contributions cost no pass over the samples (Woodbury; Rasmussen and Williams 2006, equations 2.43 and A.3).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import block_diag, cho_factor, cho_solve, cholesky, solve_triangular
+
+from twintube.arrays import Array
+from twintube.evidence.bench import Bench
+from twintube.evidence.memory import innovations
+from twintube.evidence.numbers import NUMBERS
+from twintube.evidence.sizes import LARGEST, USUAL, Sizes
+
+STILL = 11  # shared columns of friction, gas and degradation, before those of D
+BENCH = 9  # own columns of the bench, before those of a record's own error
+LASTS = 6.0  # intervals that an error lasts: an eighth of an oscillation
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Evidence of some errors."""
+
+    log_z: float  # sizes integrated out
+    sizes: Sizes  # the best
+
+
+@dataclass(frozen=True)
+class White:
+    """The columns of a record without their noise."""
+
+    columns: Array  # (n, k + m)
+    gram: Array
+    log_noise: float
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """Inner products over all records, the contributions of single records integrated out."""
+
+    shared: Array  # (k, k)
+    shared_errors: Array  # (k, c)
+    errors: Array  # (c, c)
+    log_det: float
+
+
+@dataclass(frozen=True)
+class Part:
+    """What is compared of the records of one motion: its place among all samples, and the contributions to it."""
+
+    rows: NDArray[np.int64]  # (n,)
+    columns: Array  # (n, k + m)
+    fixed: NDArray[np.bool_]  # (m,) own contributions whose size is not sought
+    sigma: Array  # [N]
+    lasts: Array  # [N] of size one
+    kept: Array
+
+    def innovations(self, values: Array, lasting_at: int) -> tuple[Array, float]:
+        """Values (n, c) [N] without noise, and half the logarithm of its determinant."""
+        some = np.ascontiguousarray(values)
+        out = np.empty_like(some)
+        log_noise = innovations(some, self.sigma, NUMBERS.lasting_sizes[lasting_at] * self.lasts, self.kept, out)
+        return out, float(log_noise)
+
+
+class Frame:
+    """The Gaussian contributions to some records, for simulations near a given one."""
+
+    def __init__(self, bench: Bench, states: Array, steps: Array | None = None, more: Array | None = None) -> None:
+        """Contributions in some states (r, 4); `steps` (n,) [N] is more noise, `more` (n, p) [N] are further shared ones."""
+        self.bench = bench
+        several = bench.contributions(states)
+        more = np.zeros((len(bench.z), 0)) if more is None else more
+        noise = bench.sigma if steps is None else np.hypot(bench.sigma, steps)
+        self.still = STILL + more.shape[1]
+        self.k = self.still - STILL + several[0][0].shape[1]
+        self.parts = [self.part(group, several, noise, more) for group in bench.motions()]
+        self.known: dict[int, list[White]] = {}
+
+    def part(self, group: list[int], several: list[tuple[Array, Array, Array]], noise: Array, more: Array) -> Part:
+        """The records of one motion."""
+        uses = [np.flatnonzero(self.bench.used[self.bench.slices[i]]) for i in group]
+        rows = np.concatenate([self.bench.slices[i].start + use for i, use in zip(group, uses, strict=True)])
+        own = block_diag(*(several[i][1][use] for i, use in zip(group, uses, strict=True)))
+        shared, lasts, repeating = (
+            np.concatenate([x[use] for x, use in zip(xs, uses, strict=True)])
+            for xs in zip(*((several[i][0], several[i][2], self.bench.repeating(i)) for i in group), strict=True)
+        )
+        fixed = [np.arange(several[i][1].shape[1]) < BENCH for i in group]
+        kept = np.concatenate([np.concatenate([[0.0], np.exp(-np.diff(use) / LASTS)]) for use in uses])
+        columns = np.ascontiguousarray(np.hstack([more[rows], shared, own, repeating]))
+        return Part(rows, columns, np.concatenate([*fixed, np.zeros(repeating.shape[1], bool)]), noise[rows], lasts, kept)
+
+    def fixed_shared(self, k: int) -> NDArray[np.bool_]:
+        """Which of a state's shared contributions (k,) have a size that is not sought."""
+        return np.arange(k) < STILL
+
+    def white(self, lasting_at: int) -> list[White]:
+        """The columns of all records without noise, of which the lasting part has one of the sizes tried."""
+        if lasting_at not in self.known:
+            every = []
+            for part in self.parts:
+                out, log_noise = part.innovations(part.columns, lasting_at)
+                every.append(White(out, out.T @ out, log_noise))
+            self.known[lasting_at] = every
+        return self.known[lasting_at]
+
+    def whitened(self, values: Array, lasting_at: int) -> list[Array]:
+        """Errors (n, c) [N] of all records without noise."""
+        return [part.innovations(values[part.rows], lasting_at)[0] for part in self.parts]
+
+    def scale(self, sizes: Sizes) -> Array:
+        """Standard deviations of the shared contributions (k,)."""
+        return np.where(np.arange(self.k) < self.still, 1.0, sizes.law)
+
+    def reduced(self, errors: list[Array], sizes: Sizes) -> Reduced:
+        """What whitened errors (n, c) say of the shared contributions, those of single records integrated out."""
+        k = self.k
+        c = errors[0].shape[1]
+        SS, SY, YY, log_det = np.zeros((k, k)), np.zeros((k, c)), np.zeros((c, c)), 0.0
+        for part, w, y in zip(self.parts, self.white(sizes.lasting_at), errors, strict=True):
+            scale = np.where(part.fixed, 1.0, sizes.own)
+            cross = w.columns.T @ y
+            L = cholesky(np.eye(len(scale)) + scale[:, None] * w.gram[k:, k:] * scale, lower=True, check_finite=False)
+            PQ = solve_triangular(L, scale[:, None] * np.hstack([w.gram[k:, :k], cross[k:]]), lower=True, check_finite=False)
+            P, Q = PQ[:, :k], PQ[:, k:]
+            SS, SY, YY = SS + w.gram[:k, :k] - P.T @ P, SY + cross[:k] - P.T @ Q, YY + y.T @ y - Q.T @ Q
+            log_det += float(np.log(np.diag(L)).sum()) + w.log_noise
+        return Reduced(SS, SY, YY, log_det)
+
+    def log_z(self, reduced: Reduced, sizes: Sizes) -> float:
+        """Evidence of the first of several errors; shared contributions and those of the other columns integrated out."""
+        scale = self.scale(sizes)
+        G = np.eye(self.k) + scale[:, None] * reduced.shared * scale
+        L = cholesky(G, lower=True, check_finite=False)
+        pulled = solve_triangular(L, scale[:, None] * reduced.shared_errors, lower=True, check_finite=False)
+        inner = reduced.errors - pulled.T @ pulled
+        left, log_det = float(inner[0, 0]), reduced.log_det + float(np.log(np.diag(L)).sum())
+        if len(inner) > 1:
+            L = cholesky(np.eye(len(inner) - 1) + inner[1:, 1:], lower=True, check_finite=False)
+            taken = solve_triangular(L, inner[1:, 0], lower=True, check_finite=False)
+            left, log_det = left - float(taken @ taken), log_det + float(np.log(np.diag(L)).sum())
+        return -0.5 * left - log_det
+
+    def evidence(self, errors: Array, start: Sizes = USUAL, most: Sizes = LARGEST) -> Evidence:
+        """Evidence of errors (n,) [N] with the sizes integrated out about their best, sought from `start` up to `most`.
+
+        Further columns (n, 1 + c) [N] are contributions of size one of a hypothesis.
+        """
+        found: dict[Sizes, float] = {}
+        white: dict[int, list[Array]] = {}
+        reduced: dict[tuple[int, int], Reduced] = {}
+        values = errors[:, None] if errors.ndim == 1 else errors
+
+        def at(sizes: Sizes) -> float:
+            if sizes not in found:
+                i, key = sizes.lasting_at, (sizes.own_at, sizes.lasting_at)
+                if i not in white:
+                    white[i] = self.whitened(values, i)
+                if key not in reduced:
+                    reduced[key] = self.reduced(white[i], sizes)
+                found[sizes] = self.log_z(reduced[key], sizes) + sizes.log_prior
+            return found[sizes]
+
+        best = start
+        while (better := max(best.beside(most), key=at)) != best and at(better) > at(best):
+            best = better
+        return Evidence(float(np.logaddexp.reduce([at(sizes) for sizes in best.beside(most)])), best)
+
+    def explained(self, values: Array, sizes: Sizes) -> tuple[list[Array], Array, list[Array]]:
+        """Whitened values (n, c) of each record, and what the shared (k, c) and own contributions of it are expected to be.
+
+        Both are in standard deviations of their priors.
+        """
+        shared_scale = self.scale(sizes)
+        k, c = self.k, values.shape[1]
+        white, y = self.white(sizes.lasting_at), self.whitened(values, sizes.lasting_at)
+        G, h, own = np.eye(k), np.zeros((k, c)), []
+        for part, w, some in zip(self.parts, white, y, strict=True):
+            cross, scale = w.columns.T @ some, np.where(part.fixed, 1.0, sizes.own)
+            A = np.eye(len(scale)) + scale[:, None] * w.gram[k:, k:] * scale
+            both = cho_solve(cho_factor(A), scale[:, None] * np.hstack([w.gram[k:, :k] * shared_scale, cross[k:]]))
+            own.append(both)
+            so = shared_scale[:, None] * w.gram[:k, k:] * scale
+            G += shared_scale[:, None] * w.gram[:k, :k] * shared_scale - so @ both[:, :k]
+            h += shared_scale[:, None] * cross[:k] - so @ both[:, k:]
+        a = np.linalg.solve(G, h)
+        return y, a, [both[:, k:] - both[:, :k] @ a for both in own]
+
+    def expected(self, part: Part, a: Array, b: Array, sizes: Sizes) -> Array:
+        """The contributions (k + m, c) to a part whose shared and own ones are `a` (k, c) and `b` (m, c) deviations."""
+        return np.concatenate([self.scale(sizes)[:, None] * a, np.where(part.fixed, 1.0, sizes.own)[:, None] * b])
+
+    def left(self, errors: Array, sizes: Sizes) -> Array:
+        """Errors (n,) [N] without what the contributions are expected to be."""
+        _, a, own = self.explained(errors[:, None], sizes)
+        out = np.zeros(len(errors))
+        for part, b in zip(self.parts, own, strict=True):
+            out[part.rows] = errors[part.rows] - (part.columns @ self.expected(part, a, b, sizes))[:, 0]
+        return out
+
+    def residuals(self, values: Array, sizes: Sizes) -> Array:
+        """Columns (q, c) whose inner products are those of values (n, c) [N] under the model: linear in the values."""
+        y, a, own = self.explained(values, sizes)
+        rows = [a, *own]
+        for part, w, some, b in zip(self.parts, self.white(sizes.lasting_at), y, own, strict=True):
+            rows.append(some - w.columns @ self.expected(part, a, b, sizes))
+        return np.concatenate(rows)

@@ -1,0 +1,167 @@
+"""What may have happened: each mechanism with its strengths and what is known of their size before the data."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from scipy.stats import norm
+
+from twintube.arrays import Array
+from twintube.core.effects import EFFECTS
+from twintube.diagnosis.records.seen import AS_RECORDED
+
+Kind = Literal["half", "normal", "log", "place"]
+
+
+@dataclass(frozen=True)
+class Strength:
+    """A parameter of a mechanism and its prior; in the coordinate u of a search it is a standard normal."""
+
+    name: str
+    kind: Kind
+    scale: float  # [unit] of half and normal; standard deviation of the logarithm of log; ignored for place
+    centre: float = 0.0
+    low: float = -np.inf
+    high: float = np.inf
+
+    def value(self, u: float) -> float:
+        """The parameter at the coordinate `u`."""
+        if self.kind == "log":
+            x = self.centre * np.exp(self.scale * u)
+        elif self.kind == "place":
+            x = self.low + (self.high - self.low) * norm.cdf(u)
+        else:
+            x = self.centre + self.scale * u
+        return float(np.clip(x, self.low, self.high))
+
+    def coordinate(self, value: float) -> float:
+        """The coordinate of a value within its span."""
+        low, high = self.span
+        if self.kind == "log":
+            u = np.log(max(value, 1e-300) / self.centre) / self.scale
+        elif self.kind == "place":
+            u = norm.ppf((value - self.low) / (self.high - self.low))
+        else:
+            u = (value - self.centre) / self.scale
+        return float(np.clip(u, low, high))
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The coordinates at the ends of its range."""
+        if self.kind == "half":
+            return 0.0, min(8.0, (self.high - self.centre) / self.scale)
+        if self.kind == "normal":
+            return max(-8.0, (self.low - self.centre) / self.scale), min(8.0, (self.high - self.centre) / self.scale)
+        if self.kind == "log":
+            low, high = (
+                np.log(x / self.centre) / self.scale if 0 < x < np.inf else s * 4.0
+                for x, s in ((self.low, -1), (self.high, 1))
+            )
+            return max(-4.0, low), min(4.0, high)
+        return -3.0, 3.0
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A mechanism: `effect` is the name in an answer, `strengths` are searched."""
+
+    effect: str
+    way: str
+    kind: str  # effect | fault
+    strengths: tuple[Strength, ...]
+    log_odds: float = 0.0
+
+    @property
+    def ends(self) -> tuple[Array, Array]:
+        """The least and the largest coordinates (k,)."""
+        low, high = zip(*(s.span for s in self.strengths), strict=True)
+        return np.array(low), np.array(high)
+
+    def about(self, base: Mapping[str, float]) -> "Mechanism":
+        """The mechanism as a change of values that are there before."""
+        return replace(self, strengths=tuple(replace(s, centre=base.get(s.name, s.centre)) for s in self.strengths))
+
+    def values(self, u: Array) -> dict[str, float]:
+        """The parameters at the coordinates (k,)."""
+        return {s.name: s.value(float(x)) for s, x in zip(self.strengths, u, strict=True)}
+
+
+META = {i.name: i.metadata for e in EFFECTS.values() for i in e.parameters}
+# Standard deviations of strengths that a cause has where it acts.
+SCALES: dict[str, dict[str, dict[str, tuple[Kind, float]]]] = {
+    "end_stop": {
+        "rebound": {"F_stop_re": ("half", 1000.0), "onset_re": ("place", 0.0)},
+        "compression": {"F_stop_co": ("half", 1000.0), "onset_co": ("place", 0.0)},
+    },
+    "fluid_lag": {
+        "oil": {"C_fluid": ("half", 1e-6), "C_fluid_co": ("half", 2e-6)},
+        "air": {"V_air": ("half", 1e-6)},
+        "valves": {"tau_fluid": ("half", 2e-3)},
+        "closing": {"closing_stroke": ("half", 3e-3)},
+    },
+    "foam_decay": {"foam_decay": {"foam_decay_rate": ("half", 0.3)}},
+    "gas_exhaustion": {"gas_exhaustion": {"exhaustion": ("half", 2.0)}},
+    "gas_redissolution": {"gas_redissolution": {"redissolution_rate": ("half", 0.3)}},
+    "gas_spring": {
+        "preload": {"F_surplus": ("normal", 100.0)},
+        "residual": {"F_residual": ("normal", 50.0), "c_residual": ("normal", 500.0)},
+    },
+    "mount_compliance": {"mount_compliance": {"C_mount": ("half", 1e-6), "tau_mount": ("log", 0.7)}},
+    "oil_displacement": {"oil_displacement": {"displaced_share": ("half", 0.5)}},
+    "oil_temperature": {
+        "heat": {"fade_heat": ("half", 8e-6), "cooling_time": ("log", 0.8)},
+        "start": {"fade_heat": ("half", 8e-6), "H_start": ("normal", 14e3)},
+        "measured": {"fade_kelvin": ("half", 0.006), "friction_kelvin": ("half", 0.003)},
+    },
+    "position_friction": {
+        "slope": {"friction_slope": ("normal", 5.0)},
+        "bow": {"friction_bow": ("half", 200.0)},
+        "spot": {"friction_spot": ("half", 2.0), "spot_at": ("place", 0.0), "spot_width": ("log", 0.7)},
+    },
+    "seal_leak": {"film": {"leak_film": ("half", 5e-7)}, "cut": {"cut_area": ("half", 1e-9)}},
+    "side_load_friction": {"side_load_friction": {"side_load": ("half", 2.0), "v_side": ("log", 0.8)}},
+    "smooth_transition": {"stroke": {"build_up": ("half", 5e-3)}, "time": {"tau_build": ("half", 5e-3)}},
+    "valve_wear": {
+        "scale": {"wear_re": ("normal", 0.15), "wear_co": ("normal", 0.15)},
+        "bleed": {"bleed_re": ("half", 0.03), "bleed_co": ("half", 0.03)},
+        "opening": {"opening_re": ("half", 150.0), "opening_co": ("half", 100.0)},
+    },
+}
+
+
+def effects() -> list[Mechanism]:
+    """The mechanisms of all effects."""
+    out = []
+    for effect, mechanisms in SCALES.items():
+        for mechanism, several in mechanisms.items():
+            strengths = tuple(
+                Strength(name, kind, scale, META[name]["default"], META[name]["lower"], META[name]["upper"])
+                for name, (kind, scale) in several.items()
+            )
+            out.append(Mechanism(effect, mechanism, "effect", strengths, -np.log(len(mechanisms))))
+    return out
+
+
+def faults(peak: float, longest: float) -> list[Mechanism]:
+    """The faults of the channels; `peak` [N] and `longest` [s] of the records."""
+    one = AS_RECORDED
+
+    def single(name: str, scale: float, low: float, high: float, centre: float = 0.0) -> Mechanism:
+        return Mechanism(name, name, "fault", (Strength(name, "normal", scale, centre, low, high),))
+
+    return [
+        single("force_gain", 0.08, 0.3, 3.0, 1.0),
+        single("force_offset", 0.04 * peak, -peak, peak),
+        single("channel_delay", 2e-3, -0.02, 0.02),
+        single("stroke_gain", 0.05, 0.7, 1.4, one["stroke_gain"]),
+        single("time_base", 0.02, 0.8, 1.25, one["time_base"]),
+        single("zero_drift", 0.03 * peak / longest, -peak / longest, peak / longest),
+        single("clock_error", 1e-3, -0.01, 0.01),
+        single("clamp_inertia", 1.0, -5.0, 5.0),
+    ]
+
+
+def neutral(hypothesis: Mechanism) -> Mapping[str, float]:
+    """The parameters where it does nothing."""
+    return {s.name: s.centre for s in hypothesis.strengths}

@@ -1,0 +1,136 @@
+"""Evidence of a mechanism: its best strengths, and the volume about them (Laplace; MacKay 2003, chapter 27)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import norm
+
+from twintube.arrays import Array
+from twintube.evidence.bench import Bench
+from twintube.evidence.frame import Evidence, Frame
+from twintube.evidence.mechanisms import Mechanism
+from twintube.evidence.numbers import NUMBERS
+from twintube.evidence.sizes import Sizes
+
+# Numerics.
+TRIED = (0.05, 0.3, 1.5)  # coordinates of a strength from which the best is sought
+ROUNDS = 3  # of strengths and sizes of the model's own errors in turn
+EVALUATIONS = 12
+SLOPE = 0.02  # step of a derivative, of the coordinate
+
+
+@dataclass(frozen=True)
+class Found:
+    """A mechanism with its best strengths."""
+
+    mechanism: Mechanism
+    log_z: float
+    at: Array  # (k,) coordinates
+    values: dict[str, float]
+    spread: dict[str, float]  # standard deviations
+    evidence: Evidence
+    force: Array  # (n,) [N]
+
+
+class Search:
+    """Mechanisms in the samples `acting` (n,) of a bench; in the others nothing happens."""
+
+    def __init__(self, bench: Bench, frame: Frame, acting: Array, more: Array | None = None) -> None:
+        self.bench, self.frame, self.more = bench, frame, more
+        self.acting = acting
+        self.base = bench.forces({})
+        self.none = frame.evidence(bench.measured - self.base)
+
+    def force(self, mechanism: Mechanism, u: Array) -> Array:
+        """Forces (n,) [N] with the strengths at the coordinates (k,)."""
+        return np.asarray(np.where(self.acting, self.bench.forces(mechanism.values(u)), self.base))
+
+    def found(self, m: Mechanism, near: Found | None = None) -> Found:
+        """The best strengths of a mechanism, and its evidence; sought from those that were found `near`."""
+        m = m.about(self.bench.usual)
+        u, evidence = self.start(m) if near is None else near.at, self.none
+        for _ in range(ROUNDS):
+            u, before = self.optimum(m, evidence.sizes, u), evidence.sizes
+            evidence = self.frame.evidence(self.bench.measured - self.force(m, u), before)
+            if evidence.sizes == before:
+                break
+        force = self.force(m, u)
+        J = self.slopes(m, evidence.sizes, u)
+        H = J.T @ J + np.eye(len(u))
+        spread = np.sqrt(np.diag(np.linalg.inv(H)))
+        log_z = self.inexact(force, evidence) - 0.5 * float(u @ u) - 0.5 * float(np.linalg.slogdet(H)[1])
+        # Of a strength that cannot be negative only the part of the volume above zero counts, and twice its density.
+        log_z += sum(
+            np.log(2.0) + norm.logcdf(x / sd) for s, x, sd in zip(m.strengths, u, spread, strict=True) if s.kind == "half"
+        )
+        sd = {s.name: abs(s.value(x + d) - s.value(x - d)) / 2.0 for s, x, d in zip(m.strengths, u, spread, strict=True)}
+        return Found(m, float(log_z), u, m.values(u), sd, evidence, force)
+
+    def inexact(self, force: Array, evidence: Evidence) -> float:
+        """Evidence of forces (n,) [N] with a law of the mechanism that is exact, or off as laws are: each as likely."""
+        change = force - self.base
+        if not np.any(np.abs(change) > 1e-9):
+            return evidence.log_z
+        b = self.bench
+        hats = np.column_stack([np.interp(np.abs(b.v), b.law.knots, row) for row in np.eye(len(b.law.knots))]) @ b.law.mixing
+        z, t = b.z / b.law.span, b.elapsed / max(1e-9, float(b.elapsed.max()))
+        sides = [hats * (side * change)[:, None] for side in (b.v >= 0.0, b.v < 0.0)]
+        along = np.column_stack([change * z, change * t, change * (1.5 * z**2 - 0.5)])
+        columns = NUMBERS.law_of_cause * np.hstack([*sides, along])
+        off = self.frame.evidence(np.column_stack([b.measured - force, columns]), evidence.sizes)
+        return float(np.logaddexp(evidence.log_z, off.log_z) - np.log(2.0))
+
+    def start(self, m: Mechanism) -> Array:
+        """The coordinates (k,) from which the best are sought."""
+        low, high = m.ends
+        k = len(m.strengths)
+        unit = np.eye(k)
+        acting = [i for i, s in enumerate(m.strengths) if s.kind in ("half", "normal")]
+        signs = [(1.0,) if low[i] >= 0.0 else (1.0, -1.0) for i in range(k)]
+        tried = [unit[i] * sign * x for i in acting for x in TRIED for sign in signs[i]]
+        if len(acting) == 2:
+            i, j = acting
+            tried += [unit[i] * a * x + unit[j] * b * x for x in TRIED for a in signs[i] for b in signs[j]]
+        for i in set(range(k)) - set(acting):
+            tried += [t + unit[i] * x for t in tried for x in (-1.0, 1.0)]
+        tried = [np.clip(t, low, high) for t in [np.zeros(k), *tried]]
+        return np.asarray(tried[int(np.argmin(self.costs(m, tried)))])
+
+    def costs(self, m: Mechanism, several: Sequence[Array]) -> list[float]:
+        """Twice the negative logarithm of the posterior at coordinates (k,), up to a constant."""
+
+        def cost(u: Array) -> float:
+            r = self.residuals(m, self.none.sizes, u)
+            return float(r @ r)
+
+        return list(self.bench.threads.map(cost, several))
+
+    def residuals(self, m: Mechanism, sizes: Sizes, u: Array) -> Array:
+        """Whose sum of squares is twice the negative logarithm of the posterior, up to a constant."""
+        errors = self.bench.measured - self.force(m, u)
+        return np.concatenate([self.frame.residuals(errors[:, None], sizes)[:, 0], u])
+
+    def slopes(self, m: Mechanism, sizes: Sizes, u: Array) -> Array:
+        """Derivatives (q, k) of the errors, whose inner products are those under the model."""
+        low, high = m.ends
+
+        def one(i: int) -> Array:
+            step = SLOPE * max(abs(u[i]), 0.1)
+            a, b = u.copy(), u.copy()
+            a[i], b[i] = max(low[i], u[i] - step), min(high[i], u[i] + step)
+            return np.asarray((self.force(m, a) - self.force(m, b)) / (b[i] - a[i]))
+
+        return self.frame.residuals(np.column_stack(list(self.bench.threads.map(one, range(len(u))))), sizes)
+
+    def optimum(self, m: Mechanism, sizes: Sizes, u: Array) -> Array:
+        """The most probable coordinates (k,) with given sizes of the model's own errors."""
+        low, high = m.ends
+        edge = 1e-6 * (high - low)
+        done = least_squares(
+            lambda x: self.residuals(m, sizes, x), np.clip(u, low + edge, high - edge),
+            lambda x: np.vstack([self.slopes(m, sizes, x), np.eye(len(x))]),
+            bounds=(low, high), max_nfev=EVALUATIONS, ftol=1e-4, xtol=1e-4,
+        )  # fmt: skip
+        return np.asarray(done.x)

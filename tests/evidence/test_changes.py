@@ -1,0 +1,115 @@
+"""What has happened since a reference is found in a damper that is off its parameter set; where nothing has, nothing is named."""
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tests.diagnosis import small
+from tests.evidence.specimen import own_law
+from twintube.arrays import Array
+from twintube.cli import app
+from twintube.dampers import load
+from twintube.data import LoadedDataset, ReferenceGivenError
+from twintube.diagnosis import diagnose
+from twintube.evidence import Answer, answer
+from twintube.evidence.changes import priors
+from twintube.report.changes import lines
+
+Formula = Callable[[small.Run], Array]
+SPEEDS = (0.3, 0.6)  # [m/s]
+
+
+def before_and_after(change: Formula, *, later_level: float = small.INTACT) -> Answer:
+    """The answer to two records as delivered and two after a change, all said to be full with preload."""
+    records = []
+    for i, (level, formula, name) in enumerate(
+        [(small.INTACT, own_law, "before")] * 2 + [(later_level, lambda r: change(r) + own_law(r) - r.force, "after")] * 2
+    ):
+        run = small.run(SPEEDS[i % 2], level)
+        seen = small.record(run, formula(run), seed=i)
+        reference = name == "before"
+        records.append(replace(
+            seen, name=f"{name}_{i}", oil_level=1.0, gas_preload=True, reference=reference, state=name,
+        ))  # fmt: skip
+    return answer(LoadedDataset("small", load("SA8", as_published=True), records, []))
+
+
+def test_nothing_has_changed() -> None:
+    found = before_and_after(lambda r: r.force)
+    assert found.verdict == "none"
+    assert found.extended is None
+    assert found.states[0].posterior.as_stated > 0.9
+
+
+def test_a_moved_zero() -> None:
+    """A fault: the answer tells its size, and that it was none of the damper."""
+    found = before_and_after(lambda r: r.force - 60.0)
+    assert found.verdict == "measurement_fault"
+    assert [h.name for h in found.named] == ["force_offset"]
+    assert found.cause is not None
+    assert found.cause.values["force_offset"] == pytest.approx(-60.0, abs=10.0)
+
+
+def test_wear_is_found_and_extends_the_model() -> None:
+    found = before_and_after(lambda r: r.force - 0.15 * np.where(r.velocity > 0.0, r.fluid, 0.0))
+    assert "valve_wear" in {h.name for h in found.named}
+    assert found.verdict in ("cause", "ambiguous")
+    assert all(h.with_cause is None or h.with_cause < h.without for h in found.held_out)
+    if found.verdict == "cause":
+        assert found.extended is not None
+        assert found.extended.parameters != found.damper.parameters
+
+
+def test_oil_and_gas_lost_since_is_another_state_than_stated() -> None:
+    found = before_and_after(lambda r: r.force, later_level=small.DEGRADED)
+    assert found.verdict == "state"
+    (state,) = found.states
+    low, high = state.posterior.interval()
+    assert low <= small.DEGRADED <= high
+    assert state.posterior.gas_lost > 0.95
+    assert "The file says otherwise" in lines(found)[0]
+
+
+def test_no_answer_is_less_likely_than_the_next() -> None:
+    found = before_and_after(lambda r: 1.06 * r.force)
+    assert found.changes is not None
+    several = [h.probability for h in found.changes.hypotheses]
+    assert several == sorted(several, reverse=True)
+    assert sum(several) == pytest.approx(1.0)
+    assert sum(h.probability for h in found.named) >= 0.9
+
+
+def test_prior_probabilities_sum_to_one() -> None:
+    asked = ["none", "unknown", "state", "a", "b"]
+    assert sum(priors(["a", "b"], asked).values()) == pytest.approx(1.0)
+
+
+def test_command(tmp_path: Path) -> None:
+    """The page and the JSON; a Python caller of `diagnose` is told where to go."""
+    runs = [small.run(speed) for speed in SPEEDS]
+    before = [small.record(r, own_law(r), seed=i) for i, r in enumerate(runs)]
+    after = [
+        replace(small.record(r, own_law(r) - 60.0, seed=9 + i), name=f"after_{i}", file=f"after_{i}.csv")
+        for i, r in enumerate(runs)
+    ]
+    folder = small.write([*before, *after], tmp_path / "bench", **{r.name: {"reference": True} for r in before})
+    done = CliRunner().invoke(app, ["diagnose", str(folder), "--output", str(tmp_path / "out")])
+    assert done.exit_code == 0, done.output
+    assert "Changed since the reference: zero of the load cell" in done.output
+    content = json.loads((tmp_path / "out/diagnosis.json").read_text())
+    assert content["verdict"] == "measurement_fault"
+    assert content["credible_set"] == ["force_offset"]
+    assert sum(h["probability"] for h in content["hypotheses"]) == pytest.approx(1.0)
+    assert content["causes"][0]["gain"]["heldout"] > 0.5
+    page = (tmp_path / "out/report.html").read_text(encoding="utf-8")
+    assert "Changed since the reference: zero of the load cell" in page
+    with pytest.raises(ReferenceGivenError, match="reference"):
+        diagnose(folder)
+    refused = CliRunner().invoke(app, ["diagnose", str(folder), "--output", str(tmp_path / "b"), "--tolerance", "3%"])
+    assert refused.exit_code == 2
+    assert "--tolerance" in refused.output
