@@ -106,10 +106,9 @@ def test_check_says_what_is_unknown(folder: Make) -> None:
     assert "unknown: oil level and gas preload of 1.csv, 2.csv (state 2), gas preload of 3.csv (state 3)" in run.output
 
 
-@pytest.mark.parametrize("command", ["identify", "diagnose"])
-def test_what_needs_a_fill_says_so_and_writes_nothing(folder: Make, tmp_path: Path, command: str) -> None:
+def test_what_needs_a_fill_says_so_and_writes_nothing(folder: Make, tmp_path: Path) -> None:
     path = written(folder, FULL, NOBODY)
-    run = RUNNER.invoke(app, [command, str(path), "--output", str(tmp_path / "out")])
+    run = RUNNER.invoke(app, ["identify", str(path), "--output", str(tmp_path / "out")])
     assert run.exit_code == 2
     assert "record 1.csv: oil_level and gas_preload are unknown; " in run.stderr
     assert not (tmp_path / "out").exists()

@@ -1,8 +1,10 @@
 """What may have happened: each mechanism with its strengths and what is known of their size before the data."""
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from importlib.resources import files
+from typing import Any, Literal
 
 import numpy as np
 from scipy.stats import norm
@@ -88,58 +90,23 @@ class Mechanism:
 
 
 META = {i.name: i.metadata for e in EFFECTS.values() for i in e.parameters}
-# Standard deviations of strengths that a cause has where it acts.
-SCALES: dict[str, dict[str, dict[str, tuple[Kind, float]]]] = {
-    "end_stop": {
-        "rebound": {"F_stop_re": ("half", 1000.0), "onset_re": ("place", 0.0)},
-        "compression": {"F_stop_co": ("half", 1000.0), "onset_co": ("place", 0.0)},
-    },
-    "fluid_lag": {
-        "oil": {"C_fluid": ("half", 1e-6), "C_fluid_co": ("half", 2e-6)},
-        "air": {"V_air": ("half", 1e-6)},
-        "valves": {"tau_fluid": ("half", 2e-3)},
-        "closing": {"closing_stroke": ("half", 3e-3)},
-    },
-    "foam_decay": {"foam_decay": {"foam_decay_rate": ("half", 0.3)}},
-    "gas_exhaustion": {"gas_exhaustion": {"exhaustion": ("half", 2.0)}},
-    "gas_redissolution": {"gas_redissolution": {"redissolution_rate": ("half", 0.3)}},
-    "gas_spring": {
-        "preload": {"F_surplus": ("normal", 100.0)},
-        "residual": {"F_residual": ("normal", 50.0), "c_residual": ("normal", 500.0)},
-    },
-    "mount_compliance": {"mount_compliance": {"C_mount": ("half", 1e-6), "tau_mount": ("log", 0.7)}},
-    "oil_displacement": {"oil_displacement": {"displaced_share": ("half", 0.5)}},
-    "oil_temperature": {
-        "heat": {"fade_heat": ("half", 8e-6), "cooling_time": ("log", 0.8)},
-        "start": {"fade_heat": ("half", 8e-6), "H_start": ("normal", 14e3)},
-        "measured": {"fade_kelvin": ("half", 0.006), "friction_kelvin": ("half", 0.003)},
-    },
-    "position_friction": {
-        "slope": {"friction_slope": ("normal", 5.0)},
-        "bow": {"friction_bow": ("half", 200.0)},
-        "spot": {"friction_spot": ("half", 2.0), "spot_at": ("place", 0.0), "spot_width": ("log", 0.7)},
-    },
-    "seal_leak": {"film": {"leak_film": ("half", 5e-7)}, "cut": {"cut_area": ("half", 1e-9)}},
-    "side_load_friction": {"side_load_friction": {"side_load": ("half", 2.0), "v_side": ("log", 0.8)}},
-    "smooth_transition": {"stroke": {"build_up": ("half", 5e-3)}, "time": {"tau_build": ("half", 5e-3)}},
-    "valve_wear": {
-        "scale": {"wear_re": ("normal", 0.15), "wear_co": ("normal", 0.15)},
-        "bleed": {"bleed_re": ("half", 0.03), "bleed_co": ("half", 0.03)},
-        "opening": {"opening_re": ("half", 150.0), "opening_co": ("half", 100.0)},
-    },
-}
+# Effect, way, parameter: prior and scale, see there.
+STRENGTHS: dict[str, dict[str, dict[str, dict[str, Any]]]] = tomllib.loads(
+    files("twintube.evidence").joinpath("strengths.toml").read_text(encoding="utf-8")
+)
 
 
 def effects() -> list[Mechanism]:
     """The mechanisms of all effects."""
     out = []
-    for effect, mechanisms in SCALES.items():
-        for mechanism, several in mechanisms.items():
+    for effect, ways in STRENGTHS.items():
+        for way, several in ways.items():
             strengths = tuple(
-                Strength(name, kind, scale, META[name]["default"], META[name]["lower"], META[name]["upper"])
-                for name, (kind, scale) in several.items()
+                Strength(name, known["prior"], known.get("scale", 0.0), meta["default"], meta["lower"], meta["upper"])
+                for name, known in several.items()
+                for meta in (META[name],)
             )
-            out.append(Mechanism(effect, mechanism, "effect", strengths, -np.log(len(mechanisms))))
+            out.append(Mechanism(effect, way, "effect", strengths, -float(np.log(len(ways)))))
     return out
 
 
