@@ -41,7 +41,8 @@ def sentence(answer: Answer) -> str:
         several = listed([f"{lower(title(h))} ({chance(h.probability)})" for h in named], len(named))
         return f"The records cannot tell: {several}."
     if first.kind == STATE:
-        changed = [one for one in answer.states if one.stated.anything and one.posterior.as_stated < 0.5]
+        told = sorted((one for one in answer.states if one.stated.anything), key=lambda one: one.posterior.as_stated)
+        changed = [one for one in told if one.posterior.as_stated < 0.5] or told[:1]  # several may be doubtful, none alone
         return " ".join(f"{state_sentence(one)} The file says otherwise." for one in changed)
     if first.name in (NONE, UNKNOWN):
         return f"{title(first)} since the reference ({chance(first.probability)})."
