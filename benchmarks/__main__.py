@@ -9,7 +9,6 @@ from typing import Annotated, Any
 
 import typer
 
-from benchmarks.calibrate import bench_calibrate
 from benchmarks.car import bench_car
 from benchmarks.dead_length import bench_dead_length
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
@@ -44,7 +43,7 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
 }
 FEW = {"identify": SEEDS}  # seeds by default, where not MANY
 MANY = 10
-OTHERS = ("calibrate", "oil_leak")
+OTHERS = ("oil_leak",)
 NAMES = ", ".join((*BENCHMARKS, *SEEDED, *OTHERS))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
@@ -75,17 +74,12 @@ def main(
     if name not in (*BENCHMARKS, *SEEDED, *OTHERS):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
-    if name == "calibrate" and (keep is None or not keep.exists()):
-        typer.echo(f"error: keep = {keep}: calibrate needs the folder of a run of the challenge", err=True)
-        raise typer.Exit(2)
     seeds = FEW.get(name, MANY) if seeds is None else seeds
     compiled.module()
     figures: dict[str, Any]
     try:
         if name == "oil_leak":
             figures = bench_oil_leak(damper, plot, tables)
-        elif name == "calibrate" and keep is not None:
-            figures = dict(bench_calibrate(keep))
         else:
             figures = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds, keep)
     except UserError as error:

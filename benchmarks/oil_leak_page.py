@@ -13,6 +13,7 @@ from benchmarks.oil_leak import (
     SLOW,
     dead_lengths,
     fast_falls,
+    first,
     force_left,
     levels,
     slow_falls,
@@ -22,11 +23,12 @@ from twintube.dampers import Damper, freed_gas, load
 from twintube.dampers.toml import names
 from twintube.engine.simulate import simulate
 from twintube.files import write_bytes, write_text
-from twintube.report.style import BLUE, GREY, INK, ORANGE, RED, VIOLET, canvas, label, notes, plain, png, title
+from twintube.report.framed import OIL, SCALAR, WIDTH, WORDS, framed, oil
+from twintube.report.style import ORANGE, VIOLET, canvas, label, png, title
 from twintube.rig import harmonic_block
 
 DRAWN = 0.025  # [m] amplitude of the picture
-MISSING = {-0.5: INK, 0.2: BLUE, 0.4: VIOLET, 0.6: ORANGE, 1.1: RED}  # of its loops, over A_2 times the amplitude
+MISSING = (-0.5, 0.2, 0.4, 0.6, 1.1)  # of its loops, over A_2 times the amplitude
 DIRECTIONS = ("rebound", "compression")
 GONE = 1.1  # largest (V_c - oil) / (A_2 a) of the slow table, and a step of its grid
 
@@ -116,14 +118,18 @@ def build(name: str, volumes: dict[str, float], fast: dict[str, float]) -> str:
 
 def draw(damper: Damper, others: list[Damper], path: Path) -> None:
     """F-s loops, the force at the largest velocity over the oil level, and over the missing oil for all `others`."""
-    figure, axes = canvas(1, 3, (13.5, 4.3))
+    figure, axes = canvas(3, 1, (WIDTH, 7.2))
     loops(axes[0][0], damper)
-    over_level(axes[0][1], damper)
-    over_missing(axes[0][2], others)
-    drive = (
-        f"{plain(damper.name)}, stroke {2e3 * DRAWN:g} mm, largest velocity {SLOW:g} m/s, 19th oscillation, no gas pressure."
+    halves = over_level(axes[1][0], damper)
+    over_missing(axes[2][0], others)
+    told = (
+        f"{damper.name} without gas pressure, stroke {2e3 * DRAWN:g} mm, 19th oscillation. Rebound is positive. "
+        "Missing oil: what the working chambers lack, over bore area times amplitude."
     )
-    notes(figure, [f"{drive} Assumed: F-v curve, friction, stroke, velocity and dead length."])
+    most, least = (f"{100 * level:.0f}" for level in (max(halves), min(halves)))
+    lost = f"{damper.name} loses half of its force only at {most} to {least} % oil"
+    sentence = f"At {SLOW:g} m/s {lost}, by dead length and direction"
+    framed(figure, sentence, told, "Assumed: F-v curve, friction, stroke, velocity and dead length.")
     write_bytes(path, png(figure))
 
 
@@ -131,40 +137,50 @@ def loops(ax: Axes, damper: Damper) -> None:
     """Force over stroke of the last oscillation at some oil volumes."""
     volumes, block = levels(damper), harmonic_block(SLOW, DRAWN)
     last = slice(block.marks[-2], block.marks[-1] + 1)
-    for share, colour in MISSING.items():
-        level = volumes.oil_level(share, DRAWN)
+    for i, share in enumerate(MISSING):
+        level, colour = volumes.oil_level(share, DRAWN), OIL(i / (len(MISSING) - 1))
         worn = freed_gas.condition(damper, level, 0)
         force = simulate(worn, block.stroke, block.velocity, block.time).force
-        ax.plot(1e3 * block.stroke[last], force[last], color=colour, label=f"{level:.0%}")
-    title(ax, "(a) F-s diagram at oil levels")
-    label([[ax]], "stroke [mm], rebound positive", "force [N]")
-    ax.margins(y=0.15)  # room for the legend
-    ax.legend(ncols=len(MISSING), fontsize=8, loc="upper center", columnspacing=1.0, handlelength=1.2)
+        ax.plot(1e3 * block.stroke[last], force[last], color=colour, label=oil(level))
+    title(ax, "force over stroke")
+    label([[ax]], "stroke [mm]", "force [N]")
+    beside(ax)
 
 
-def over_level(ax: Axes, damper: Damper) -> None:
-    """Force at the largest velocity over the oil level, for both ends of the dead length, and a scalar factor."""
+def beside(ax: Axes) -> None:
+    """The key right of the axes."""
+    ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=WORDS, frameon=False)
+
+
+def over_level(ax: Axes, damper: Damper) -> list[float]:
+    """Force at the largest velocity over the oil level, for both ends of the dead length, and a scalar factor.
+
+    Returns the oil levels [1] at which half of it is lost.
+    """
     at = np.arange(100, 19, -1) / 100
-    for item, style in zip(dead_lengths(damper), ("-", "--"), strict=True):
+    halves = []
+    for item, dashes in zip(dead_lengths(damper), ("-", "--"), strict=True):
         left = np.array([force_left(item, level, SLOW, DRAWN, freed_gas.DEFAULT) for level in at.tolist()])
-        for column, colour, direction in zip(left.T, (BLUE, ORANGE), DIRECTIONS, strict=True):
-            length = f"{1e3 * item.parameters.dead_length:g} mm"
-            ax.plot(100 * at, column, style, color=colour, label=f"{direction}, {length}")
-    ax.plot(100 * at, at, ":", color=GREY, label="scalar factor")
-    title(ax, "(b) force at the largest velocity, by dead length")
+        halves += [fallen for (_, fall), fallen in first(at, left, never=0.0).items() if fall == max(FALLS)]
+        for column, colour, direction in zip(left.T, (VIOLET, ORANGE), DIRECTIONS, strict=True):
+            length = f"dead length {1e3 * item.parameters.dead_length:g} mm"
+            ax.plot(100 * at, column, dashes, color=colour, label=f"{direction}, {length}")
+    ax.plot(100 * at, at, ":", color=SCALAR, label="scalar factor")
+    ax.invert_xaxis()
+    title(ax, "force at the largest velocity over the oil level")
     label([[ax]], "oil level [%]", "force over intact [1]")
-    ax.set_ylim(top=1.5)  # room for the legend
-    ax.legend(fontsize=8, loc="upper center", ncols=2)
+    beside(ax)
+    return halves
 
 
 def over_missing(ax: Axes, dampers: list[Damper]) -> None:
     """The same over the oil that is missing in the working chambers, for several builds."""
     for number, damper in enumerate(dampers):
         volumes = levels(damper)
-        oil = [volumes.oil_level(share, DRAWN) for share in REACH.tolist()]
-        left = np.array([force_left(damper, level, SLOW, DRAWN, freed_gas.DEFAULT) for level in oil])
-        for column, colour, direction in zip(left.T, (BLUE, ORANGE), DIRECTIONS, strict=True):
+        volume = [volumes.oil_level(share, DRAWN) for share in REACH.tolist()]
+        left = np.array([force_left(damper, level, SLOW, DRAWN, freed_gas.DEFAULT) for level in volume])
+        for column, colour, direction in zip(left.T, (VIOLET, ORANGE), DIRECTIONS, strict=True):
             ax.plot(REACH, column, color=colour, alpha=0.6, label=direction if number == 0 else None)
-    title(ax, f"(c) the same, {len(dampers)} builds")
-    label([[ax]], "(V_c - oil) / (A_2 amplitude) [1]", "force over intact [1]")
-    ax.legend()
+    title(ax, f"the same over the missing oil, {len(dampers)} dampers")
+    label([[ax]], "missing oil: (V_c - oil) / (A_2 amplitude) [1]", "force over intact [1]")
+    beside(ax)

@@ -10,7 +10,7 @@ import tomlkit
 from twintube.arrays import Array
 from twintube.dampers import Damper, load
 from twintube.data import MEASURED, LoadedDataset, Record
-from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.prepare import prepare
 from twintube.engine.simulate import simulate
 from twintube.rig.signals import AMPLITUDE

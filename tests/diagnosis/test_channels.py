@@ -8,9 +8,9 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.data import Record
-from twintube.diagnosis.fits.candidates import FAULT_TITLES, Candidate, faults, nuisances, period, usual_delay
-from twintube.diagnosis.fits.fit import Problem
-from twintube.diagnosis.fits.starts import best_start
+from twintube.diagnosis.channels import FAULT_TITLES, faults, period, usual_delay
+from twintube.diagnosis.measurement.odd import own_fault
+from twintube.diagnosis.measurement.sampling import with_sampling
 from twintube.diagnosis.rules import RULES
 
 SPEEDS = (0.1, 0.3, 1.0)
@@ -44,47 +44,19 @@ FAULTS: dict[str, tuple[float, Callable[[small.Run], Record]]] = {
 }
 
 
-def fault(problem: Problem, name: str) -> Candidate:
-    return next(c for c in faults(problem) if c.name == name)
-
-
 def test_every_fault_of_a_channel_is_tested_here(runs: list[small.Run]) -> None:
     assert [c.name for c in faults(small.problem([small.record(runs[0])]))] == list(FAULT_TITLES)
     assert set(FAULTS) == set(FAULT_TITLES)
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_a_fault_is_recovered_from_its_own_start(name: str, runs: list[small.Run]) -> None:
+def test_a_fault_is_recovered(name: str, runs: list[small.Run]) -> None:
     value, measured = FAULTS[name]
     problem = small.problem([measured(r) for r in runs]).with_usual(SHARP)
-    candidate = fault(problem, name)
-    cost, start = best_start([problem], candidate, [{}])
-    f, *laws = candidate.free
-    fit = problem.fit([*(g for g in nuisances(problem) if g.name != name), replace(f, start=start[name]), *laws])
-    assert cost < float(np.sum(problem.residual({}) ** 2))
-    assert fit.values[name] == pytest.approx(value, abs=max(0.02 * abs(value - f.start), candidate.least[name] * 0.1))
-    assert abs(value - f.start) > candidate.least[name]
-    assert fit.misfit.max() < 1.2
-
-
-def test_a_zero_that_settles_is_recovered_with_its_rate(runs: list[small.Run]) -> None:
-    """As of a load cell that warms up at the beginning of each record."""
-    problem = small.problem([small.record(r, r.force + 8.0 * (1.0 - np.exp(-0.2 * r.time))) for r in runs])
-    candidate = fault(problem, "zero_drift")
-    _, start = best_start([problem], candidate, [{}])
-    fit = problem.fit([*nuisances(problem), *(replace(f, start=start[f.name]) for f in candidate.free)])
-    assert fit.values["zero_drift"] == pytest.approx(1.6, rel=0.1)
-    assert fit.values["zero_settling"] == pytest.approx(0.2, rel=0.2)
-    assert fit.misfit.max() < 1.2
-
-
-def test_the_interval_of_a_single_record_is_not_narrower_than_its_noise_allows(runs: list[small.Run]) -> None:
-    problem = small.problem([small.record(runs[1], 0.95 * runs[1].force)])
-    (gain,) = fault(problem, "force_gain").free
-    fit = problem.fit([*nuisances(problem), gain])
-    at = [g.name for g in fit.free].index(gain.name)
-    slope = problem.forces({"force_gain": 1.0}) * problem.weight
-    assert np.sqrt(fit.covariance[at, at]) > 0.3 / np.linalg.norm(slope)
+    sought = next(f for f in faults(problem) if f.name == name)
+    found = own_fault(problem, ("all",), [sought])
+    assert found is not None and found.effect == name
+    assert found.factor == pytest.approx(value, abs=max(0.02 * abs(value - sought.neutral), 0.1 * sought.usual))
 
 
 def test_strokes_and_velocities_are_those_of_the_moment_of_the_force(runs: list[small.Run]) -> None:
@@ -98,17 +70,16 @@ def test_strokes_and_velocities_are_those_of_the_moment_of_the_force(runs: list[
 
 
 def test_what_sampling_leaves_open_is_no_fault(runs: list[small.Run]) -> None:
-    """Points at a coarse rate: neither a mean over the interval nor a delay is fitted, and the delay left open is a sample's."""
+    """Points at a coarse rate: neither a mean over the interval nor a delay is found, and the delay left open is a sample's."""
     problem = small.problem(
         [small.record(small.run(v, turns=20, samples=29), seed=i, noise=0.002) for i, v in enumerate(SPEEDS)]
     )
     assert usual_delay(problem) == pytest.approx(RULES.open_filtered * period(problem))
     assert usual_delay(problem.with_usual(SHARP)) == pytest.approx(RULES.open_samples * period(problem))
     assert usual_delay(small.problem([small.record(runs[2])])) >= RULES.small_delay
-    fit = problem.fit(nuisances(problem))
-    assert fit.values["sample_mean"] < 0.1
-    assert abs(fit.values["channel_delay"]) < 0.02 * period(problem)
-    assert fit.misfit.max() < 1.2
+    usual = with_sampling(problem).usual
+    assert usual["sample_mean"] < 0.1
+    assert abs(usual["channel_delay"]) < 0.02 * period(problem)
 
 
 def test_averaged_and_point_samples_differ_most_at_jumps(runs: list[small.Run]) -> None:

@@ -8,9 +8,9 @@ import pytest
 from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.measurement.edges import with_edges, with_noise
 from twintube.diagnosis.measurement.history import bare_of_strokes, settled, sudden, with_history
+from twintube.diagnosis.problem import Problem
 from twintube.engine.simulate import simulate
 
 SPEEDS, STROKES = (0.3, 1.0), 6

@@ -7,10 +7,10 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.data import Record
-from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.measurement.edges import with_edges, with_noise
 from twintube.diagnosis.measurement.jitter import jitter, jittered, with_jitter
 from twintube.diagnosis.measurement.sampling import with_sampling
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.rules import RULES
 
 RATE = 128.0  # [Hz] of the logger

@@ -11,10 +11,10 @@ from twintube.arrays import Array
 from twintube.core import effects
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.fits.candidates import period, unfiltered, usual_delay
-from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.channels import period, unfiltered, usual_delay
 from twintube.diagnosis.measurement.edges import barely_cavitating, with_edges, with_noise
 from twintube.diagnosis.measurement.sampling import with_sampling
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.seen import SAMPLING
 from twintube.diagnosis.rules import RULES
 

@@ -9,9 +9,9 @@ from scipy.ndimage import uniform_filter1d
 from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.data import Record
-from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.measurement.edges import with_edges, with_noise
 from twintube.diagnosis.measurement.saturation import saturated
+from twintube.diagnosis.problem import Problem
 from twintube.engine.simulate import simulate
 from twintube.rig.signals import AMPLITUDE
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
 from scipy.stats import multivariate_normal
 from typer.testing import CliRunner
 
@@ -13,12 +14,12 @@ from tests.diagnosis import small
 from tests.evidence.specimen import own_law
 from twintube.cli import app
 from twintube.dampers import load
-from twintube.data import LoadedDataset, UnknownFillError
-from twintube.diagnosis import diagnose
-from twintube.evidence import StateAnswer, states
+from twintube.data import LoadedDataset, UnknownFillError, load_dataset
+from twintube.evidence import Answer, StateAnswer, states
 from twintube.evidence.memory import innovations, lagged
 from twintube.evidence.numbers import NUMBERS, listed
 from twintube.evidence.sizes import LARGEST, Sizes, log_weights
+from twintube.identification import identify_dataset
 
 
 def found(*runs: tuple[float, float], oil_level: float | None = None, gas_preload: bool | None = None) -> StateAnswer:
@@ -41,6 +42,11 @@ def test_oil_and_gas_that_are_missing_are_found(worn: StateAnswer) -> None:
     assert low <= small.DEGRADED <= high
     assert high - low <= 0.1
     assert worn.posterior.gas_lost > 0.95
+    found = Answer("small", load("SA8"), (), (worn,), None, (), False, None, 0.0)
+    row = found.to_dataframe().loc["1"]
+    assert row["low"] <= row["oil_level"] <= row["high"] and row["gas_lost"] > 0.95
+    assert found.plot().axes[0].get_xlabel() == "oil level [% of the intact volume]"
+    pyplot.close("all")
 
 
 def test_what_the_force_does_not_hold_stays_open() -> None:
@@ -82,7 +88,7 @@ def test_known_states_are_not_answered() -> None:
 
 
 def test_command(tmp_path: Path) -> None:
-    """The page and its JSON; a Python caller of `diagnose` is told where to go."""
+    """The page and its JSON; an identification asks for the fill."""
     run = small.run(0.6, small.DEGRADED)
     folder = tmp_path / "bench"
     folder.mkdir()
@@ -104,7 +110,7 @@ def test_command(tmp_path: Path) -> None:
     assert "% of its oil" in (tmp_path / "out/report.html").read_text(encoding="utf-8")
     assert (tmp_path / "out/state.png").stat().st_size > 0
     with pytest.raises(UnknownFillError, match=r"a\.csv: oil_level and gas_preload are unknown"):
-        diagnose(folder)
+        identify_dataset(load_dataset(folder))
 
 
 def test_innovations_are_the_density_of_noise_with_memory() -> None:

@@ -11,10 +11,9 @@ import pytest
 from tests.data.test_formats import MAPPING, REAL
 from twintube.dampers import Damper, load, to_toml
 from twintube.data import LoadedDataset, load_dataset
-from twintube.diagnosis.engine import diagnose
 from twintube.fitting.averaging import asked, averaging, through
 from twintube.fitting.prediction import predicted
-from twintube.identification import Harmonic, harmonic, identify_dataset
+from twintube.identification import Harmonic, harmonic
 from twintube.identification.sines import identify_sines
 
 # The labcontrol damper's gas pushes the rod out only if both signs are turned.
@@ -126,13 +125,3 @@ def test_the_smoothing_does_not_depend_on_the_signs(tmp_path: Path, source: str)
     else:
         assert [answer.share for answer in answers if answer] == pytest.approx([0.1] * 4, rel=0.03)
         assert len({(answer.seen, answer.of) for answer in answers if answer}) == 1
-
-
-@needs_real
-@pytest.mark.parametrize(("source", "verdict"), [("mr_maurel", "measurement_fault"), ("mr_labcontrol", "unexplained")])
-def test_diagnosis_of_real_dampers(tmp_path: Path, source: str, verdict: str) -> None:
-    identified = identify_dataset(measured(tmp_path, source, wide())).identification.damper
-    measured(tmp_path, source, identified)
-    answer = diagnose(tmp_path)
-    assert answer.verdict == verdict
-    assert ("force_averaging" in [cause.effect for cause in answer.causes]) == (source == "mr_maurel")

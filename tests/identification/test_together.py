@@ -64,7 +64,7 @@ def test_a_set_is_judged_by_the_effect_that_it_is_to_tell(error: float, word: st
     assert sentences[0].startswith("Usable for the full damper up to 0.5 m/s: error 10.0 N of 500 N")
     assert sentences[1].startswith(word)
     assert "down to 60% up to 1 m/s" in sentences[1]
-    assert "1 held-out record" in sentences[1]
+    assert "1 record that was not fitted" in sentences[1]
     assert ("2 % of the oil" in sentences[1]) == (error == 10.0)  # 40 % x 10 N of 200 N
 
 

@@ -85,10 +85,6 @@ class UnknownFillError(InputError):
     """A fill that nobody knows stands where a known one is needed."""
 
 
-class ReferenceGivenError(InputError):
-    """Records are a reference where none is asked for."""
-
-
 def has_reference(records: Iterable[Record]) -> bool:
     """Whether some records, or parts of them, show the damper as it was, and others do not."""
     some = list(records)

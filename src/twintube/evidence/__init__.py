@@ -14,6 +14,6 @@ heldout        what a cause is worth on records that it was not fitted to
 answer         from a dataset to its answer; contract: diagnosis.json
 """
 
-from twintube.evidence.answer import Answer, StateAnswer, answer, states
+from twintube.evidence.answer import Answer, StateAnswer, answer, diagnose, states
 
-__all__ = ["Answer", "StateAnswer", "answer", "states"]
+__all__ = ["Answer", "StateAnswer", "answer", "diagnose", "states"]

@@ -1,9 +1,12 @@
 """From a dataset to its answer: the states of filling, and what has happened since the reference."""
 
+from __future__ import annotations
+
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +15,30 @@ from threadpoolctl import threadpool_limits
 from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset, Record, has_reference
+from twintube.diagnosis.measurement.faults import Fault, read
+from twintube.diagnosis.put_right import Measured, put_right
 from twintube.diagnosis.records.prepare import prepare
+from twintube.diagnosis.rules import RULES
 from twintube.evidence.bench import Bench
 from twintube.evidence.changes import NONE, STATE, UNKNOWN, Changes, Hypothesis, changes
-from twintube.evidence.heldout import HeldOut, held_out
+from twintube.evidence.heldout import HeldOut, contradicted, held_out
+from twintube.evidence.numbers import NUMBERS
 from twintube.evidence.search import Found
+from twintube.evidence.sizes import Sizes, chance_of_more
 from twintube.evidence.state import Stated, StatePosterior, state
+from twintube.showing import picture, table
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 Progress = Callable[[str], None]
+
+
+def silent(step: str) -> None:
+    """Tell nobody what is being done."""
+
+
 VERDICTS = {NONE: "none", STATE: "state", UNKNOWN: "unexplained", "effect": "cause", "fault": "measurement_fault"}
 
 
@@ -43,16 +62,29 @@ class StateAnswer:
             "gas_lost": round(p.gas_lost, 6),
         }
 
+    def row(self) -> dict[str, Any]:
+        """The row in a table of all states."""
+        low, high = self.posterior.interval()
+        level, lost = self.posterior.level, self.posterior.gas_lost
+        return {"state": self.state, "records": len(self.records), "oil_level": level, "low": low, "high": high,
+                "gas_lost": lost}  # fmt: skip
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Answer:
-    """What the records say of a damper."""
+    """What the records say of a damper: its states of filling, and what has happened since a reference.
 
+    `to_dataframe()` and `plot()` show the probabilities.
+    """
+
+    title: str
     damper: Damper
     records: tuple[Record, ...]
     states: tuple[StateAnswer, ...]
-    changes: Changes | None  # None without a reference
+    changes: Changes | None  # None where nothing but the fill was sought
     held_out: tuple[HeldOut, ...]
+    compared: bool  # with a reference
+    measured: Measured | None  # None where the bench was not looked at
     seconds: float
 
     @property
@@ -60,18 +92,48 @@ class Answer:
         """One word, as the contract of diagnosis.json has it."""
         if self.changes is None:
             return "state"
-        several = self.changes.credible
-        return VERDICTS[self.changes.hypotheses[0].kind] if len(several) == 1 else "ambiguous"
+        if self.unexplained:
+            return "unexplained"
+        if len(self.named) > 1:
+            return "ambiguous"
+        first = self.changes.hypotheses[0]
+        if first.kind == NONE and self.faults:
+            return "measurement_fault"
+        return VERDICTS[first.kind]
+
+    @property
+    def faults(self) -> tuple[Fault, ...]:
+        """Faults of the bench that were put right before anything was judged."""
+        return () if self.measured is None else self.measured.faults
 
     @property
     def named(self) -> tuple[Hypothesis, ...]:
-        """The hypotheses that hold 90 % together."""
-        return () if self.changes is None else self.changes.hypotheses[: len(self.changes.credible)]
+        """The hypotheses that hold 90 % together, and `none` where records that were left out contradict the only one."""
+        if self.changes is None:
+            return ()
+        several = self.changes.hypotheses
+        some = several[: len(self.changes.credible)]
+        return (*some, *(h for h in several if h.kind == NONE)) if contradicted(self.held_out) else some
 
     @property
     def cause(self) -> Found | None:
         """The most probable mechanism, where it is the answer or one of several."""
         return next((h.found for h in self.named if h.found is not None), None)
+
+    @property
+    def unexplained(self) -> str:
+        """Why even the most probable hypothesis is no answer, in a sentence; empty where it is one."""
+        if self.changes is None or self.compared:
+            return ""
+        first, search = self.changes.hypotheses[0], self.changes.search
+        if first.kind == UNKNOWN:
+            return ""
+        sizes = first.found.evidence.sizes if first.found is not None else search.none.sizes
+        if first.kind == STATE:
+            sizes = min(self.states, key=lambda one: one.posterior.as_stated).posterior.evidence.sizes
+        force = first.found.force if first.found is not None else search.base
+        outside = seen_outside(self.measured, search.bench, force) if self.measured is not None else ""
+        return outside or beyond(sizes, self.damper.name)
 
     @property
     def extended(self) -> Damper | None:
@@ -82,7 +144,58 @@ class Answer:
         values = {**self.changes.search.bench.usual, **cause.values}
         values = {n: x for n, x in values.items() if hasattr(self.damper.parameters, n)}
         changed = replace(self.damper.with_(**values), name=f"{self.damper.name}-extended")
-        return replace(changed, sources=dict(self.damper.sources) | {cause.mechanism.effect: "added by diagnosis"})
+        origin = dict.fromkeys(cause.mechanism.effect.split("+"), "added by diagnosis")
+        return replace(changed, sources=dict(self.damper.sources) | origin)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """A row for each hypothesis with its probability; without a reference a row for each state of filling.
+
+        A state has its most probable oil level, from `low` to `high` with 90 %, and the probability that the gas is lost.
+        Raises UserError where pandas is not installed.
+        """
+        if self.changes is not None:
+            several = self.changes.hypotheses
+            rows = [{"name": h.name, "kind": h.kind, "probability": h.probability} for h in several]
+            return table(rows, index="name")
+        return table([one.row() for one in self.states], index="state")
+
+    def plot(self) -> Figure:
+        """Draw the probabilities as a figure of pyplot."""
+        return picture(self)
+
+    def __repr__(self) -> str:
+        rest = "" if self.changes is None else ": " + ", ".join(f"{h.name} ({h.probability:.0%})" for h in self.named)
+        return f"<Answer about {self.damper.name} from {len(self.records)} records: {self.verdict}{rest}>"
+
+
+def beyond(sizes: Sizes, damper: str) -> str:
+    """Which error of the model is larger than one may be, in a sentence; empty where none is."""
+    n = NUMBERS
+    law, own, lasting = (
+        chance_of_more(grid, at, scale) < n.implausible
+        for grid, at, scale in (
+            (n.law_sizes, sizes.law_at, n.law_usual),
+            (n.own_sizes, sizes.own_at, n.own_usual),
+            (n.lasting_sizes, sizes.lasting_at, n.lasting_usual),
+        )
+    )
+    if law:
+        off = f"the forces are some {100 * sizes.law:.0f} % off those of {damper}"
+        return f"{off}: identify this damper first (twintube identify)"
+    if own or lasting:
+        return "what is left comes and goes in a way that no cause of the catalogue has"
+    return ""
+
+
+def seen_outside(measured: Measured, bench: Bench, force: Array) -> str:
+    """What the records show of a cause outside the catalogue beside forces (n,) [N] of a model; empty where too little.
+
+    What repeats in every oscillation is no cause where the error is noise.
+    """
+    left = float(np.sqrt(np.mean((bench.measured - force)[bench.used] ** 2)))
+    quiet = left <= RULES.quiet * float(np.sqrt(np.mean(bench.sigma[bench.used] ** 2)))
+    several = [s for s in measured.seen if s.size > RULES.shows * left and not (s.repeats and quiet)]
+    return several[0].text if several else ""
 
 
 def fillings(records: list[Record]) -> Iterator[list[Record]]:
@@ -91,12 +204,13 @@ def fillings(records: list[Record]) -> Iterator[list[Record]]:
         yield [record for record in records if record.state == label]
 
 
-def states(dataset: LoadedDataset, progress: Progress = lambda text: None) -> list[StateAnswer]:
+def states(dataset: LoadedDataset, progress: Progress | None = None) -> list[StateAnswer]:
     """Every state of filling of a dataset that is not stated; `progress` is told what is being done.
 
     Records of stated fills stand beside it: the damper's own law is the same in them. Raises InputError where a stroke
     leaves the tube.
     """
+    progress = progress or silent
     with threadpool_limits(1):  # several states are compared at once; more threads would wait for each other
         answers = []
         for own in fillings(dataset.records):
@@ -117,39 +231,103 @@ def state_of(bench: Bench, records: list[Record], own: list[Record], progress: P
     return StateAnswer(own[0].state, names, stated, state(bench, which, stated, progress))
 
 
-def answer(dataset: LoadedDataset, progress: Progress = lambda text: None) -> Answer:
-    """The states of filling, and what has happened since the reference.
+def diagnose(path: str | Path, progress: Progress | None = None) -> Answer:
+    """Read a dataset folder and answer, see `answer`.
 
-    Without a reference, or where every record is one, it is what the model lacks; where a fill is unknown, too, its state is
-    all that is sought. Raises InputError where a stroke leaves the tube.
+    Raises DataError with all defects of the records, and InputError where a stroke leaves the tube.
     """
-    began = time.monotonic()
-    records = list(dataset.records)
-    compared = has_reference(records)
-    if not compared and any(record.unknown for record in records):
-        found = states(dataset, progress)
-        return Answer(dataset.damper, tuple(records), tuple(found), None, (), time.monotonic() - began)
+    progress = progress or silent
+    progress("reading the records")
+    dataset, turned = read(path)
+    return answer(dataset, progress, turned)
+
+
+def answer(dataset: LoadedDataset, progress: Progress | None = None, turned: Fault | None = None) -> Answer:
+    """The states of filling, and what has happened since the reference, or what the model lacks where there is none.
+
+    Where a fill is unknown and no record is a reference, its state is all that is sought. `turned` is what was put right
+    when the records were read. Raises InputError where a stroke leaves the tube.
+    """
+    began, progress = time.monotonic(), progress or silent
+    if not has_reference(dataset.records) and any(record.unknown for record in dataset.records):
+        found = tuple(states(dataset, progress))
+        return Answer(
+            dataset.title, dataset.damper, tuple(dataset.records), found, None, (), False, None, time.monotonic() - began
+        )
     with threadpool_limits(1):
-        bench = Bench(dataset.damper, prepare(dataset))
-        several = []
-        # A reference is as its file says; what is unknown of it is found first.
-        for own in sorted(fillings(records), key=lambda own: not own[0].reference):
-            if compared and own[0].reference and not own[0].unknown:
-                continue
-            one = state_of(bench, records, own, progress)
-            several.append(one)
-            which = np.array([record.state == own[0].state for record in records])
-            bench.in_state(which, *one.posterior.best)
-        later = {record.name for record in records if not (compared and record.reference)}
-        told = [one.posterior for one in several if one.stated.anything and one.records[0] in later]
-        times = zip(records, bench.records, strict=True)
-        acting = np.concatenate([~in_reference(record, r.time) | (not compared) for record, r in times])
-        result = changes(bench, acting, told, progress)
-        progress("predicting records that were left out")
-        alone = result.hypotheses[0].found if len(result.credible) == 1 else None
-        left_out = held_out(result, alone)
-        bench.threads.shutdown()
-    return Answer(dataset.damper, tuple(records), tuple(several), result, tuple(left_out), time.monotonic() - began)
+        if has_reference(dataset.records):
+            known = compared_with_reference(dataset, progress)
+        else:
+            measured = put_right(dataset, turned, progress)
+            # What looks odd may be a cause that acts in few records: it is odd where no cause explains all of them.
+            every = lacking(dataset, measured.whole, progress) if measured.whole is not None else None
+            known = lacking(dataset, measured, progress) if every is None or not explains(every) else every
+    return replace(known, seconds=time.monotonic() - began)
+
+
+def explains(answer: Answer) -> bool:
+    """Whether an answer names causes of the damper that explain the records."""
+    return not answer.unexplained and all(h.kind == "effect" for h in answer.named)
+
+
+def compared_with_reference(dataset: LoadedDataset, progress: Progress) -> Answer:
+    """What has happened since the reference."""
+    bench = Bench(dataset.damper, prepare(dataset))
+    several = []
+    # A reference is as its file says; what is unknown of it is found first.
+    for own in sorted(fillings(dataset.records), key=lambda own: not own[0].reference):
+        if own[0].reference and not own[0].unknown:
+            continue
+        several.append(state_of(bench, dataset.records, own, progress))
+        which = np.array([record.state == own[0].state for record in dataset.records])
+        bench.in_state(which, *several[-1].posterior.best)
+    times = zip(dataset.records, bench.records, strict=True)
+    acting = np.concatenate([~in_reference(record, r.time) for record, r in times])
+    later = {record.name for record in dataset.records if not record.reference}
+    told = [one for one in several if one.records[0] in later]
+    return concluded(dataset, dataset.records, bench, acting, several, told, None, progress)
+
+
+def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress) -> Answer:
+    """What the model lacks, in records without the faults of their bench."""
+    known = measured.problem
+    bench = Bench(known.given, known.records, known.usual, known.drift)
+    records = [record for record in dataset.records if record.name not in measured.odd]
+    several = [state_of(bench, records, own, progress) for own in fillings(records)]
+    for one in several:
+        if one.posterior.as_stated < 0.5:
+            bench.in_state(np.array([record.state == one.state for record in records]), *one.posterior.best)
+    acting = np.ones(len(bench.z), dtype=bool)
+    return concluded(dataset, records, bench, acting, several, several, measured, progress)
+
+
+def concluded(
+    dataset: LoadedDataset,
+    records: Sequence[Record],
+    bench: Bench,
+    acting: Array,
+    several: Sequence[StateAnswer],
+    told: Sequence[StateAnswer],
+    measured: Measured | None,
+    progress: Progress,
+) -> Answer:
+    """The probability of everything in the samples `acting` (n,), where the states `told` may be others than stated."""
+    result = changes(bench, acting, [one.posterior for one in told if one.stated.anything], progress)
+    progress("predicting records that were left out")
+    alone = result.hypotheses[0].found if len(result.credible) == 1 else None
+    left_out = held_out(result, alone)
+    bench.threads.shutdown()
+    return Answer(
+        dataset.title,
+        dataset.damper,
+        tuple(records),
+        tuple(several),
+        result,
+        tuple(left_out),
+        measured is None,
+        measured,
+        0.0,
+    )
 
 
 def in_reference(record: Record, time: Array) -> NDArray[np.bool_]:

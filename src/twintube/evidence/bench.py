@@ -11,7 +11,7 @@ from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.diagnosis.records.noise import colour, noise
 from twintube.diagnosis.records.record import PreparedRecord
-from twintube.diagnosis.records.seen import REMEMBERED, SeenRecords
+from twintube.diagnosis.records.seen import BENDS, DELAY, REMEMBERED, SeenRecords
 from twintube.evidence.discrepancy import Discrepancy, degraded, discrepancy
 from twintube.evidence.numbers import NUMBERS
 
@@ -21,20 +21,33 @@ LATEST = [2, 5]  # columns of `degraded` in which a loss comes latest
 ALIKE = 0.05  # logarithm of the ratio of strokes, and of speeds, up to which two motions are one
 REPEATING = ("harmonic", "quasi-static")  # motions whose oscillations are alike
 PHASES = 32  # of an oscillation
+WHOLE = 0.9  # of the samples of the longest oscillation, above which one is whole; numerics
 MORE = 0.2  # numerics of a derivative
+CHANNELS = 7  # contributions of the measuring channels to a single record, the first of its own ones
+UNIFORM = 12.0**-0.5  # standard deviation of what lies anywhere within 1
 TURN = 0.01  # [m/s] speed at which friction has turned
 
 
 class Bench(SeenRecords):
     """The records of a dataset, simulated, and the contributions to their forces."""
 
-    def __init__(self, damper: Damper, records: Sequence[PreparedRecord], usual: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self,
+        damper: Damper,
+        records: Sequence[PreparedRecord],
+        usual: Mapping[str, float] | None = None,
+        drift: float = 0.0,
+    ) -> None:
+        """`drift` [N] is how far the zero of the load cell was seen to differ from record to record."""
         super().__init__(damper, records, usual)
         self.measured = np.concatenate([r.force for r in records])
         self.peak = max(r.peak for r in records)
+        # A sample is taken anywhere within its interval.
+        self.delayed = float(np.hypot(NUMBERS.late, UNIFORM * np.median([r.period for r in records])))
+        self.zero = max(NUMBERS.zero * self.peak, drift)
         self.slices = [slice(a, b) for a, b in zip(self.starts[:-1], self.starts[1:], strict=True)]
         self.noisy(np.concatenate([r.noise for r in records]))
-        self.fulls: dict[bytes, tuple[Array, Array]] = {}
+        self.fulls: dict[bytes, tuple[Array, Array, Array]] = {}
         self.law: Discrepancy = discrepancy(self.v, float(np.abs(self.z).max()), FLOOR * self.peak)
         p = self.damper.parameters
         rebound, compression = (np.interp(s * self.v, (0.0, *v), (0.0, *f)) for s, v, f in (
@@ -66,16 +79,25 @@ class Bench(SeenRecords):
         """Forces (n,) [N] of the records in other states (r, 4), measurement included."""
         return self.observed(*self.simulate(self.damping({}), states), {})
 
-    def full(self, states: Array) -> tuple[Array, Array]:
-        """Forces and friction in them (n,) [N] with all of the oil and the preload of the states (r, 4)."""
+    def full(self, states: Array) -> tuple[Array, Array, Array]:
+        """Forces and friction in them (n,) [N] with all oil and the preload of states (r, 4), and what channels may change.
+
+        These contributions (n, 5) [N] are a delay by a part of a sample, a mean instead of a point, and three bends.
+        """
         key = states[:, 1].tobytes()
         if key not in self.fulls:
             filled = states.copy()
             filled[:, 0] = 1.0
             rows = self.rows()
             rows[0]["F_FrS"] *= 1.0 + MORE
-            force = self.with_states(filled)
-            self.fulls[key] = force, (self.sampled(rows, (), None, filled)[1] - force) / MORE
+            mean, point = self.simulate(self.damping({}), filled)
+            force = self.observed(mean, point, {})
+            friction = (self.sampled(rows, (), None, filled)[1] - force) / MORE
+            now, by = self.usual.get(DELAY, 0.0), self.delayed
+            late, early = (self.observed(*self.simulate(self.damping({DELAY: now + x}), filled), {}) for x in (by, -by))
+            parts = self.parts_of_samples(mean, point)
+            sampling = [UNIFORM * parts["sample_mean"], *(NUMBERS.filtered * parts[name] for name in BENDS)]
+            self.fulls[key] = force, friction, np.column_stack([0.5 * (late - early), *sampling])
         return self.fulls[key]
 
     def loss(self, states: Array) -> Array:
@@ -89,6 +111,16 @@ class Bench(SeenRecords):
         p = self.damper.parameters
         preload = np.repeat(states[:, 1] * states[:, 2], np.diff(self.starts))
         return np.asarray(force - preload * (p.c_gas * self.z - p.F_0) - friction)
+
+    def once(self) -> NDArray[np.bool_]:
+        """What is compared (n,) of one oscillation of each record that repeats, its last whole one, and of all others."""
+        out = self.used.copy()
+        for record, at in zip(self.records, self.slices, strict=True):
+            inside = self.used[at] & (record.cycle >= 0)
+            if record.measurement in REPEATING and inside.any():
+                count = np.bincount(record.cycle[inside])
+                out[at] = inside & (record.cycle == np.flatnonzero(count > WHOLE * count.max())[-1])
+        return out
 
     def motions(self) -> list[list[int]]:
         """The records of each motion: what a model gets wrong in one it gets wrong in another like it."""
@@ -117,7 +149,7 @@ class Bench(SeenRecords):
     def contributions(self, states: Array) -> list[tuple[Array, Array, Array]]:
         """For each record shared (n, k) and own (n, m) contributions of size one [N], and those of what lasts (n,) [N]."""
         # All but the loss is that of the full damper: levels that do not differ in it are alike to the last digit.
-        (whole, friction), loss = self.full(states), self.loss(states)
+        (whole, friction, channels), loss = self.full(states), self.loss(states)
         fluid = self.fluid(whole + loss, friction, states)
         turn = np.clip(1.0 - np.abs(loss) / np.maximum(self.intact, TURNED * self.peak), 0.0, 1.0)
         p = self.damper.parameters
@@ -126,7 +158,6 @@ class Bench(SeenRecords):
         for at in self.slices:
             z, v = (0.5 * (x[at] + np.concatenate([x[at][:1], x[at][:-1]])) for x in (self.z, self.v))
             F, along = (whole + loss)[at], z / self.law.span
-            rate = np.gradient(F, self.t[at])
             law = self.law.columns(z, v, fluid[at], self.t[at], turn[at])
             one, rubbing = np.ones_like(F), np.tanh(v / TURN)
             rub = rubs / p.F_FrS * friction[at]
@@ -135,13 +166,14 @@ class Bench(SeenRecords):
             lost = degraded(self.z[at], v, loss[at])
             still = np.column_stack([rub, rub * along, rub * (1.5 * along**2 - 0.5), gas, lost])
             n = NUMBERS
-            zero = n.zero * self.peak
-            bend = np.gradient(rate, self.t[at]) * np.median(np.diff(self.t[at])) ** 2
+            zero = self.zero
             # Oil and load cell get warm within a record.
             passed = (self.elapsed[at] - 0.5 * self.elapsed[at].max()) / max(1e-9, 0.5 * self.elapsed[at].max())
             warm = [n.begun * fluid[at], n.begun * fluid[at] * passed, zero * passed]
-            others = [zero * along, n.filtered * bend, zero * rubbing]
-            bench = np.column_stack([zero * one, n.gain * F, n.late * rate, *warm, *others])
+            others = [zero * along, zero * rubbing]
+            channel = channels[at].copy()
+            channel[:, 0] += self.delayed * np.gradient(loss[at], self.t[at])
+            bench = np.column_stack([zero * one, n.gain * F, channel, *warm, *others])
             # Steps of the state itself apart, how steep the force is does not depend on the state.
             lasts = np.hypot(self.intact[at], FLOOR * self.peak) + n.timed * np.abs(np.gradient(whole[at], self.t[at]))
             lasts += n.placed * np.abs(lost[:, LATEST]).sum(axis=1)

@@ -5,20 +5,24 @@ change of the model's error. All others are mechanisms. The verdict follows from
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import comb
 
 import numpy as np
+from scipy.optimize import lsq_linear
+from scipy.stats import norm
 
 from twintube.arrays import Array
 from twintube.evidence.base import Base
-from twintube.evidence.bench import Bench
-from twintube.evidence.mechanisms import Mechanism, effects, faults
+from twintube.evidence.bench import CHANNELS, Bench
+from twintube.evidence.mechanisms import Mechanism, both, effects, faults, unit_of
 from twintube.evidence.numbers import NUMBERS
 from twintube.evidence.search import Found, Search
 from twintube.evidence.state import StatePosterior
 
 NONE, STATE, UNKNOWN = "none", "state", "unknown"
 MOST = 6  # mechanisms of a base
+PAIRED = 5  # the most likely mechanisms, of which two may act at once
 WORTH = 1.0  # logarithm of the odds from which a change is compared with what always acts; numerics
 
 
@@ -51,7 +55,8 @@ class Changes:
 def mechanisms(bench: Bench) -> list[Mechanism]:
     """Everything in the catalogue."""
     longest = max(float(np.ptp(r.time)) for r in bench.records)
-    return [*effects(), *faults(bench.peak, longest)]
+    reach = max(float(np.abs(r.stroke).max()) for r in bench.records)
+    return [*effects(reach), *faults(bench.peak, longest)]
 
 
 def changes(
@@ -83,12 +88,16 @@ def changes(
     if stated:
         evidence[STATE] = float(-sum(s.log_odds_stated for s in stated))
     slight = {m: slightly(search, f) for m, f in found.items()}
+    singles = list(names)
+    for f in two_at_once(search, [f for m, f in found.items() if not slight[m]], progress):
+        found[f.mechanism], slight[f.mechanism] = f, False
+        names.append(f.mechanism.effect)
     for name in names:
         some = [weight(f) for m, f in found.items() if m.effect == name and not slight[m]]
         evidence[name] = float(np.logaddexp.reduce(some, initial=-np.inf)) - search.none.log_z
-    prior = priors(names, list(evidence))
+    prior = priors(singles, list(evidence))
     log_p = {name: z + float(np.log(prior[name])) for name, z in evidence.items()}
-    # What is too slight for the load cell is nothing.
+    # What is too slight for the channels is nothing.
     nothing = [weight(f) - search.none.log_z + np.log(prior[m.effect]) for m, f in found.items() if slight[m]]
     log_p[NONE] = float(np.logaddexp.reduce([log_p[NONE], *nothing]))
     total = float(np.logaddexp.reduce(list(log_p.values())))
@@ -112,10 +121,58 @@ def searched(
     return out
 
 
+def two_at_once(search: Search, several: Sequence[Found], progress: Callable[[str], None]) -> list[Found]:
+    """The most likely mechanism together with each of the next, of other effects."""
+    best: dict[str, Found] = {}
+    for f in sorted(several, key=weight, reverse=True):
+        if f.log_z > search.none.log_z + WORTH:
+            best.setdefault(f.mechanism.effect, f)
+    likely = list(best.values())[:PAIRED]
+    out = []
+    for first, f in ((likely[0], f) for f in likely[1:]):
+        if {*first.values} & {*f.values}:
+            continue
+        progress(f"two causes: {first.mechanism.effect}+{f.mechanism.effect}")
+        start = replace(first, at=np.concatenate([first.at, f.at]))
+        pair = search.found(both(first.mechanism, f.mechanism), start)
+        if apart(search, pair, len(first.at)):
+            out.append(pair)
+    return out
+
+
+def apart(search: Search, pair: Found, k: int) -> bool:
+    """Whether each of two causes, the first of which has `k` strengths, does more than the law of the other may be off."""
+    a, b = pair.mechanism.parts
+    alone = [rms(search, search.force(m.about(search.bench.usual), u)) for m, u in ((a, pair.at[:k]), (b, pair.at[k:]))]
+    return min(alone) > NUMBERS.law_of_cause * max(alone)
+
+
+def rms(search: Search, force: Array) -> float:
+    """Root mean square [N] of what forces (n,) [N] differ by where something may have happened."""
+    return float(np.sqrt(np.mean((force - search.base)[search.acting & search.bench.used] ** 2)))
+
+
 def slightly(search: Search, found: Found) -> bool:
-    """Whether the force that a mechanism changes, RMS, is below the zero of the load cell."""
-    change = (found.force - search.base)[search.acting & search.bench.used]
-    return bool(np.sqrt(np.mean(change**2)) < NUMBERS.zero * search.bench.peak)
+    """Whether a mechanism does no more than the zero of a load cell, apart from what good channels do by themselves."""
+    bench, rest = search.bench, found.force - search.base
+    least = NUMBERS.zero * bench.peak
+    if rms(search, found.force) < least or shorter(found, float(np.median([r.period for r in bench.records]))):
+        return True
+    several = bench.contributions(bench.states)
+    usual = float(norm.ppf(0.5 + 0.5 * NUMBERS.credible))  # standard deviations
+    for at, (_, own, _) in zip(bench.slices, several, strict=True):
+        rows = at.start + np.flatnonzero((search.acting & bench.used)[at])
+        if len(rows) > CHANNELS and np.any(rest[rows]):
+            columns = own[rows - at.start, :CHANNELS]
+            rest[rows] -= columns @ lsq_linear(columns, rest[rows], (-usual, usual)).x
+    return rms(search, search.base + rest) < least
+
+
+def shorter(found: Found, period: float) -> bool:
+    """Whether a mechanism makes the force late by less than a sample [s]: what a channel does within one nobody knows."""
+    strengths = [s for s in found.mechanism.strengths if s.kind in ("half", "normal")]
+    times = [abs(found.values[s.name]) for s in strengths if unit_of(s.name) == "s"]
+    return len(times) == len(strengths) and max(times) < period
 
 
 def weight(found: Found) -> float:
@@ -137,8 +194,10 @@ def free(search: Search) -> float:
 
 
 def priors(names: Sequence[str], asked: Sequence[str]) -> dict[str, float]:
-    """Prior probability of each hypothesis."""
+    """Prior probability of each hypothesis; `names` are single mechanisms, others that are not known are two of them."""
     n = NUMBERS
     out = {NONE: n.unchanged, UNKNOWN: n.other, STATE: n.misstated}
     rest = 1.0 - sum(out.values())
-    return {name: out.get(name, rest / len(names)) for name in asked}
+    one = (1.0 - n.two) * rest / len(names)
+    two = n.two * rest / comb(len(names), 2)
+    return {name: out.get(name, one if name in names else two) for name in asked}

@@ -4,9 +4,12 @@ from typing import Any
 
 import numpy as np
 
+from twintube.diagnosis.measurement.faults import Fault
 from twintube.evidence.answer import Answer
-from twintube.evidence.changes import Hypothesis
+from twintube.evidence.changes import NONE, Hypothesis
 from twintube.evidence.heldout import HeldOut
+from twintube.evidence.mechanisms import Mechanism
+from twintube.evidence.search import Found
 
 HALF = 1.645  # standard deviations of half a 90 % interval
 
@@ -15,37 +18,67 @@ def as_json(answer: Answer) -> dict[str, Any]:
     """The contents of diagnosis.json."""
     content: dict[str, Any] = {"verdict": answer.verdict, "state": [one.as_json() for one in answer.states]}
     if answer.changes is not None:
-        several = answer.changes.hypotheses
+        several = [(name_of(h, answer.faults), h) for h in answer.changes.hypotheses]
+        found = [] if answer.verdict == "unexplained" else [h.found for h in answer.named if h.found]
         content |= {
-            "hypotheses": [entry(h) for h in several],
-            "probabilities": {h.name: h.probability for h in several},
-            "credible_set": list(answer.changes.credible),
-            "causes": [cause(h, answer.held_out) for h in answer.named if h.found is not None],
+            "compared_with_reference": answer.compared,
+            "unexplained": answer.unexplained,
+            "hypotheses": [entry(name, h) for name, h in several],
+            "probabilities": {name: h.probability for name, h in several},
+            "credible_set": [name_of(h, answer.faults) for h in answer.named],
+            "causes": [
+                *map(faulty, answer.faults),
+                *(c for f in found for c in causes(f, answer.held_out)),
+            ],
             "always": [m.effect for m in answer.changes.base],
+            "left_out": list(answer.measured.odd) if answer.measured is not None else [],
             "held_out": [vars(h) for h in answer.held_out],
+            "remarks": list(answer.measured.remarks) if answer.measured is not None else [],
         }
     return content | {"seconds": round(answer.seconds, 1)}
 
 
-def entry(h: Hypothesis) -> dict[str, Any]:
+def name_of(h: Hypothesis, faults: tuple[Fault, ...]) -> str:
+    """The name of a hypothesis; nothing beside faults that were put right has theirs."""
+    return "+".join(dict.fromkeys(fault.effect for fault in faults)) if h.kind == NONE and faults else h.name
+
+
+def entry(name: str, h: Hypothesis) -> dict[str, Any]:
     """A hypothesis."""
     log_evidence = round(h.log_evidence, 3) if np.isfinite(h.log_evidence) else None  # too slight to be told from nothing
-    return {"name": h.name, "kind": h.kind, "probability": h.probability, "log_evidence": log_evidence}
+    return {"name": name, "kind": h.kind, "probability": h.probability, "log_evidence": log_evidence}
 
 
-def cause(h: Hypothesis, held_out: tuple[HeldOut, ...]) -> dict[str, Any]:
-    """A mechanism with its strengths, and what it is worth where it was not fitted."""
-    assert h.found is not None
-    values = {
-        n: {"value": x, "interval": [x - HALF * h.found.spread[n], x + HALF * h.found.spread[n]]}
-        for n, x in h.found.values.items()
-    }
+def faulty(fault: Fault) -> dict[str, Any]:
+    """A fault that was put right."""
+    low, high = fault.factor - fault.spread, fault.factor + fault.spread
+    value = {"value": fault.factor, "interval": [low, high], "unit": fault.unit}
+    return {"effect": fault.effect, "put_right": True, "text": fault.explanation, "parameters": {fault.name: value}}
+
+
+def causes(found: Found, held_out: tuple[HeldOut, ...]) -> list[dict[str, Any]]:
+    """A mechanism, or the two that act at once, with strengths and what is gained where they were not fitted."""
+    gain = gained(held_out)
+    parts = found.mechanism.parts or (found.mechanism,)
+    return [cause(part, found) | ({"gain": {"heldout": gain}} if gain is not None else {}) for part in parts]
+
+
+def cause(m: Mechanism, found: Found) -> dict[str, Any]:
+    """A mechanism with its strengths."""
+    values = {}
+    for s in m.strengths:
+        x, half = found.values[s.name], HALF * found.spread[s.name]
+        values[s.name] = {"value": x, "interval": [x - half, x + half]}
+    return {"effect": m.effect, "way": m.way, "parameters": values}
+
+
+def gained(held_out: tuple[HeldOut, ...]) -> float | None:
+    """Share of the squared error above the noise that goes away on records that a cause was not fitted to."""
     known = [one for one in held_out if one.with_cause is not None]
-    content: dict[str, Any] = {"effect": h.name, "way": h.found.mechanism.way, "parameters": values}
-    if known:
-        base, extended, noise = (
-            float(np.mean(np.square(x)))
-            for x in zip(*((one.without, one.with_cause or 0.0, one.noise) for one in known), strict=True)
-        )
-        content["gain"] = {"heldout": (base - extended) / (base - noise) if base > noise else 0.0}
-    return content
+    if not known:
+        return None
+    base, extended, noise = (
+        float(np.mean(np.square(x)))
+        for x in zip(*((one.without, one.with_cause or 0.0, one.noise) for one in known), strict=True)
+    )
+    return (base - extended) / (base - noise) if base > noise else 0.0

@@ -23,7 +23,7 @@ from twintube.evidence.numbers import NUMBERS
 from twintube.evidence.sizes import LARGEST, USUAL, Sizes
 
 STILL = 11  # shared columns of friction, gas and degradation, before those of D
-BENCH = 9  # own columns of the bench, before those of a record's own error
+BENCH = 12  # own columns of the bench, before those of a record's own error
 LASTS = 6.0  # intervals that an error lasts: an eighth of an oscillation
 
 
@@ -76,9 +76,19 @@ class Part:
 class Frame:
     """The Gaussian contributions to some records, for simulations near a given one."""
 
-    def __init__(self, bench: Bench, states: Array, steps: Array | None = None, more: Array | None = None) -> None:
-        """Contributions in some states (r, 4); `steps` (n,) [N] is more noise, `more` (n, p) [N] are further shared ones."""
-        self.bench = bench
+    def __init__(
+        self,
+        bench: Bench,
+        states: Array,
+        steps: Array | None = None,
+        more: Array | None = None,
+        used: NDArray[np.bool_] | None = None,
+    ) -> None:
+        """Contributions in some states (r, 4); `steps` (n,) [N] is more noise, `more` (n, p) [N] are further shared ones.
+
+        Only the samples `used` (n,) are compared, if given.
+        """
+        self.bench, self.used = bench, bench.used if used is None else used
         several = bench.contributions(states)
         more = np.zeros((len(bench.z), 0)) if more is None else more
         noise = bench.sigma if steps is None else np.hypot(bench.sigma, steps)
@@ -89,7 +99,7 @@ class Frame:
 
     def part(self, group: list[int], several: list[tuple[Array, Array, Array]], noise: Array, more: Array) -> Part:
         """The records of one motion."""
-        uses = [np.flatnonzero(self.bench.used[self.bench.slices[i]]) for i in group]
+        uses = [np.flatnonzero(self.used[self.bench.slices[i]]) for i in group]
         rows = np.concatenate([self.bench.slices[i].start + use for i, use in zip(group, uses, strict=True)])
         own = block_diag(*(several[i][1][use] for i, use in zip(group, uses, strict=True)))
         shared, lasts, repeating = (

@@ -73,6 +73,7 @@ class Mechanism:
     kind: str  # effect | fault
     strengths: tuple[Strength, ...]
     log_odds: float = 0.0
+    parts: tuple["Mechanism", ...] = ()  # where two act at once
 
     @property
     def ends(self) -> tuple[Array, Array]:
@@ -96,18 +97,35 @@ STRENGTHS: dict[str, dict[str, dict[str, dict[str, Any]]]] = tomllib.loads(
 )
 
 
-def effects() -> list[Mechanism]:
-    """The mechanisms of all effects."""
+UNITS_OF_FAULTS = {
+    "force_offset": "N", "force_gain": "1", "channel_delay": "s", "stroke_gain": "1", "time_base": "1", "zero_drift": "N/s",
+    "clock_error": "1", "clamp_inertia": "kg",
+}  # fmt: skip
+
+
+def unit_of(name: str) -> str:
+    """The unit of a strength."""
+    return str(META[name]["unit"]) if name in META else UNITS_OF_FAULTS[name]
+
+
+def effects(reach: float) -> list[Mechanism]:
+    """The mechanisms of all effects in records that reach a stroke [m]: places beyond it would do nothing."""
     out = []
     for effect, ways in STRENGTHS.items():
         for way, several in ways.items():
             strengths = tuple(
-                Strength(name, known["prior"], known.get("scale", 0.0), meta["default"], meta["lower"], meta["upper"])
+                Strength(name, known["prior"], known.get("scale", 0.0), meta["default"], *ends(known["prior"], meta, reach))
                 for name, known in several.items()
                 for meta in (META[name],)
             )
             out.append(Mechanism(effect, way, "effect", strengths, -float(np.log(len(ways)))))
     return out
+
+
+def ends(prior: Kind, meta: Mapping[str, Any], reach: float) -> tuple[float, float]:
+    """The range of a parameter."""
+    low, high = meta["lower"], meta["upper"]
+    return (max(low, -reach), min(high, reach)) if prior == "place" and low < reach < high else (low, high)
 
 
 def faults(peak: float, longest: float) -> list[Mechanism]:
@@ -127,6 +145,13 @@ def faults(peak: float, longest: float) -> list[Mechanism]:
         single("clock_error", 1e-3, -0.01, 0.01),
         single("clamp_inertia", 1.0, -5.0, 5.0),
     ]
+
+
+def both(a: Mechanism, b: Mechanism) -> Mechanism:
+    """Two mechanisms that act at once."""
+    kind = "effect" if "effect" in (a.kind, b.kind) else "fault"
+    way = f"{a.way}+{b.way}"
+    return Mechanism(f"{a.effect}+{b.effect}", way, kind, a.strengths + b.strengths, a.log_odds + b.log_odds, (a, b))
 
 
 def neutral(hypothesis: Mechanism) -> Mapping[str, float]:

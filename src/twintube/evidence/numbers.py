@@ -86,11 +86,15 @@ class Numbers:
     )
     # What may have happened
     unchanged: float = declared(0.5, "1", "probability that nothing has happened", "judged")
+    two: float = declared(0.1, "1", "probability that two causes act, where any does", "judged")
     other: float = declared(0.05, "1", "probability of something that is not in the catalogue", "judged")
     change_sizes: tuple[float, ...] = declared(
         (0.01, 0.03, 0.1, 0.3), "1", "sizes of a free change tried, share of the fluid force", "each as likely"
     )
     credible: float = declared(0.9, "1", "probability that the hypotheses in an answer hold together", "convention")
+    implausible: float = declared(
+        0.01, "1", "chance of a size of the model's errors below which a hypothesis that needs it is no answer", "convention"
+    )
     # The bench
     zero: float = declared(0.002, "1", "zero of a record, share of the largest force", "load cell, 0.2 % of full scale")
     gain: float = declared(0.005, "1", "gain of a record", "load cell of class 0.5")

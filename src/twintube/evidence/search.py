@@ -16,8 +16,10 @@ from twintube.evidence.sizes import Sizes
 
 # Numerics.
 TRIED = (0.05, 0.3, 1.5)  # coordinates of a strength from which the best is sought
-ROUNDS = 3  # of strengths and sizes of the model's own errors in turn
+ROUNDS = 5  # of strengths and sizes of the model's own errors in turn
 EVALUATIONS = 12
+MOVED = (0.5, 0.8, 0.95, 1.05, 1.25, 2.0)  # times a strength, that are tried beside an optimum
+BETTER = 1.0  # twice the logarithm of the odds that is worth another search
 SLOPE = 0.02  # step of a derivative, of the coordinate
 
 
@@ -54,8 +56,9 @@ class Search:
         for _ in range(ROUNDS):
             u, before = self.optimum(m, evidence.sizes, u), evidence.sizes
             evidence = self.frame.evidence(self.bench.measured - self.force(m, u), before)
-            if evidence.sizes == before:
+            if evidence.sizes == before and np.array_equal(moved := self.moved(m, evidence.sizes, u), u):
                 break
+            u = u if evidence.sizes != before else moved
         force = self.force(m, u)
         J = self.slopes(m, evidence.sizes, u)
         H = J.T @ J + np.eye(len(u))
@@ -97,6 +100,25 @@ class Search:
             tried += [t + unit[i] * x for t in tried for x in (-1.0, 1.0)]
         tried = [np.clip(t, low, high) for t in [np.zeros(k), *tried]]
         return np.asarray(tried[int(np.argmin(self.costs(m, tried)))])
+
+    def moved(self, m: Mechanism, sizes: Sizes, u: Array) -> Array:
+        """Better coordinates (k,) farther off: where forces step, derivatives do not show the way (Kolda et al. 2003)."""
+        several = [
+            u,
+            *(
+                np.clip(u + (by - 1.0) * x * unit, *m.ends)
+                for x, unit in zip(u, np.eye(len(u)), strict=True)
+                for by in MOVED
+            ),
+        ]
+
+        def cost(v: Array) -> float:
+            r = self.residuals(m, sizes, v)
+            return float(r @ r)
+
+        costs = list(self.bench.threads.map(cost, several))
+        best = int(np.argmin(costs))
+        return several[best] if costs[best] < costs[0] - BETTER else u
 
     def costs(self, m: Mechanism, several: Sequence[Array]) -> list[float]:
         """Twice the negative logarithm of the posterior at coordinates (k,), up to a constant."""

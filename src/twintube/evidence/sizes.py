@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy.stats import halfnorm
+from scipy.stats import halfnorm, norm
 
 from twintube.evidence.numbers import NUMBERS
 
@@ -57,6 +57,11 @@ def log_weights(grid: tuple[float, ...], scale: float) -> tuple[float, ...]:
     middles = 0.5 * (np.array(grid[1:]) + np.array(grid[:-1]))
     mass = np.diff(halfnorm.cdf(np.concatenate([[0.0], middles, [np.inf]]), scale=scale))
     return tuple(np.log(np.maximum(mass, 1e-300)).tolist())
+
+
+def chance_of_more(grid: tuple[float, ...], at: int, scale: float) -> float:
+    """Prior probability of a size as large as that of a cell of the grid, or larger."""
+    return float(2.0 * norm.sf(0.5 * (grid[at - 1] + grid[at]), scale=scale)) if at > 0 else 1.0
 
 
 USUAL = Sizes(2, 2, 3)

@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import expit, logsumexp
 from scipy.stats import norm
 
@@ -114,11 +115,14 @@ def state(
     mine = np.zeros(len(bench.records), dtype=bool)
     mine[list(which)] = True
 
-    def frame(key: tuple[int, float], cell: float = COARSE) -> tuple[Frame, Array]:
+    # An error at a step of the force comes again in every oscillation, and tells as much as in one.
+    once = bench.once()
+
+    def frame(key: tuple[int, float], cell: float = COARSE, used: NDArray[np.bool_] | None = once) -> tuple[Frame, Array]:
         states = bench.states.copy()
         states[mine, 0], states[mine, 1] = key[1], key[0]
         force = bench.with_states(states)
-        return Frame(bench, states, steps(bench, force, states, mine, cell)), bench.measured - force
+        return Frame(bench, states, steps(bench, force, states, mine, cell), used=used), bench.measured - force
 
     def sketched(key: tuple[int, float]) -> float:
         """Evidence at some sizes: what a state far off has is far less."""
@@ -136,7 +140,7 @@ def state(
     likely = sorted(coarse, key=lambda key: -rough[key])[:LOOKED_AT]
 
     def noise(key: tuple[int, float]) -> Array:
-        here, errors = frame(key)
+        here, errors = frame(key, used=None)
         return bench.noise_in(here.left(errors, here.evidence(errors, ROUGH, BOUNDED).sizes))
 
     # What a wrong state leaves seldom repeats from oscillation to oscillation: its errors hold more than noise.

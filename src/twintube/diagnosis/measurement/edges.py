@@ -4,8 +4,6 @@ A step of the force falls anywhere between two samples. And where the gas just r
 is off by a thousandth makes another oscillation of it. Neither tells anything about a cause.
 """
 
-import itertools
-from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 
@@ -13,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
-from twintube.diagnosis.fits.candidates import period
-from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.channels import period
 from twintube.diagnosis.measurement.history import logs, sudden
 from twintube.diagnosis.measurement.motion import along, between_samples, measured_again, straight_sided
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.noise import SCATTER, colour, noise
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.records.seen import BENDS, DELAY, SAMPLING, STROKE_GAIN
@@ -99,41 +97,14 @@ def with_noise(problem: Problem) -> Problem:
     return problem.with_records([replace(r, noise=noise(r, error)) for r, error in zip(records, errors, strict=True)])
 
 
-def with_memory(problem: Problem, errors: Mapping[str, Array]) -> Problem | None:
-    """The problem with the memory of noise in other errors (n,) [N] of each record, by its name; None where there is none.
-
-    What is wrong in the model as given is smooth from sample to sample and hides it.
-    """
-    if problem.records[0].colour > 0.0 or any(len(errors[r.name]) != len(r.time) for r in problem.records):
-        return None
-    alike = colour(problem.records, [errors[record.name] for record in problem.records])
-    if alike == 0.0:
-        return None
-    records = [replace(record, colour=alike) for record in problem.records]
-    return problem.with_records([replace(r, noise=noise(r, errors[r.name])) for r in records])
-
-
-def less_noise(problem: Problem, models: Sequence[Mapping[str, float]], known: Mapping[str, Array]) -> dict[str, Array]:
-    """The least noise (n,) [N] of each record, by its name, in the errors of some models; `known` are bounds of others.
-
-    What is wrong in the model as given seldom repeats to the last sample: its errors hold more than noise.
-    """
-    least = {record.name: known.get(record.name, record.noise) for record in problem.records}
-    for values in models:
-        errors = problem.errors(values)
-        for record, (a, b) in zip(problem.records, itertools.pairwise(problem.starts), strict=True):
-            least[record.name] = np.minimum(least[record.name], noise(record, errors[a:b]))
-    return least
-
-
-def without_outliers(problem: Problem) -> tuple[Problem, dict[str, NDArray[np.bool_]]]:
-    """The problem without the few intervals of each record that contradict the model far beyond all its others, and these.
+def without_outliers(problem: Problem) -> Problem:
+    """The problem without the few intervals of each record that contradict the model far beyond all its others.
 
     They are left out for every model alike. What happened there - a spike, a stop of the rig - is not in the records. What
     comes again at the same phase of other oscillations did not happen once: it stays, where the record's start is known.
     """
     residual = problem.residual({})
-    records, outliers = [], {}
+    records = []
     for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
         size = np.abs(residual[a:b])
         usual = max(1.0, SCATTER * float(np.median(size[record.judged]))) if record.judged.any() else 1.0
@@ -141,17 +112,8 @@ def without_outliers(problem: Problem) -> tuple[Problem, dict[str, NDArray[np.bo
         few = far.sum() <= RULES.outliers * record.judged.sum()
         known = not sudden(record)
         out = far & ~again(record, np.where(far, np.sign(residual[a:b]), 0.0)) if known else far
-        if few and out.any():
-            outliers[record.name] = out
         records.append(replace(record, judged=record.judged & ~out) if few else record)
-    return problem.with_records(records), outliers
-
-
-def with_outliers(problem: Problem, outliers: Mapping[str, NDArray[np.bool_]]) -> Problem:
-    """The problem with these intervals compared: a step that a cause moves is wrong in few, and by far."""
-    return problem.with_records(
-        [replace(r, judged=r.judged | outliers[r.name]) if r.name in outliers else r for r in problem.records]
-    )
+    return problem.with_records(records)
 
 
 def again(record: PreparedRecord, sign: Array) -> NDArray[np.bool_]:

@@ -13,8 +13,8 @@ from twintube.core.checks import tube_limit
 from twintube.dampers.freed_gas import as_published
 from twintube.data import LoadedDataset, Record, check_dataset, load_dataset
 from twintube.data.signs import AS_STATED, TURNED, errors
-from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.measurement.signature import oscillating
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
@@ -36,14 +36,13 @@ STROKE_UNITS = {
 
 BOTH_SIGNS = "Signs of stroke and force"
 STRANGER = "odd_record"  # a record of something else
-PUT_RIGHT = ("sign_flip", "unit_error", "force_averaging", STRANGER)  # put right before anything is fitted
 
 
 @dataclass(frozen=True)
 class Fault:
     """A fault that was put right before the diagnosis went on."""
 
-    effect: str  # of PUT_RIGHT
+    effect: str  # sign_flip, unit_error, force_averaging, STRANGER or that of a channel
     title: str
     explanation: str
     factor: float

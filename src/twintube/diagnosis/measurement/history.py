@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
-from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.rig.signals import PRECONDITIONING, STARTS, V_PRECONDITIONING, approach, joined, oscillations
@@ -133,16 +133,7 @@ def conditioned(record: PreparedRecord, count: int, over: tuple[float, float] | 
     time, stroke, velocity = joined([slow, back], [dt]) if moves else slow
     n = len(time)
     time = time - time[-1] + record.time[0] - RULES.history_rest
-    empty = {
-        "noise": record.peak,
-        "edges": 0.0,
-        "warm": 0.0,
-        "force": 0.0,
-        "samples": 0,
-        "judged": False,
-        "cycle": -1,
-        "stretch": -1,
-    }
+    empty = {"noise": record.peak, "edges": 0.0, "warm": 0.0, "force": 0.0, "samples": 0, "judged": False, "cycle": -1}
     arrays: dict[str, Any] = {name: np.concatenate([np.full(n, value, getattr(record, name).dtype), getattr(record, name)])
               for name, value in empty.items()}  # fmt: skip
     moved: dict[str, Any] = {

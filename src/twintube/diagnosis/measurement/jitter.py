@@ -11,9 +11,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from twintube.arrays import Array
-from twintube.diagnosis.fits.fit import Problem
 from twintube.diagnosis.measurement.edges import with_edges, with_noise
 from twintube.diagnosis.measurement.motion import along
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.strokes import quiet
 

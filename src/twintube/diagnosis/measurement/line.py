@@ -11,7 +11,7 @@ from scipy.fft import next_fast_len, rfft, rfftfreq
 
 from twintube.arrays import Array
 from twintube.data import Record
-from twintube.diagnosis.result import Signature
+from twintube.diagnosis.measurement.outside import Signature
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.averaging import RULES as AVERAGING
 from twintube.fitting.oscillations import beginnings, segments

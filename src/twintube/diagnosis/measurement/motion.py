@@ -8,7 +8,7 @@ from scipy.interpolate import Akima1DInterpolator, CubicHermiteSpline, CubicSpli
 from scipy.ndimage import maximum_filter1d
 
 from twintube.arrays import Array
-from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.strokes import quiet

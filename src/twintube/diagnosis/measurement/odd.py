@@ -1,15 +1,15 @@
 """Records that do not belong to the others: of another damper, setting or fill than stated, or with a fault of their own."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from twintube.diagnosis.fits.candidates import faults
-from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.channels import FAULT_TITLES, ChannelFault, faults
 from twintube.diagnosis.measurement.faults import STRANGER, Fault, unit_error
 from twintube.diagnosis.measurement.jitter import with_uncertainty
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.seen import STROKE_GAIN
 from twintube.diagnosis.rules import RULES
 
@@ -27,7 +27,7 @@ def odd_records(problem: Problem) -> tuple[Fault | None, Problem]:
     if not sure:  # a cause may act in some records alone, but makes none of another unit
         fault = own_unit(part, names, usual)
         return (fault, others) if fault is not None else (None, problem)
-    fault = own_fault(part, names, {c.name: c.least[c.name] for c in faults(problem)})
+    fault = own_fault(part, names, faults(problem))
     if fault is not None and fault.effect == "force_offset" and with_the_gas(problem, odd):
         return None, problem
     gain = fault is not None and len(names) == 1 and fault.effect in GAINS
@@ -102,29 +102,31 @@ def own_unit(part: Problem, names: tuple[str, ...], usual: float = 1.0) -> Fault
     return Fault(wrong.effect, wrong.title, of, wrong.factor, records=names)
 
 
-def own_fault(part: Problem, names: tuple[str, ...], least: Mapping[str, float]) -> Fault | None:
+def own_fault(part: Problem, names: tuple[str, ...], several: Sequence[ChannelFault]) -> Fault | None:
     """The fault of the measurement that explains these records, if any does that is larger than every measurement has."""
     unit = own_unit(part, names)
     if unit is not None:
         return unit
-    best = None
-    for candidate in faults(part):
-        f = candidate.free[0]
-        grid = [f.start + share * side for share in RULES.shares for side in (f.high - f.start, f.low - f.start)]
-        start = min(grid, key=lambda x: float(np.sum(part.residual({f.name: x}) ** 2)))
-        fit = part.fit([type(f)(f.name, start, f.low, f.high)])
-        value = fit.values[f.name]
-        acts = abs(value - f.start) > least[f.name]
-        if acts and right(part, fit.values) and (best is None or fit.misfit.sum() < best[0]):
-            best = (fit.misfit.sum(), candidate, fit)
+    best: tuple[float, ChannelFault, float] | None = None
+    for f in several:
+
+        def cost(x: float, name: str = f.name) -> float:
+            return float(np.sum(part.residual({name: x}) ** 2))
+
+        shares = (0.0, *RULES.shares, 1.0)
+        grid = sorted(f.neutral + share * side for share in shares for side in (f.high - f.neutral, f.low - f.neutral))
+        at = int(np.argmin([cost(x) for x in grid]))
+        ends = grid[max(0, at - 2)], grid[min(len(grid) - 1, at + 2)]
+        value = float(minimize_scalar(cost, bounds=ends, method="bounded", options={"xatol": 1e-4 * (f.high - f.low)}).x)
+        acts = abs(value - f.neutral) > f.usual
+        if acts and right(part, {f.name: value}) and (best is None or cost(value) < best[0]):
+            best = (cost(value), f, value)
     if best is None:
         return None
-    _, candidate, fit = best
-    f = candidate.free[0]
-    value, scattered = fit.values[f.name], float(np.sqrt(max(0.0, fit.covariance[0, 0])))
-    spread = max(RULES.interval * scattered, RULES.channel_width * abs(value - f.start))
-    text = f"In {', '.join(names)}: {candidate.cause[0].lower()}{candidate.cause[1:]}"
-    return Fault(candidate.name, candidate.title, text, value, f.name, candidate.units[f.name], names, spread=spread)
+    _, f, value = best
+    text = f"In {', '.join(names)}: {f.text[0].lower()}{f.text[1:]}"
+    spread = RULES.channel_width * abs(value - f.neutral)
+    return Fault(f.name, FAULT_TITLES[f.name], text, value, f.name, f.unit, names, spread=spread)
 
 
 def own_fill(part: Problem, names: tuple[str, ...]) -> Fault | None:
@@ -167,7 +169,7 @@ def differ(part: Problem, least: float, zero: float) -> bool:
 
 def stranger(part: Problem, names: tuple[str, ...]) -> Fault:
     """Records of something else, with their error as the page shows it: by uncertainty, beside a zero."""
-    errors = part.begun_forces({}) - part.measured
+    errors = part.errors({})
     size = float(np.linalg.norm((errors - part.zeros(errors)) * part.weight) / np.linalg.norm(part.weight))
     kind, belong = ("record", "does not belong") if len(names) == 1 else ("records", "do not belong")
     text = f"The {kind} {', '.join(names)} {belong} to the others, which the model explains: error {size:.0f} N."

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from twintube.diagnosis.fits.candidates import nuisances, unfiltered, usual_delay
-from twintube.diagnosis.fits.fit import Free, Problem
+from twintube.diagnosis.channels import nuisances, unfiltered, usual_delay
+from twintube.diagnosis.problem import Free, Problem
 from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.rules import RULES
 

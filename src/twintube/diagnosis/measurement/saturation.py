@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from twintube.arrays import Array
-from twintube.diagnosis.fits.fit import Problem
+from twintube.diagnosis.measurement.outside import Signature
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.record import PreparedRecord
-from twintube.diagnosis.result import Signature
 from twintube.diagnosis.rules import RULES
 
 

@@ -16,7 +16,7 @@ from twintube.arrays import Array
 from twintube.data import Record
 from twintube.data.defects import clipped
 from twintube.diagnosis.measurement.line import line
-from twintube.diagnosis.result import Signature
+from twintube.diagnosis.measurement.outside import Signature
 from twintube.diagnosis.rules import RULES
 from twintube.engine.simulate import InputError
 from twintube.fitting.averaging import RULES as AVERAGING

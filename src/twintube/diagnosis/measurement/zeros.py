@@ -8,12 +8,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import kruskal
 
 from twintube.arrays import Array
-from twintube.diagnosis.fits.fit import Problem
-from twintube.diagnosis.fits.gains import bootstrap
 from twintube.diagnosis.measurement.faults import Fault
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.noise import BEND, SCATTER
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
@@ -42,7 +40,7 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     if count < RULES.order_least:
         return None, problem
     rest = float(np.sum((means - means.mean()) ** 2))
-    running = np.array([record.before[0] + np.ptp(record.time) / 2 for record in problem.records])
+    running = np.array([record.before + np.ptp(record.time) / 2 for record in problem.records])
     fits = {}
     for key, at in ((EVENLY, np.arange(count)), (RUNNING, running)):
         apart = at - at.mean()
@@ -82,7 +80,8 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
         if np.median(left_apart) > RULES.odd_right:
             return None, problem
     before, after = (np.add.reduceat(some.residual({}) ** 2, some.starts[:-1]) for some in (problem, still))
-    if bootstrap(np.column_stack([before - after, before]))[0] <= 0.0:
+    moved = [not np.array_equal(a.force, b.force) for a, b in zip(problem.records, still.records, strict=True)]
+    if np.median((before - after)[moved]) <= 0.0:
         return None, problem  # the means of a damper that is weaker, or of records that hardly count
     spread = scattered(fits[cut], left[cut], size if cut != RUNNING else rate)
     if cut == RUNNING:
@@ -106,7 +105,7 @@ def scattered(zeros: Array, left: float, value: float) -> float:
 def without(problem: Problem, zeros: Array, running: bool) -> tuple[Problem, float]:
     """The problem without zeros (r,) [N] of its records, and their rate [N/s] where they do within records."""
     lasting = np.array([float(np.ptp(record.time)) for record in problem.records])
-    elapsed = problem.records[-1].before[0] + (lasting[-1] - lasting[0]) / 2
+    elapsed = problem.records[-1].before + (lasting[-1] - lasting[0]) / 2
     rate = (zeros[0] - zeros[-1]) / elapsed if running else 0.0
     each = [x - rate * (r.time - r.time[0] - T / 2) for r, x, T in zip(problem.records, zeros, lasting, strict=True)]
     pairs = zip(problem.records, each, strict=True)
@@ -210,18 +209,3 @@ def triples(records: Sequence[PreparedRecord]) -> int:
 def root_mean_square(values: Array) -> float:
     """Root mean square; 0 of nothing."""
     return float(np.sqrt(np.mean(values**2))) if len(values) else 0.0
-
-
-def step(records: Sequence[PreparedRecord], means: Array) -> float:
-    """Largest difference [N] between two states of filling in the median of their records' mean errors (r,) [N]."""
-    return float(np.ptp([np.median(means[some]) for some in states(records)]))
-
-
-def differ(records: Sequence[PreparedRecord], means: Array, alarm: float) -> bool:
-    """Whether the mean errors (r,) [N] differ between the states more than zeros do, at a rate of `alarm` (Kruskal-Wallis).
-
-    Zeros that scatter do not depend on the filling. A difference that the model's numerics may make does not count.
-    """
-    if step(records, means) <= RULES.model_error * largest(records):
-        return False
-    return bool(kruskal(*(means[some] for some in states(records))).pvalue < alarm)

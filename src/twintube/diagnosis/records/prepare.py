@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
-from twintube.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.data import LoadedDataset, Record
 from twintube.data.defects import resolution
@@ -22,24 +21,12 @@ from twintube.fitting.strokes import quiet
 
 
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
-    """All records of a dataset; raises InputError where a fill is unknown or a stroke leaves the tube."""
+    """All records of a dataset; raises InputError where a stroke leaves the tube."""
     begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
     usual = float(np.median(begins)) if begins else 0.0
     ready = [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
-    past, filled = np.zeros(3), np.zeros(3)
-    for i, record in enumerate(ready):
-        if i > 0 and (record.oil_level, record.gas_preload) != (ready[i - 1].oil_level, ready[i - 1].gas_preload):
-            filled = past.copy()
-        (duration, way, square), (since, gone, power) = past.tolist(), filled.tolist()
-        ready[i] = replace(record, before=(duration, way, square), before_fill=(since, gone, power))
-        past += travelled(record)
-    return ready
-
-
-def travelled(record: PreparedRecord) -> Array:
-    """Integrals (3,) of the speed over the time of a record to the powers 0, 1 and 2: duration [s], way [m], and [m2/s]."""
-    speed, span = np.abs(record.velocity), np.diff(record.time, prepend=record.time[0])
-    return np.array([float(np.sum(span * speed**power)) for power in (0, 1, 2)])
+    before = np.cumsum([0.0, *(np.ptp(record.time) for record in ready[:-1])])
+    return [replace(record, before=float(past)) for record, past in zip(ready, before, strict=True)]
 
 
 def beginning_temperature(record: Record) -> float | None:
@@ -65,9 +52,9 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
     gas_preload = True if record.gas_preload is None else record.gas_preload
     ready = PreparedRecord(
         name=record.name, measurement=record.measurement, oil_level=oil_level, gas_preload=int(gas_preload),
-        split=record.split, top_speed=top_speed, path=path, stroke_noise=noise_of_stroke(record.stroke)[0],
+        top_speed=top_speed, path=path, stroke_noise=noise_of_stroke(record.stroke)[0],
         force=np.concatenate([record.force[:1], force]),
-        time=record.time[at], stroke=stroke, velocity=velocity, cycle=cycle, stretch=stretch, noise=np.zeros(len(at)),
+        time=record.time[at], stroke=stroke, velocity=velocity, cycle=cycle, noise=np.zeros(len(at)),
         peak=peak, resolution=levels[0] if levels else 0.0, period=float(np.median(np.diff(record.time))),
         samples=np.zeros(len(at), dtype=np.int64),
         judged=comparable(record, at, stretch), edges=np.zeros(len(at)),
@@ -76,7 +63,7 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
     held = np.maximum(1, np.diff(at, prepend=at[0] - 1))  # measured samples per interval
     begin = beginning_temperature(record)
     along = record.temperature[at] if record.temperature is not None else np.full(len(at), usual if begin is None else begin)
-    ready = replace(ready, samples=held, warm=along - usual, warmth_known=begin is not None)
+    ready = replace(ready, samples=held, warm=along - usual)
     return replace(ready, noise=noise(ready, ready.force))
 
 

@@ -1,6 +1,6 @@
 """A record prepared for comparison: thinned, with the mean of the measured force over each interval and its noise."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,6 @@ from scipy.interpolate import PPoly
 
 from twintube.arrays import Array
 from twintube.data.condition import is_intact
-from twintube.diagnosis.rules import RULES
 
 
 @dataclass(frozen=True)
@@ -19,7 +18,6 @@ class PreparedRecord:
     measurement: str
     oil_level: float
     gas_preload: int
-    split: str | None
     top_speed: float  # [m/s]
     path: PPoly  # stroke [m] over time [s], through all measured samples
     stroke_noise: float  # [m] standard deviation of the noise in the samples of the stroke, 0 where it has none
@@ -27,7 +25,6 @@ class PreparedRecord:
     stroke: Array
     velocity: Array
     cycle: NDArray[np.int64]  # number of the oscillation in its stretch, -1 outside any
-    stretch: NDArray[np.int64]  # number of the stretch between rests
     force: Array  # mean measured force [N] of the interval before each sample
     noise: Array  # (n,) standard deviation [N] of each interval's mean force
     peak: float  # largest measured force [N], outliers apart
@@ -40,10 +37,7 @@ class PreparedRecord:
     gas_pressure: float | None  # gauge [Pa], where known
     colour: float = 0.0  # correlation of the noise of neighbouring samples of the force
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through
-    warmth_known: bool = False  # whether its temperature at the beginning is
-    tenth: NDArray[np.int64] | None = None  # (n,) of its intervals, where every second tenth is compared
-    before: tuple[float, float, float] = (0.0, 0.0, 0.0)  # `travelled` in the records before it in the dataset
-    before_fill: tuple[float, float, float] = (0.0, 0.0, 0.0)  # the like in those before the damper got its present fill
+    before: float = 0.0  # [s] that the records before it in the dataset last
 
     @property
     def intact(self) -> bool:
@@ -54,18 +48,6 @@ class PreparedRecord:
     def begin(self) -> float:
         """Time of the first measured sample [s]; what is simulated before it was not recorded."""
         return float(self.path.x[0])
-
-    @property
-    def part(self) -> NDArray[np.int64]:
-        """The part of the record (n,) that each interval belongs to; 0 where it is not divided."""
-        return self.tenth if self.tenth is not None else np.zeros(len(self.time), dtype=np.int64)
-
-    def alternate(self, half: int) -> "PreparedRecord":
-        """The record with every second tenth of its compared intervals, from the first or the second on."""
-        before: NDArray[np.int64] = np.cumsum(self.judged) - self.judged
-        tenth = (RULES.parts * before) // max(1, int(self.judged.sum()))
-        tenth = np.minimum(tenth, RULES.parts - 1).astype(np.int64)
-        return replace(self, tenth=tenth, judged=self.judged & (tenth % 2 == half))
 
     def moved(self, delay: float, clock: float) -> tuple[Array, Array]:
         """Stroke [m] and velocity [m/s] (n,) at the moments when the force was measured.

@@ -11,7 +11,6 @@ from twintube.core import effects
 from twintube.dampers import Damper
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
-from twintube.engine import compiled
 from twintube.fitting.averaging import averaged_means
 from twintube.fitting.simulation import SimulatedRecords
 
@@ -19,26 +18,10 @@ from twintube.fitting.simulation import SimulatedRecords
 # ahead, about it and before, as a filter gives them. None of them is late: the delay is a parameter of its own.
 BENDS = {"bend_ahead": 1, "bend_about": 0, "bend_before": -1}
 SAMPLING = ("sample_mean", *BENDS)
-LINEAR = ("force_offset", *SAMPLING)  # the force is linear in them, and every measurement has them
-# What the measurement adds to the force; a zero that moves as the load cell warms up settles at a rate.
-SETTLING = "zero_settling"
-ADDED = ("force_offset", "force_gain", "zero_drift", SETTLING, *SAMPLING)
 # What it changes of the motion under which the force is seen; a simulation of its own for each value.
 STROKE_GAIN, TIME_BASE, DELAY, CLOCK = "stroke_gain", "time_base", "channel_delay", "clock_error"
 INERTIA = "clamp_inertia"  # mass [kg] that moves with the stroke between the load cell and the damper
 AS_RECORDED = {STROKE_GAIN: 1.0, TIME_BASE: 1.0, DELAY: 0.0, CLOCK: 0.0, INERTIA: 0.0}  # where they change nothing
-MOTION = tuple(AS_RECORDED)
-FILL = "fill_of_state_"  # with the per cent of a state: its true oil level beyond the recorded one
-# How far oil that was lost before is missing, in the order of the dataset: 0 not at all, 1 that of the same fill, 2 all.
-CARRIED = "loss_carried"
-MEASUREMENT = (*ADDED, *MOTION)
-# What records begin with, and the strengths without which it does nothing.
-BEGUN = {
-    item.name: (item.metadata, effect.strength)
-    for effect in effects.EFFECTS.values()
-    for item in effect.parameters
-    if item.metadata["role"] == "start"
-}
 REMEMBERED = 32  # latest simulations
 MOVED = 4  # latest delays and clocks: that of the sampling is in every model
 
@@ -58,7 +41,6 @@ class SeenRecords(SimulatedRecords):
         self.shifted = {by: np.clip(np.arange(len(self.z)) + by, first, last) for by in range(-2, 3)}
         self.elapsed = np.concatenate([r.time - r.begin for r in records])
         self.used = np.concatenate([r.judged for r in records])
-        self.open = np.concatenate([np.full(len(r.time), not r.warmth_known) for r in records])
         self.known = {item.name for item in fields(effects.Parameters)}
         # The measurement's parameters need no simulation of their own.
         self.simulated: Callable[[tuple[tuple[str, float], ...]], tuple[Array, Array]] = lru_cache(REMEMBERED)(self.simulate)
@@ -69,36 +51,7 @@ class SeenRecords(SimulatedRecords):
         values = {**self.usual, **values}
         named = {n: x for n, x in values.items() if n in self.known}
         named |= {n: values[n] for n, neutral in AS_RECORDED.items() if values.get(n, neutral) != neutral}
-        named |= {n: x for n, x in values.items() if n.startswith(FILL) and x != 0.0}
-        named |= {CARRIED: values[CARRIED]} if values.get(CARRIED, 0.0) > 0.0 else {}
         return tuple(sorted(named.items()))
-
-    def fills(self) -> dict[str, Array]:
-        """By the name of its error, which records (r,) have a degraded fill."""
-        levels, degraded = self.states[:, 0], self.states[:, 1] == 0
-        return {f"{FILL}{100 * x:.4g}": degraded & (levels == x) for x in np.unique(levels[degraded])}
-
-    def refilled(self, errors: Mapping[str, float]) -> Array:
-        """States (r, 4) with the errors [1] of single fills."""
-        states = self.states.copy()
-        for name, of in self.fills().items():
-            states[of, 0] = np.clip(states[of, 0] + errors.get(name, 0.0), 0.0, 1.0)
-        return states
-
-    def drained(self, changes: Mapping[str, float], carried: float) -> Array:
-        """Degraded states (r, 4) without the oil that was lost in the records before; `carried` as CARRIED."""
-        row = self.rows()[0]
-        for name, value in changes.items():
-            row[name] = value
-        lost_by = compiled.module().effects_lost
-        filled = [(float(level), float(r.stroke.min()), r) for level, r in zip(self.states[:, 0], self.records, strict=True)]
-        earlier = np.array([lost_by(row, level, z, *record.before_fill) for level, z, record in filled])
-        same = np.array([lost_by(row, level, z, *record.before) for level, z, record in filled]) - earlier
-        lost = min(carried, 1.0) * same + max(carried - 1.0, 0.0) * earlier
-        states = self.states.copy()
-        degraded = states[:, 1] == 0
-        states[degraded, 0] = np.clip(states[degraded, 0] - lost[degraded] / row["V_oil"], 0.0, 1.0)
-        return states
 
     def simulate(self, changes: Sequence[tuple[str, float]], states: Array | None = None) -> tuple[Array, Array]:
         """Mean forces over the intervals and those of the samples alone, both (n,) [N], with values changed.
@@ -108,12 +61,6 @@ class SeenRecords(SimulatedRecords):
         values = dict(changes)
         gain, base, delay, clock, mass = (values.pop(name, x) for name, x in AS_RECORDED.items())
         z, v = self.moved(delay, clock) if delay or clock else (self.z, self.v)
-        fills = {name: values.pop(name) for name in list(values) if name.startswith(FILL)}
-        if states is None:
-            states = self.refilled(fills) if fills else self.states
-        if CARRIED in values:
-            carried = values.pop(CARRIED)
-            states = self.drained(values, carried)
         motion = (self.t / base, z / gain, v * (base / gain))
         force, point, _ = self.sampled(self.rows(), values.items(), motion, states)
         if mass:
@@ -145,9 +92,7 @@ class SeenRecords(SimulatedRecords):
         """Forces (n,) [N] with what the measurement adds to mean forces and those of samples (n,) [N]."""
         values = {**self.usual, **values}
         seen = point + sum(values[name] * part for name, part in self.parts_of_samples(force, point, values).items())
-        settling = values.get(SETTLING, 0.0)
-        moved = -np.expm1(-settling * self.elapsed) / settling if settling > 0.0 else self.elapsed
-        zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * moved
+        zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * self.elapsed
         return np.asarray(values.get("force_gain", 1.0) * seen + zero)
 
     def accelerations(self, speed: Array) -> tuple[Array, Array]:
@@ -159,21 +104,6 @@ class SeenRecords(SimulatedRecords):
         # The samples lie half of their period behind the middle of the interval.
         ahead = (mean[self.shifted[1]] - mean) / (2.0 * np.maximum(self.samples, 1))
         return mean, mean + np.where(inside, ahead, 0.0)
-
-    def begun(self, values: Mapping[str, float]) -> dict[str, float] | None:
-        """The values with another beginning of the records, a part of its usual scatter away; None where none is open."""
-        for name, (meta, strengths) in BEGUN.items():
-            if self.open.any() and any(values.get(strength, 0.0) != 0.0 for strength in strengths):
-                step = RULES.begun_step * RULES.begun * (meta["upper"] - meta["lower"])
-                return {**values, name: values.get(name, meta["default"]) + step}
-        return None
-
-    def beginnings(self, values: Mapping[str, float]) -> Array | None:
-        """What the forces (n,) [N] change by where a record begins the usual scatter away; None where none is open."""
-        other = self.begun(values)
-        if other is None:
-            return None
-        return np.where(self.open, (self.forces(other) - self.forces(values)) / RULES.begun_step, 0.0)
 
     def parts_of_samples(self, force: Array, point: Array, names: Container[str] = SAMPLING) -> dict[str, Array]:
         """What each of SAMPLING that is among `names` adds to the forces of samples that are points (n,) [N].

@@ -1,1 +1,0 @@
-"""Which causes the records ask for, and what explains them as well."""

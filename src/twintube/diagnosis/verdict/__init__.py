@@ -1,1 +1,0 @@
-"""What is said: the verdict, its sentence, probabilities, and where the model is wrong."""
