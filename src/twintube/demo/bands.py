@@ -13,6 +13,7 @@ from twintube.dampers import Damper, ParameterError, freed_gas
 from twintube.dampers.dead_length import bounds
 from twintube.dampers.freed_gas import DEFAULT, P_GASES, VARIED, WAYS, condition
 from twintube.dampers.variants import rear_curve
+from twintube.readable import unit_of
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import Drive
 from twintube.vehicle.ride import Track, measures, ride, track
@@ -21,13 +22,12 @@ SPEEDS = (30.0, 50.0)  # [km/h]
 SEEDS = (1, 2, 3, 4, 5)
 FORCES = (0.75, 1.33)  # of the assumed F-v curve
 LOSSES = (0.05, 0.4)  # oil losses [1] from which cavitation has its full effect (assumed)
-DEAD_LENGTH = "dead length"
-NAMES = {  # of the car's values, for pictures
-    "d_links": "links [N s/m]",
-    "d_tyre": "tyre damping [N s/m]",
-    "c_tyre": "tyre stiffness [N/m]",
-    "ratio": "motion ratio",
-    "travel": "bump travel [m]",
+NAMES = {  # of the car's values, and their units
+    "d_links": ("damping of the links", "N s/m"),
+    "d_tyre": ("tyre damping", "N s/m"),
+    "c_tyre": ("tyre stiffness", "N/m"),
+    "ratio": ("motion ratio", ""),
+    "travel": ("bump travel", "m"),
 }
 
 
@@ -105,16 +105,26 @@ class Rides:
 def assumptions(damper: Damper, car: CarSet) -> dict[str, tuple[Setting, Setting]]:
     """The two ends of every assumed value, by name; values that the damper does not admit are left out."""
     ends = {
-        f"{NAMES.get(name, name)} {low:g}-{high:g}": (Setting(car=((name, low),)), Setting(car=((name, high),)))
+        ranged(name, low, high): (Setting(car=((name, low),)), Setting(car=((name, high),)))
         for name, (low, high) in car.band.items()
     }
-    ends[f"F-v curve x {FORCES[0]:g}-{FORCES[1]:g}"] = (Setting(forces=FORCES[0]), Setting(forces=FORCES[1]))
+    ends[f"F-v curve, × {FORCES[0]:g} to {FORCES[1]:g}"] = (Setting(forces=FORCES[0]), Setting(forces=FORCES[1]))
     low, high = bounds(damper)
-    ends[f"{DEAD_LENGTH} {1e3 * low:.0f}-{1e3 * high:.0f} mm"] = (dead_length(low), dead_length(high))
+    ends[f"dead length, {1e3 * low:.0f} to {1e3 * high:.0f} mm"] = (dead_length(low), dead_length(high))
     if curve := rear_curve(damper):
         ends["rear curve of the F-v source"] = (Setting(), Setting(damper=tuple(curve.items())))
-    ends[f"cavitation in full from {LOSSES[0]:g}-{LOSSES[1]:g} of loss"] = (loss(LOSSES[0]), loss(LOSSES[1]))
+    ends[f"full cavitation from {100 * LOSSES[0]:.0f} to {100 * LOSSES[1]:.0f} % oil loss"] = (
+        loss(LOSSES[0]),
+        loss(LOSSES[1]),
+    )
     return {name: pair for name, pair in ends.items() if all(fits(damper, setting) for setting in pair)}
+
+
+def ranged(name: str, low: float, high: float) -> str:
+    """A value of the car and its range, in engineering units."""
+    text, si = NAMES.get(name, (name, ""))
+    unit, factor = unit_of(si, high)
+    return f"{text}, {factor * low:g} to {factor * high:g} {unit}".rstrip()
 
 
 def loss(value: float) -> Setting:

@@ -221,19 +221,17 @@ def draw(
     from twintube.demo import pictures
 
     lossy, intact, moments_shown = shown
-    name, speed = result["damper"], lossy.case.speed_kmh
-    label = f"{name}, {speed:.0f} km/h"
-    at_speed = [r for case, r in rides_by_case.items() if case.speed_kmh == speed and not case.off]
+    at_speed = [r for case, r in rides_by_case.items() if case.speed_kmh == lossy.case.speed_kmh and not case.off]
     at_speed.sort(key=lambda r: (-r.case.gas_preload, -r.case.oil_level))
     return [
-        pictures.dlc(folder, name, result),
-        pictures.development(folder, name, result),
-        pictures.failure(folder, name, result),
-        pictures.bands(folder, name, result),
-        moment_pictures.wheel_load(folder, label, lossy, intact, moments_shown, result["static_wheel_load_N"]),
-        moment_pictures.loops(folder, label, lossy, intact, moments_shown),
-        moment_pictures.volumes(folder, f"{label}, {lossy.case.oil_level:.0%} oil", lossy, moments_shown),
-        pictures.spectrum(folder, label, at_speed),
+        pictures.dlc(folder, result),
+        pictures.development(folder, result),
+        pictures.failure(folder, result),
+        pictures.bands(folder, result),
+        moment_pictures.wheel_load(folder, result, lossy, intact, moments_shown),
+        moment_pictures.loops(folder, result, lossy, intact, moments_shown),
+        moment_pictures.volumes(folder, result, lossy),
+        pictures.spectrum(folder, result, at_speed),
     ]
 
 

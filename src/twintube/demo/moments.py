@@ -1,21 +1,25 @@
-"""Close-ups of a ride in which the damping is lost: before, while and after the loss."""
+"""Close-ups of a ride in which the damping is lost: before, during and after the loss."""
 
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.axes import Axes
 
+from twintube.arrays import Array
+from twintube.demo import messages
 from twintube.demo.ride import EVERY, Ride
-from twintube.demo.style import INTACT, PHASES, SCALAR, save
+from twintube.demo.style import conditions, save
+from twintube.report.framed import INTACT, OTHER, WIDTH, oil, worn
+from twintube.report.style import PHASES, canvas, title
+from twintube.vehicle.ride import SETTLED, WINDOW
 
 SPAN = 2.0  # [s] that a moment shows
 FIRST = 2.0  # [s] after the road has faded in
 MEAN = 5  # spans over which the damper's power is averaged
-COLOURS = ("#2a7f9e", "#d98c21", "#b3282d")
-NAMES = ("before", "while", "after")
+NAMES = ("before", "during", "after")  # the loss
+THIN = 0.8  # [points], of lines that cross often
+CHAMBERS = ("rebound", "compression", "reserve")
 
 
 @dataclass(frozen=True)
@@ -29,7 +33,11 @@ class Moment:
     @property
     def label(self) -> str:
         """For a title."""
-        return f"{self.name}: {self.start:.0f}-{self.start + SPAN:.0f} s"
+        return f"{self.name} the loss, {self.start:.0f} to {self.start + SPAN:.0f} s"
+
+    def inside(self, time: Array) -> Any:
+        """Which of the times (n,) [s] lie in it."""
+        return (time >= self.start) & (time < self.start + SPAN)
 
 
 def shares(ride: Ride, intact: Ride) -> np.ndarray[Any, np.dtype[np.float64]]:
@@ -43,7 +51,7 @@ def shares(ride: Ride, intact: Ride) -> np.ndarray[Any, np.dtype[np.float64]]:
 
 
 def moments(ride: Ride, intact: Ride) -> list[Moment]:
-    """Before, while (power half-way between its first and last value) and after the loss."""
+    """Before, during (power half-way between its first and last value) and after the loss."""
     share = shares(ride, intact)
     first, last = float(share[:MEAN].max()), float(share[-MEAN:].mean())
     below = np.flatnonzero(share < 0.5 * (first + last))
@@ -52,68 +60,73 @@ def moments(ride: Ride, intact: Ride) -> list[Moment]:
     return [Moment(name, FIRST + i * SPAN, float(share[i])) for name, i in zip(NAMES, positions, strict=True)]
 
 
-def loops(folder: Path, label: str, ride: Ride, intact: Ride, when: list[Moment]) -> Path:
+def loops(folder: Path, result: dict[str, Any], ride: Ride, intact: Ride, when: list[Moment]) -> Path:
     """F-s and F-v diagrams at the three moments, with the intact damper on the same stretch of road."""
-    figure, axes = plt.subplots(2, len(when), figsize=(11, 6.3), sharey=True, sharex="row")
-    for column, (moment, colour) in enumerate(zip(when, COLOURS, strict=True)):
-        inside = (ride.time >= moment.start) & (ride.time < moment.start + SPAN)
-        for run, ink, text in ((intact, SCALAR, "intact"), (ride, colour, f"{100 * ride.case.oil_level:.0f} % oil")):
-            axes[0][column].plot(run.stroke[inside] * 1e3, run.force[inside] / 1e3, color=ink, lw=0.8, label=text)
-            axes[1][column].plot(run.velocity[inside], run.force[inside] / 1e3, ".", color=ink, ms=1.5)
-        power = f"{100 * moment.power_share:.0f} % of the intact power"
-        axes[0][column].set_title(f"{moment.label}, {power}", loc="left", fontsize=9)
+    figure, axes = canvas(2, len(when), (WIDTH, 5.0), sharey=True, sharex="row")
+    for column, moment in enumerate(when):
+        inside = moment.inside(ride.time)
+        for run, colour, text in both(ride, intact):
+            axes[0][column].plot(run.stroke[inside] * 1e3, run.force[inside] / 1e3, color=colour, lw=THIN, label=text)
+            axes[1][column].plot(run.velocity[inside], run.force[inside] / 1e3, ".", color=colour, ms=2)
+        title(axes[0][column], f"{moment.label}:\n{100 * moment.power_share:.0f} % of the power")
         axes[0][column].set_xlabel("damper stroke [mm]")
         axes[1][column].set_xlabel("damper velocity [m/s]")
-        axes[0][column].legend(fontsize=8, loc="upper left")
     for row in axes:
         row[0].set_ylabel("damper force [kN]")
-    return save(figure, folder, "loops.png", f"Damper force before, while and after the damping is lost, {label}")
+    told = f"Power: mean of {MEAN * SPAN:.0f} s over that of the intact damper on the same road. Rebound is positive."
+    sentence = messages.loops([moment.power_share for moment in when], where(result, ride))
+    return save(figure, folder, "loops.png", sentence, conditions(result, told), axes[0][0])
 
 
-def stack(ax: Axes, time: Any, volumes: Any, chamber: int) -> None:
-    """Phases of a chamber, stacked [mL]."""
-    first = 3 * (chamber - 1)
-    phases = {"oil": volumes[:, first], "foam": volumes[:, first + 2], "gas": volumes[:, first + 1]}
-    ax.stackplot(time, *(v * 1e6 for v in phases.values()), colors=[PHASES[p] for p in phases], labels=list(phases), lw=0)
-    ax.grid(False)
+def both(ride: Ride, intact: Ride) -> tuple[tuple[Ride, str, str], ...]:
+    """The rides of both dampers with colour and name, the intact one below."""
+    return (intact, INTACT, "intact"), (ride, worn(ride.case.oil_level), oil(ride.case.oil_level))
 
 
-def volumes(folder: Path, label: str, ride: Ride, when: list[Moment]) -> Path:
-    """Phase volumes of the three chambers at the moments and over the whole ride."""
+def where(result: dict[str, Any], ride: Ride) -> str:
+    """Of which damper and ride a sentence speaks."""
+    return f"{result['damper']} with {oil(ride.case.oil_level)} at {ride.case.speed_kmh:.0f} km/h"
+
+
+def volumes(folder: Path, result: dict[str, Any], ride: Ride) -> Path:
+    """Phase volumes of the three chambers over the whole ride, means of 1 s."""
     time = ride.time[::EVERY]
-    figure, axes = plt.subplots(3, len(when) + 1, figsize=(12, 7), sharey="row")
+    figure, axes = canvas(len(CHAMBERS), 1, (WIDTH, 5.2), sharex=True)
     seconds = np.arange(0, time[-1])
-    means = np.array([ride.volumes[(time >= t) & (time < t + 1)].mean(axis=0) for t in seconds])
-    for chamber, (title, row) in enumerate(zip(("V1 rebound", "V2 compression", "V3 reserve"), axes, strict=True), start=1):
-        for ax, moment in zip(row, when, strict=False):
-            inside = (time >= moment.start) & (time < moment.start + SPAN)
-            stack(ax, time[inside], ride.volumes[inside], chamber)
-        stack(row[-1], seconds + 0.5, means, chamber)
-        row[0].set_ylabel(f"{title} [mL]")
-    for ax, moment in zip(axes[0], when, strict=False):
-        ax.set_title(moment.label, loc="left", fontsize=10)
-    axes[0][-1].set_title("whole ride, means over 1 s", loc="left", fontsize=10)
-    axes[0][-1].legend(*axes[0][0].get_legend_handles_labels(), ncols=3, loc="upper right", fontsize=8, frameon=True)
-    for ax in axes[-1]:
-        ax.set_xlabel("time [s]")
-    return save(figure, folder, "volumes.png", f"Oil, foam and gas, {label}")
+    means = np.array([ride.volumes[(time >= t) & (time < t + 1)].mean(axis=0) for t in seconds]) * 1e6
+    for first, (chamber, (ax,)) in zip((0, 3, 6), zip(CHAMBERS, axes, strict=True), strict=True):
+        phases = {"oil": means[:, first], "foam": means[:, first + 2], "gas": means[:, first + 1]}
+        ax.stackplot(seconds + 0.5, *phases.values(), colors=[PHASES[p] for p in phases], labels=list(phases), lw=0)
+        title(ax, f"{chamber} chamber")
+        ax.set_ylabel("volume [mL]")
+        ax.set_xlim(0, time[-1])
+        ax.grid(visible=False)
+    axes[-1][0].set_xlabel("time of the ride [s], means of 1 s")
+    spans = (time < WINDOW, time >= time[-1] - WINDOW)
+    filled = [ride.volumes[span][:, :6].sum(axis=0) for span in spans]
+    at_first, at_last = (float(1 - volume[[0, 3]].sum() / volume.sum()) for volume in filled)
+    told = "Volumes of oil, foam and gas in the three chambers."
+    sentence = messages.volumes((at_first, at_last), where(result, ride))
+    return save(figure, folder, "volumes.png", sentence, conditions(result, told), axes[0][0])
 
 
-def wheel_load(folder: Path, label: str, ride: Ride, intact: Ride, when: list[Moment], static: float) -> Path:
+def wheel_load(folder: Path, result: dict[str, Any], ride: Ride, intact: Ride, when: list[Moment]) -> Path:
     """Wheel load at the three moments, with the intact damper on the same stretch of road."""
-    figure, axes = plt.subplots(len(when), 1, figsize=(9, 7), sharey=True)
-    name = f"{100 * ride.case.oil_level:.0f} % oil"
-    for ax, moment, colour in zip(axes, when, COLOURS, strict=True):
-        inside = (ride.time >= moment.start) & (ride.time < moment.start + SPAN)
-        ax.plot(intact.time[inside], intact.wheel_load[inside] / 1e3, color=INTACT, lw=0.8, alpha=0.6, label="intact")
-        ax.plot(ride.time[inside], ride.wheel_load[inside] / 1e3, color=colour, lw=1.1, label=name)
-        off = ride.wheel_load[inside] <= 0
-        ax.fill_between(
-            ride.time[inside], 0, 1, where=off, color="#b3282d", alpha=0.25, lw=0, transform=ax.get_xaxis_transform()
-        )
-        ax.axhline(static / 1e3, color="#999", lw=0.8, ls="--")
-        ax.set_title(moment.label, loc="left", fontsize=10)
+    figure, axes = canvas(len(when), 1, (WIDTH, 5.6), sharey=True)
+    for (ax,), moment in zip(axes, when, strict=True):
+        inside = moment.inside(ride.time)
+        for run, colour, text in both(ride, intact):
+            ax.plot(
+                run.time[inside], run.wheel_load[inside] / 1e3, color=colour, lw=THIN if run is intact else 1.4, label=text
+            )
+        ax.fill_between(ride.time[inside], 0, 1, where=ride.wheel_load[inside] <= 0, color=worn(ride.case.oil_level),
+                        alpha=0.25, lw=0, transform=ax.get_xaxis_transform(), label="off the road")  # fmt: skip
+        ax.axhline(result["static_wheel_load_N"] / 1e3, color=OTHER, lw=1, label="static load")
+        title(ax, moment.label)
         ax.set_ylabel("wheel load [kN]")
-        ax.legend(loc="upper right", ncols=2, fontsize=8)
-    axes[-1].set_xlabel("time [s]   (dashed: static load, shaded: wheel off the road)")
-    return save(figure, folder, "wheel_load.png", f"Wheel load before, while and after the damping is lost, {label}")
+        ax.set_xlim(moment.start, moment.start + SPAN)
+    axes[-1][0].set_xlabel("time of the ride [s]")
+    lossy, new = (float((run.wheel_load[run.time >= SETTLED] <= 0.0).mean()) for run in (ride, intact))
+    told = f"Three spans of {SPAN:.0f} s: the load of the wheel on the same road with both dampers."
+    sentence = messages.off_road((lossy, new), where(result, ride))
+    return save(figure, folder, "wheel_load.png", sentence, conditions(result, told), axes[0][0])

@@ -3,159 +3,185 @@
 from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import MultipleLocator
 from scipy import signal
 
-from twintube.dampers.freed_gas import AS_PUBLISHED
-from twintube.demo.bands import DEAD_LENGTH
+from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, MEAN_RETURN
+from twintube.demo import messages
 from twintube.demo.ride import Ride
-from twintube.demo.style import BAND, FULL, INTACT, LEVELS, PAPER, SCALAR, save
-from twintube.vehicle.ride import SETTLED, WINDOW
+from twintube.demo.style import ALSO, LEVELS, conditions, drawn, name_of, save, settled
+from twintube.report.framed import INTACT, OIL, SCALAR, SMALL, WIDTH, colour_of, name_lines, oil, worn
+from twintube.report.style import canvas, plain, title
+from twintube.vehicle.ride import FAILED, SETTLED, WINDOW
 
-TIMES = (0, 5, -1)  # windows for which the DLC over the oil level is shown
-SHADES = ("#9ecae1", "#4292c6", "#084594")
-
-
-def name_of(entry: dict[str, Any]) -> str:
-    """`intact` or the oil level."""
-    return "intact" if entry["gas_preload"] else f"{100 * entry['oil_level']:.0f} % oil"
-
-
-def window_name(number: int) -> str:
-    """The time span of a window."""
-    return f"{number * WINDOW:.0f}-{(number + 1) * WINDOW:.0f} s"
+WAYS = {  # of the freed gas, as headings
+    DEFAULT: f"Freed gas dissolves again,\nhalf of it in {MEAN_RETURN:.3g} s (default)",
+    AS_PUBLISHED: "Freed gas stays gas\n(the paper's equations)",
+    "pushes_oil": "Freed gas only pushes oil\ninto the reserve",
+}
+BAND = "Band: five roads, and each assumption at both ends, alone and the main ones together."
+BETWEEN = 5.0  # [Hz], between the resonances of the body (1 to 2 Hz) and of the wheels (10 to 15 Hz) of cars
 
 
-def dlc(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """DLC over the oil level in several windows, with bands over seeds, freed gas and dead length; the factor."""
-    figure, axes = plt.subplots(1, len(result["speeds"]), figsize=(12, 5.4), sharey=True)
-    length = next(key for key in result["speeds"][0]["intact"]["bands"]["assumed"] if key.startswith(DEAD_LENGTH))
-    for ax, block in zip(axes, result["speeds"], strict=True):
-        entries = block["oil_levels"]
+def dlc(folder: Path, result: dict[str, Any]) -> Path:
+    """DLC of the whole ride over the oil level in the band of all assumptions, beside intact and a scalar factor."""
+    figure, axes = canvas(1, len(result["speeds"]), (WIDTH, 3.7), sharey=True)
+    for ax, block in zip(axes[0], result["speeds"], strict=True):
+        entries, intact = block["oil_levels"], block["intact"]["dlc"]
         levels = [100 * e["oil_level"] for e in entries]
-        low, high = zip(*(e["bands"]["freed_gas_ways"] for e in entries), strict=True)
-        ax.fill_between(levels, low, high, color=BAND, alpha=0.35, lw=0, label="all ways of the freed gas, whole ride")
-        low, high = np.sort([e["bands"]["assumed"][length] for e in entries], axis=1).T
-        ax.fill_between(levels, low, high, fc="none", ec=PAPER, hatch="///", alpha=0.5, lw=0, label=f"{length}, whole ride")
-        count = len(block["intact"]["dlc_window"])
-        for number, colour in zip(sorted({i % count for i in TIMES}), SHADES, strict=False):
-            values = [e["dlc_window"][number] for e in entries]
-            ax.plot(levels, values, "o-", ms=4, color=colour, label=f"freed gas dissolves, {window_name(number)}")
-        bare = [e["bands"]["freed_gas"][AS_PUBLISHED] for e in entries]
-        ax.plot(levels, bare, "^--", ms=5, color=PAPER, mfc="white", label="freed gas stays (as published), whole ride")
-        scalar = [e["scalar_factor"]["dlc"] for e in entries]
-        ax.plot(levels, scalar, "s:", ms=5, color=SCALAR, mfc="white", label="scalar factor, whole ride")
+        low, high = np.transpose([e["bands"]["all_over_intact"] for e in entries]) * intact
+        ax.fill_between(levels, low, high, color=worn(0.6), alpha=0.2, lw=0, label="every assumption tried")
+        ax.plot(
+            levels,
+            [e["dlc"] for e in entries],
+            "o-",
+            color=worn(0.6),
+            lw=3,
+            ms=6,
+            label=f"{plain(result['damper'])}, whole ride",
+        )
         if result["effects"]:
-            plain = [e["without_effects"]["dlc"] for e in entries]
-            ax.plot(
-                levels, plain, "d--", ms=5, color="#55a868", mfc="white", label=f"without {' and '.join(result['effects'])}"
-            )
-        low, high = block["intact"]["bands"]["seeds"]
-        ax.axhspan(low, high, color=INTACT, alpha=0.15, lw=0)
-        ax.axhline(block["intact"]["dlc"], color=INTACT, lw=0.9, ls="--", label="intact (shade: five roads)")
-        ax.set_title(f"{block['speed_kmh']:.0f} km/h", loc="left", fontsize=11)
-        ax.set_xlabel("oil level [%], gas preload lost")
+            without = f"without {' and '.join(result['effects'])}"
+            ax.plot(levels, [e["without_effects"]["dlc"] for e in entries], **ALSO, label=without)
+        scalar = [e["scalar_factor"]["dlc"] for e in entries]
+        ax.plot(levels, scalar, ":", color=SCALAR, lw=2, label="scalar factor: force × oil level")
+        ax.axhline(intact, color=INTACT, lw=1.2, ls="--", label="intact")
+        title(ax, f"{block['speed_kmh']:.0f} km/h")
+        ax.set_xlabel("oil level [%]")
+        ax.set_xticks(levels)
         ax.invert_xaxis()
-    axes[0].set_ylim(bottom=0)
-    axes[0].set_ylabel("dynamic load coefficient [1]")
-    axes[1].legend(fontsize=8, loc="lower right")
-    return save(figure, folder, "dlc_over_oil_level.png",
-                f"Wheel-load fluctuation over oil loss, {name}, class D road, {result['seconds']:.0f} s")  # fmt: skip
+        rise = ax.secondary_yaxis("right", functions=relative_to(intact))
+        rise.set_yticks(np.arange(0.0, 100 * max(high) / intact - 100, 50))
+        rise.set_ylabel("rise over intact [%]", size=9.5)
+        rise.tick_params(labelsize=9)
+    axes[0][0].set_ylim(bottom=0)  # after all lines: it ends the scaling of the shared axis
+    axes[0][0].set_ylabel("dynamic load coefficient (DLC) [1]")
+    return save(figure, folder, "dlc_over_oil_level.png", messages.over_oil_level(result),
+                conditions(result, f"{BAND} {settled(result)}"), axes[0][0])  # fmt: skip
 
 
-def development(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """DLC and power of the damper over time, with the bare paper model dotted."""
-    figure, axes = plt.subplots(2, len(result["speeds"]), figsize=(11, 7), sharex=True, sharey="row")
+def relative_to(intact: float) -> tuple[Any, Any]:
+    """From a DLC to its rise over the intact one [%], and back."""
+    return lambda value: 100 * (value / intact - 1), lambda rise: intact * (1 + rise / 100)
+
+
+def development(folder: Path, result: dict[str, Any]) -> Path:
+    """DLC and power of the damper over time."""
+    figure, axes = canvas(2, len(result["speeds"]), (WIDTH, 5.2), sharex=True, sharey="row")
+    ends: dict[int, list[tuple[float, str, str]]] = {0: [], 1: []}
     for column, block in enumerate(result["speeds"]):
-        entries = [block["intact"]] + [e for e in block["oil_levels"] if e["oil_level"] in LEVELS]
-        for entry in entries:
-            colour = INTACT if entry["gas_preload"] else LEVELS[entry["oil_level"]]
+        for entry in [*drawn(block), block["intact"]]:
+            colour = colour_of(entry["gas_preload"], entry["oil_level"])
             middle = (np.arange(len(entry["dlc_window"])) + 0.5) * WINDOW
             for row, figure_name, scale in ((0, "dlc_window", 1.0), (1, "damping_work_window_J", 1 / WINDOW)):
                 values = np.array(entry[figure_name]) * scale
-                axes[row][column].plot(middle, values, "o-", ms=4, color=colour, label=name_of(entry))
-                if "bare_paper_model" in entry:
-                    bare = np.array(entry["bare_paper_model"][figure_name]) * scale
-                    axes[row][column].plot(middle, bare, ":", color=colour, lw=1.4)
-        axes[0][column].set_title(f"{block['speed_kmh']:.0f} km/h", loc="left", fontsize=11)
-        axes[1][column].set_xlabel(f"time [s], windows of {WINDOW:.0f} s   (dotted: as published)")
+                dashes = "--" if entry["gas_preload"] else "o-"
+                axes[row][column].plot(middle, values, dashes, ms=3.5, lw=1.8, color=colour)
+                if column == len(result["speeds"]) - 1:
+                    ends[row].append((float(values[-1]), name_of(entry), colour))
+        title(axes[0][column], f"{block['speed_kmh']:.0f} km/h")
+        axes[1][column].set_xlabel(f"time [s], mean of {WINDOW:.0f} s")
     axes[0][0].set_ylabel("dynamic load coefficient [1]")
     axes[1][0].set_ylabel("power of the damper [W]")
-    for ax in axes.flat:
-        ax.set_ylim(bottom=0)
-    axes[0][0].legend(fontsize=9, ncols=2, loc="lower right")
-    return save(figure, folder, "development.png", f"Development during the ride, {name}, class D road")
+    for row, names in ends.items():
+        axes[row][0].set_ylim(bottom=0)
+        name_lines(axes[row][-1], names)
+    told = "DLC and the power that the damper turns into heat, over the time of the ride."
+    return save(figure, folder, "development.png", messages.development(result), conditions(result, told))
 
 
-def failure(folder: Path, name: str, result: dict[str, Any]) -> Path:
+def failure(folder: Path, result: dict[str, Any]) -> Path:
     """Time to failure over oil level and speed, for the most different ways of the freed gas."""
     table = result["time_to_failure"]
-    figure, axes = plt.subplots(1, len(table["freed_gas_ways"]), figsize=(12, 4.4), sharey=True)
-    for ax, (freed_gas, rows) in zip(axes, table["freed_gas_ways"].items(), strict=True):
-        values = np.array([[np.nan if t is None else t for t in row] for row in rows], dtype=float)
-        image = ax.imshow(values, cmap="RdYlGn", vmin=0, vmax=table["seconds"], aspect="auto")
-        for i, row in enumerate(rows):
-            for j, time in enumerate(row):
-                ax.text(j, i, "-" if time is None else f"{time:.0f}", ha="center", va="center", fontsize=8)
+    figure, axes = canvas(1, len(table["freed_gas_ways"]), (WIDTH, 3.2), sharey=True)
+    for ax, (way, rows) in zip(axes[0], table["freed_gas_ways"].items(), strict=True):
+        cells(ax, rows, table["seconds"])
         ax.set_xticks(range(len(table["oil_levels"])), [f"{100 * level:.0f}" for level in table["oil_levels"]])
         ax.set_yticks(range(len(table["speeds_kmh"])), [f"{speed:.0f}" for speed in table["speeds_kmh"]])
-        ax.set_title(freed_gas.replace("_", " "), loc="left", fontsize=10)
+        title(ax, WAYS[way])
         ax.set_xlabel("oil level [%]")
-        ax.grid(False)
-    axes[0].set_ylabel("speed [km/h]")
-    figure.colorbar(image, ax=axes[-1], label="[s]")
-    title = (f"Seconds until the damper does less than half of the intact damper's work, {name}, class D road "
-             f"(-: not within {table['seconds']:.0f} s)")  # fmt: skip
-    return save(figure, folder, "time_to_failure.png", title)
+    axes[0][0].set_ylabel("speed [km/h]")
+    told = (
+        f"Seconds until a window of {WINDOW:.0f} s in which the damper does less than {100 * FAILED:.0f} % of the work "
+        f"of the intact one; 0: in the first window, –: not within {table['seconds']:.0f} s. Darker: sooner."
+    )
+    return save(figure, folder, "time_to_failure.png", messages.failure(result), conditions(result, told))
 
 
-def rises(entry: dict[str, Any], intact: dict[str, Any]) -> dict[str, list[float]]:
+def cells(ax: Axes, rows: list[list[float | None]], longest: float) -> None:
+    """A coloured table of times [s]: the sooner the darker, white for never."""
+    soon = np.array([[0.0 if time is None else 1 - 0.9 * (time / longest) ** 0.5 for time in row] for row in rows])
+    ax.imshow(np.where(soon[..., None] > 0, OIL(soon), 1.0), aspect="auto")
+    for (i, j), dark in np.ndenumerate(soon):
+        time = rows[i][j]
+        text = "–" if time is None else f"{time:.0f}"
+        ax.text(j, i, text, ha="center", va="center", size=SMALL, color="white" if dark > 0.5 else "black")
+    ax.set_xticks(np.arange(len(rows[0]) - 1) + 0.5, minor=True)
+    ax.set_yticks(np.arange(len(rows) - 1) + 0.5, minor=True)
+    ax.grid(visible=False, which="major")
+    ax.grid(which="minor", color="white", alpha=1.0, lw=1)
+    ax.tick_params(which="minor", length=0)
+
+
+def rises(entry: dict[str, Any], intact: dict[str, Any]) -> dict[str, tuple[float, float]]:
     """Smallest and largest DLC relative to intact in the same car on the same road, by the varied assumption."""
     own = entry["dlc"] / intact["dlc"]
-    bars = {"road: five seeds": list(entry["bands"]["seeds_over_intact"])}
-    for text, key in (("half-life 6.1-10.2 s", "half_life"), ("freed gas", "freed_gas_ways")):
-        bars[text] = [v / intact["dlc"] for v in entry["bands"][key]]
+    low, high = entry["bands"]["seeds_over_intact"]
+    bars = {"the road, five of them": (low, high)}
+    for text, key in (("half-life of freed gas, 6.1 to 10.2 s", "half_life"), ("what the freed gas does", "freed_gas_ways")):
+        low, high = entry["bands"][key]
+        bars[text] = (low / intact["dlc"], high / intact["dlc"])
     for key, ends in entry["bands"]["assumed"].items():
         ratios = [v / w for v, w in zip(ends, intact["bands"]["assumed"][key], strict=True)]
-        bars[key] = [min(*ratios, own), max(*ratios, own)]
+        bars[key] = (min(*ratios, own), max(*ratios, own))
     return bars
 
 
-def bands(folder: Path, name: str, result: dict[str, Any]) -> Path:
-    """Dependence of the rise of the DLC on the assumptions: one bar each."""
+def bands(folder: Path, result: dict[str, Any]) -> Path:
+    """Dependence of the rise of the DLC on the assumptions: one bar each, the widest on top."""
     block = result["speeds"][-1]
-    entries = [e for e in block["oil_levels"] if e["oil_level"] in LEVELS]
-    intact = block["intact"]
-    figure, axes = plt.subplots(1, len(entries), figsize=(12, 4.6), sharey=True, sharex=True)
-    for ax, entry in zip(axes, entries, strict=True):
-        bars = rises(entry, intact)
-        for i, (low, high) in enumerate(bars.values()):
-            ax.barh(i, high - low, left=low, color=FULL, height=0.6)
-        ax.plot([entry["dlc"] / intact["dlc"]] * 2, [-0.5, len(bars) - 0.5], color=PAPER, lw=1.0)
-        ax.axvline(1.0, color=INTACT, lw=0.9, ls="--")
-        ax.set_yticks(range(len(bars)), list(bars))
-        ax.set_title(name_of(entry), loc="left", fontsize=10)
-        ax.set_xlabel("DLC relative to intact [1]")
-    axes[0].set_xlim(left=0.95)  # after all bars: it ends the scaling of the shared axis
-    axes[0].invert_yaxis()
-    return save(figure, folder, "bands.png", f"Sensitivity of the rise of the DLC, {name}, {block['speed_kmh']:.0f} km/h, "
-                f"{result['seconds']:.0f} s (dashed: no rise, line: default)")  # fmt: skip
+    intact, entries = block["intact"], drawn(block)
+    bars = {e["oil_level"]: rises(e, intact) for e in entries}
+    widest = sorted(bars[LEVELS[0]], key=lambda name: max(row[name][1] - row[name][0] for row in bars.values()))
+    figure, axes = canvas(1, len(entries), (WIDTH, 3.9), sharey=True, sharex=True)
+    for ax, entry in zip(axes[0], entries, strict=True):
+        low, high = 100 * (np.transpose([bars[entry["oil_level"]][name] for name in widest]) - 1)
+        ax.barh(range(len(widest)), high - low, left=low, color=worn(entry["oil_level"]), height=0.65)
+        ax.axvline(100 * (entry["dlc"] / intact["dlc"] - 1), color=INTACT, lw=1.5)
+        ax.axvline(0.0, color=INTACT, lw=1.2, ls="--")
+        ax.set_yticks(range(len(widest)), widest)
+        ax.grid(visible=False, axis="y")
+        title(ax, name_of(entry))
+        ax.set_xlabel("rise of DLC [%]")
+        ax.xaxis.set_major_locator(MultipleLocator(50))
+    axes[0][0].set_xlim(left=-10.0)  # after all bars: it ends the scaling of the shared axis
+    told = f"Bars: each assumption at both ends, alone. Line: the default. Dashed: no rise. {settled(result)}"
+    return save(figure, folder, "bands.png", messages.bands(bars, block["speed_kmh"]), conditions(result, told))
 
 
-def spectrum(folder: Path, label: str, rides: list[Ride]) -> Path:
+def spectrum(folder: Path, result: dict[str, Any], rides: list[Ride]) -> Path:
     """Power spectral density of the wheel load."""
-    figure, ax = plt.subplots(figsize=(9, 5))
-    for ride in rides:
-        if not ride.case.gas_preload and ride.case.oil_level not in LEVELS:
-            continue
+    figure, ((ax,),) = canvas(1, 1, (WIDTH, 4.0))
+    shown = [ride for ride in rides if ride.case.gas_preload or ride.case.oil_level in LEVELS]
+    densities = {}
+    for ride in shown:
         rate = 1 / ride.time[1]
         f, density = signal.welch(ride.wheel_load[ride.time > SETTLED], rate, nperseg=int(8 * rate))
-        band = (f > 0.3) & (f < 40)
-        colour = INTACT if ride.case.gas_preload else LEVELS[ride.case.oil_level]
-        text = "intact" if ride.case.gas_preload else f"{ride.case.oil_level:.0%} oil"
-        ax.loglog(f[band], density[band], color=colour, label=text)
+        inside = (f > 0.3) & (f < 40)
+        f, case = f[inside], ride.case
+        densities[case] = density[inside]
+        colour, dashes = colour_of(case.gas_preload, case.oil_level), "--" if case.gas_preload else "-"
+        ax.loglog(f, density[inside], dashes, color=colour, lw=1.6, label=name_of(vars(case)), zorder=2 + case.gas_preload)
     ax.set_xlabel("frequency [Hz]")
-    ax.set_ylabel("wheel load density [N²/Hz]")
-    ax.legend()
-    return save(figure, folder, "spectrum.png", f"Spectrum of the wheel load, {label}, whole ride")
+    ax.set_ylabel("density of the wheel load [N²/Hz]")
+    ax.set_xticks([0.5, 1, 2, 5, 10, 20, 40], ["0.5", "1", "2", "5", "10", "20", "40"])
+    worst, intact = shown[-1].case, shown[0].case
+    grown = []
+    for name, band in (("body", f < BETWEEN), ("wheel", f >= BETWEEN)):
+        top = int(np.argmax(densities[worst][band]))
+        grown.append((name, float(f[band][top]), float(densities[worst][band][top] / densities[intact][band].max())))
+    where = f"{result['damper']} with {oil(worst.oil_level)} at {worst.speed_kmh:.0f} km/h"
+    told = f"Power spectral density of the wheel load, {SETTLED:.0f} to {result['seconds']:.0f} s."
+    return save(figure, folder, "spectrum.png", messages.spectrum(grown, where), conditions(result, told), ax)

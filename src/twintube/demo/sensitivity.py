@@ -7,10 +7,12 @@ import numpy as np
 
 from twintube.dampers import Damper, load
 from twintube.dampers.dead_length import bounds, collapse_level
-from twintube.dampers.freed_gas import DEFAULT, P_GASES, WAYS
+from twintube.dampers.freed_gas import DEFAULT, P_GAS, P_GASES, WAYS
 from twintube.dampers.variants import rear_curve
 from twintube.demo.bands import (
     FORCES,
+    LOSSES,
+    NAMES,
     POLYTROPIC,
     SEEDS,
     SPEEDS,
@@ -28,35 +30,31 @@ from twintube.demo.words import percent
 from twintube.vehicle.cars import CarSet, axle, load_car
 from twintube.vehicle.ride import DT
 
-LEVELS = (1.0, 0.9, 0.6, 0.5, 0.4)
+LEVELS = (0.9, 0.6, 0.5, 0.4)
 RISES = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # levels of the table of rises
 GENTLEST = "pushes_oil"  # the way of the freed gas with the least effect
 MILD_AT = 0.4  # level by which the mild ends are chosen
 SECONDS = 120.0
-LINKS = (0.0, 70.0, 150.0, 300.0, 450.0)  # [N.s/m]
-LENGTHS = (0.06, 0.07, 0.08, 0.09, 0.1, 0.11)  # [m], within the bounds
-LOSSES = (0.001, 0.05, 0.1, 0.2, 0.4)  # oil losses [1] from which cavitation has its full effect
+LINKS = (0.0, 150.0, 450.0)  # [N.s/m]
 
 
 def settings(damper: Damper, car: CarSet) -> dict[str, Setting]:
-    """The settings, by the name of the row."""
+    """The settings, by the name of the row; what is the default already has no row of its own."""
+    p, links = damper.parameters, car.axles[axle(damper)]["d_links"]
     rows = {"default": Setting()}
-    rows |= {f"links {value:g} N s/m": Setting(car=(("d_links", value),)) for value in LINKS}
-    rows |= {f"freed gas `{name}`: {item.says}": Setting(freed_gas=name) for name, item in WAYS.items()}
-    rows |= {f"freed gas `limited`, it sits at {value:g} bar": limited(value) for value in P_GASES}
-    n_gas = damper.parameters.n_gas
-    rows[f"gas spring polytropic, exponent {n_gas:g}"] = POLYTROPIC
-    low, high = bounds(damper)
-    lengths = sorted({low, high, *(value for value in LENGTHS if low <= value <= high)})
-    rows |= {f"dead length {1e3 * value:.0f} mm": dead_length(value) for value in lengths}
-    rows |= {f"full cavitation from {100 * value:g} % of oil loss": loss(value)
-             for value in LOSSES}  # fmt: skip
+    rows |= {f"links {value:g} N s/m": Setting(car=(("d_links", value),)) for value in LINKS if value != links}
+    rows |= {f"freed gas `{name}`": Setting(freed_gas=name) for name in WAYS if name != DEFAULT}
+    rows |= {f"freed gas `limited` at {value:g} bar": limited(value) for value in P_GASES if value != P_GAS}
+    rows[f"gas spring polytropic, exponent {p.n_gas:g}"] = POLYTROPIC
+    rows |= {f"dead length {1e3 * value:.0f} mm": dead_length(value) for value in bounds(damper)}
+    rows |= {f"full cavitation from {100 * value:g} % loss": loss(value)
+             for value in LOSSES if value != p.cavitation_loss}  # fmt: skip
     rows |= {f"F-v curve x {value:g}": Setting(forces=value) for value in FORCES}
     if curve := rear_curve(damper):
         rows["rear curve of the F-v source"] = Setting(damper=tuple(curve.items()))
     for name, ends in car.band.items():
         if name != "d_links":
-            rows |= {f"{name} {value:g}": Setting(car=((name, value),)) for value in ends}
+            rows |= {f"{NAMES.get(name, name)} {value:g}": Setting(car=((name, value),)) for value in ends}
     return rows
 
 
@@ -136,16 +134,21 @@ def page(damper: str, car: str) -> str:
     links, p = vehicle.axles[axle(loaded)]["d_links"], loaded.parameters
     return "\n".join([
         "# Sensitivity of the wheel load", "",
-        f"Made by `twintube sensitivity --damper {damper}`: dynamic load coefficient (DLC, standard deviation",
-        f"of the wheel load over the static one, from 5 s on) of a quarter car, {vehicle.title}, class D road,",
-        f"{SECONDS:.0f} s, gas preload lost, means over {len(SEEDS)} roads. Default: freed gas `{DEFAULT}`, links {links:g}",
-        f"N s/m, dead length {1e3 * p.dead_length:g} mm, full cavitation from {100 * p.cavitation_loss:g} % of oil loss.",
-        f"All these values are assumed. The chambers are full down to {100 * collapse_level(loaded):.1f} % of the oil.",
+        "How far each assumption moves the dynamic load coefficient (DLC) of a quarter car: the standard deviation of",
+        f"the wheel load over the static one. `twintube sensitivity --damper {damper}` makes this page.", "",
+        f"- Vehicle: {vehicle.title}. Class D road, {SECONDS:.0f} s, DLC from 5 s on, mean of {len(SEEDS)} roads.",
+        f"- Gas preload lost. Default, all assumed: freed gas `{DEFAULT}`, links {links:g} N s/m, dead length",
+        f"  {1e3 * p.dead_length:g} mm, full cavitation from {100 * p.cavitation_loss:g} % of oil loss.",
+        f"- `limited` is at {P_GAS:g} bar.",
+        f"- The chambers are full down to {100 * collapse_level(loaded):.1f} % of the oil.",
+        "- [What each way of the freed gas means](effects.md#what-becomes-of-the-gas-that-cavitation-frees).",
         "", table(rides, rows), "",
         "## Rise over the intact damper", "",
-        "The DLC over that of the intact damper in the same car on the same road, in %: smallest and largest of",
-        f"{len(SEEDS)} roads. All settings of the bands: every assumption at its ends, one at a time, and freed gas, links",
-        "and dead length together. The last row has of every assumption the end with the smaller rise at",
-        f"{100 * MILD_AT:.0f} % oil, all at once, and freed gas `{GENTLEST}`.",
+        "Rise of the DLC over the intact damper in the same car on the same road, in %: smallest and largest of",
+        f"{len(SEEDS)} roads.", "",
+        "- All settings of the bands: every assumption at its ends, one at a time. Freed gas, links and dead length",
+        "  also together.",
+        f"- Mild ends: of every assumption the end with the smaller rise at {100 * MILD_AT:.0f} % oil, and freed gas",
+        f"  `{GENTLEST}`.",
         "", table_of_rises(rides, combined | {"all mild ends at once": [mildest]}), "",
     ])  # fmt: skip

@@ -1,41 +1,44 @@
-"""Style of the pictures."""
+"""What the pictures have in common: which oil levels are drawn, words for states, conditions and what is assumed."""
 
 from pathlib import Path
+from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from twintube.files import replacing
+from twintube.files import write_bytes
+from twintube.report.framed import framed, oil
+from twintube.report.style import VIOLET, png
+from twintube.vehicle.ride import SETTLED
 
-FOOTNOTE = "Assumed (unpublished): F-v curve, friction, gas spring, chamber dead length, car, and what freed gas does"
-INTACT, FULL, PAPER, SCALAR = "#1b1b1b", "#2a7f9e", "#b3282d", "#7a7a7a"
-BAND = "#9cc7d8"
-LEVELS = {0.9: "#2a7f9e", 0.8: "#55a868", 0.6: "#d98c21", 0.4: "#b3282d"}  # oil levels in line plots
-PHASES = {"oil": "#c98b1f", "foam": "#f0d9a8", "gas": "#cfe0ee"}
-
-plt.rcParams |= {
-    "axes.grid": True,
-    "grid.alpha": 0.3,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "font.size": 10,
-    "figure.dpi": 110,
-    "savefig.dpi": 130,
-    "legend.frameon": False,
-}
+NOTE = "Assumed, not published: F-v curve, friction, gas spring, dead length of the chambers, car, and what freed gas does."
+LEVELS = (0.9, 0.8, 0.6, 0.4)  # oil levels where lines of all eight would hide one another
+ALSO = {"color": VIOLET, "ls": "--", "lw": 1.3}  # the damper without its effects, which are its own
 
 
-def save(figure: Figure, folder: Path, name: str, title: str) -> Path:
-    """Add title and footnote to the figure and write it to a file."""
-    figure.suptitle(title, x=0.01, ha="left", fontsize=12, parse_math=False)  # names may hold "$"
-    figure.text(0.01, 0.005, FOOTNOTE, fontsize=7, color="#777")
-    figure.tight_layout(rect=(0, 0.02, 1, 0.97))
-    path = folder / name
-    with replacing(path) as temporary:
-        figure.savefig(temporary)
-    plt.close(figure)
-    return path
+def name_of(entry: dict[str, Any]) -> str:
+    """`intact` or the oil level."""
+    return "intact" if entry["gas_preload"] else oil(entry["oil_level"])
+
+
+def drawn(block: dict[str, Any]) -> list[dict[str, Any]]:
+    """The entries of LEVELS at one speed."""
+    return [e for e in block["oil_levels"] if e["oil_level"] in LEVELS]
+
+
+def conditions(result: dict[str, Any], about: str) -> str:
+    """What a picture shows, and where it holds."""
+    car = f"{result['axle']} corner of a {result['car']['title']}"
+    return f"{about} {result['damper']} without gas preload, {car}, class D road."
+
+
+def settled(result: dict[str, Any]) -> str:
+    """What DLC is, and over which time."""
+    return f"DLC: standard deviation of the wheel load over its static load, {SETTLED:.0f} to {result['seconds']:.0f} s."
+
+
+def save(figure: Figure, folder: Path, name: str, sentence: str, told: str, key: Axes | None = None) -> Path:
+    """Add sentence, conditions, the key of an axes and what is assumed to the figure and write it to a file."""
+    framed(figure, sentence, told, NOTE, key)
+    write_bytes(folder / name, png(figure))
+    return folder / name
