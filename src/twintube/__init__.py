@@ -5,7 +5,7 @@ simulate        forces and volumes of a damper over a record
 harmonic_block  the excitation of the paper's test rig
 build_fmu       the damper as FMI 2.0 co-simulation FMU
 identify        the parameters from measured data
-diagnose        what the simulation gets wrong on measured data, and why
+diagnose        what state a damper is in, what has changed, and what the simulation lacks, from measured data
 """
 
 from importlib import import_module
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from twintube.dampers import Damper as Damper
     from twintube.dampers import ParameterError as ParameterError
     from twintube.dampers import load as load
-    from twintube.diagnosis import diagnose as diagnose
-    from twintube.engine.simulate import InputError as InputError
-    from twintube.engine.simulate import Simulation as Simulation
     from twintube.engine.simulate import simulate as simulate
+    from twintube.engine.simulation import Simulation as Simulation
+    from twintube.errors import InputError as InputError
     from twintube.errors import InputWarning as InputWarning
+    from twintube.evidence import diagnose as diagnose
     from twintube.fmu import BuildError as BuildError
     from twintube.fmu import build_fmu as build_fmu
     from twintube.identification import identify as identify
@@ -32,9 +32,10 @@ __version__ = version("twintube")
 # Imported where they are first used: numba, scipy and the FMU tools take seconds.
 HOMES = {
     "twintube.dampers": ("Damper", "ParameterError", "load"),
-    "twintube.diagnosis": ("diagnose",),
-    "twintube.engine.simulate": ("InputError", "Simulation", "simulate"),
-    "twintube.errors": ("InputWarning",),
+    "twintube.engine.simulate": ("simulate",),
+    "twintube.engine.simulation": ("Simulation",),
+    "twintube.errors": ("InputError", "InputWarning"),
+    "twintube.evidence": ("diagnose",),
     "twintube.fmu": ("BuildError", "build_fmu"),
     "twintube.identification": ("identify",),
     "twintube.rig": ("Signal", "harmonic_block"),

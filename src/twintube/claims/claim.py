@@ -8,7 +8,8 @@ import numpy as np
 from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, with_freed_gas
-from twintube.engine.simulate import Simulation, simulate, work_between
+from twintube.engine.simulate import simulate, work_between
+from twintube.engine.simulation import Simulation
 from twintube.rig.plan import amplitude, at_oil_level
 from twintube.rig.signals import START, Signal, harmonic_block
 

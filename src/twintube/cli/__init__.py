@@ -9,6 +9,7 @@ from twintube.cli import (  # noqa: F401  # registers the commands
     inspect,
     measured,
     model,
+    paper,
     ssp,
     vehicle,
 )

@@ -8,20 +8,30 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperCommand
+from typer.core import TyperCommand, TyperGroup
 from typer.models import CommandFunctionType
 
 from twintube import __version__
 from twintube.caches import lend
-from twintube.engine.simulate import InputError
-from twintube.errors import InputWarning, UserError
+from twintube.errors import InputError, InputWarning, UserError
 from twintube.extras import missing
 from twintube.words import printable
 
-STYLE: dict[str, Any] = {"add_completion": False, "rich_markup_mode": None, "pretty_exceptions_enable": False}
-AS_PUBLISHED = Annotated[
-    bool, typer.Option("--as-published", help="The paper's equations alone: gas that cavitation frees stays gas.")
-]
+# No rich text: it takes longer to import than all else that the help needs.
+STYLE: dict[str, Any] = {
+    "context_settings": {"help_option_names": ["-h", "--help"]},
+    "rich_markup_mode": None,
+    "pretty_exceptions_enable": False,
+}
+# Groups of commands in the help, in this order.
+MODEL, BENCH, VEHICLE, PAPER = "Model and FMU", "Bench data", "Vehicle", "Paper"
+PANELS = (MODEL, BENCH, VEHICLE, PAPER)
+MOVED = {
+    "claims": "paper claims",
+    "reproduce": "paper figures",
+    "readings": "paper readings",
+    "calibrate": "paper calibrate",
+}
 # The context of the running command; Typer has it in a module of its own, which was click's in former versions.
 RUNNING: ContextVar[Any] = ContextVar("running")
 OUTPUTS = ("output", "json_file", "plot")  # parameters of commands that name what is written
@@ -90,6 +100,48 @@ class Command(TyperCommand):
                     check_place(path)
             return super().invoke(ctx)
 
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """As usual, `DAMPER` for what Typer writes as `{DAMPER}`."""
+        return [piece.strip("{}") for piece in super().collect_usage_pieces(ctx)]
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Names as metavars say them, without the types of Python that Typer puts behind those of arguments."""
+        for title, kind in (("Arguments", "argument"), ("Options", "option")):
+            records = [each.get_help_record(ctx) for each in self.get_params(ctx) if each.param_type_name == kind]
+            rows = [(name.partition(" <")[0], text) for name, text in filter(None, records)]
+            if rows:
+                with formatter.section(title):
+                    formatter.write_dl(rows)
+
+
+class Group(TyperGroup):
+    """Commands in groups, each sorted, with the whole first line of their help."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """The names in the order of the alphabet."""
+        return sorted(self.commands)
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """A section for each group."""
+        width = max(map(len, self.commands))
+        for title in PANELS:
+            known: list[tuple[str, Any]] = [(name, self.commands[name]) for name in self.list_commands(ctx)]
+            rows = [(f"{name:{width}}", first_line(each)) for name, each in known if each.rich_help_panel == title]
+            if rows:
+                with formatter.section(title):
+                    formatter.write_dl(rows)
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """As Typer does, and say where a command went that had another name."""
+        if args[0] in MOVED and args[0] not in self.commands:
+            ctx.fail(f"'twintube {args[0]}' is 'twintube {MOVED[args[0]]}' now")
+        return super().resolve_command(ctx, args)
+
+
+def first_line(command: Any) -> str:
+    """The first paragraph of a command's help, in one line."""
+    return " ".join((command.help or "").split("\n\n", maxsplit=1)[0].split())
+
 
 class App(typer.Typer):
     """An application of such commands."""
@@ -99,16 +151,12 @@ class App(typer.Typer):
         return super().command(*arguments, **({"cls": Command} | options))
 
 
-app = App(
-    **STYLE,
-    name="twintube",
-    no_args_is_help=True,
-)
+app = App(**STYLE, name="twintube", cls=Group, no_args_is_help=True)
 
 
 def standalone(command: Callable[..., None]) -> typer.Typer:
     """An application of one command, for the scripts at the top level."""
-    alone = App(**STYLE)
+    alone = App(**STYLE, add_completion=False)
     alone.command()(command)
     return alone
 
@@ -126,4 +174,7 @@ def options(
         bool, typer.Option("--version", callback=show_version, is_eager=True, help="Show the version.")
     ] = False,
 ) -> None:
-    """Twin-tube shock absorber after oil and gas loss: parameter sets, simulation, FMU, identification, diagnosis."""
+    """Twin-tube shock absorber after oil and gas loss: simulation, FMU, diagnosis.
+
+    Behind a command, -h lists its options: twintube fmu -h
+    """

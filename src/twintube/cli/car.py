@@ -7,47 +7,57 @@ from typing import Annotated, Any
 
 import typer
 
-from twintube import dampers
-from twintube.cli.base import app
+from twintube.cli.base import VEHICLE, app
+from twintube.cli.options import CAR, FRONT, JSON_FILE, MANEUVERS, REAR, ROADS, WORN_AT, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
-from twintube.engine.simulate import InputError
+from twintube.errors import InputError
 from twintube.files import write_bytes, write_text
 from twintube.words import counted
 
-FRONT = Annotated[str, typer.Option(help="Damper of the front axle: a name or a parameter file.")]
-REAR = Annotated[str, typer.Option(help="Damper of the rear axle.")]
-WORN_AT = Annotated[str, typer.Option(help="Worn dampers: all, front, rear, or a wheel such as rear_left.")]
-CAR_FILE = Annotated[str, typer.Option("--car", help="A named car or a car's file.")]
-JSON_FILE = Annotated[Path | None, typer.Option("--json", help="Write all figures to this file.")]
 
-
-@app.command(epilog="Example: twintube car --maneuver braking --speed 80 --worn all --oil-level 0.5 --output car")
+@app.command(
+    rich_help_panel=VEHICLE,
+    epilog="Example: twintube car --maneuver braking --speed 80 --worn all --oil-level 0.5 --output car",
+)
 def car(
     maneuver: Annotated[
         list[str] | None,
-        typer.Option(
-            help="ride, braking, cornering, step_steer, sine_with_dwell, lane_change, circle, braking_in_turn, or table3 "
-            "for the ten drives of the paper; repeat for several."
+        one_of(
+            (*MANEUVERS, "table3"),
+            metavar="NAME",
+            help=f"{', '.join(MANEUVERS)}, or table3 for the ten drives of the paper; repeatable.",
         ),
     ] = None,
     front: FRONT = "SA7",
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
-    oil_level: Annotated[list[float] | None, typer.Option(help="Oil of the worn dampers; repeat for several.")] = None,
-    speed: Annotated[
-        list[float] | None, typer.Option(help="Speed [km/h], else the manoeuvre's own; repeat for several.")
+    oil_level: Annotated[
+        list[float] | None, typer.Option(metavar="0..1", help="Oil of the worn dampers; repeatable.")
     ] = None,
-    road_class: Annotated[list[str] | None, typer.Option(help="smooth, or a class of ISO 8608; repeat for several.")] = None,
-    grip: Annotated[str, typer.Option(help="Grip over that of a dry road: 0.7 for a wet one; 1,0.3 left, right.")] = "1",
-    seeds: Annotated[int, typer.Option(help="Roads of each class.", min=1, max=1000)] = 5,
-    car_file: CAR_FILE = "passat_b8",
+    speed: Annotated[
+        list[float] | None, typer.Option(metavar="KM/H", help="Speed, else the manoeuvre's own; repeatable.")
+    ] = None,
+    road_class: Annotated[
+        list[str] | None,
+        one_of(("smooth", *ROADS), help="Road: smooth, or a class of ISO 8608; repeatable."),
+    ] = None,
+    grip: Annotated[
+        str, typer.Option(metavar="0..1", help="Grip over that of a dry road: 0.7 for a wet one; 1,0.3 left, right.")
+    ] = "1",
+    seeds: Annotated[int, typer.Option(metavar="N", help="Roads of each class.", min=1, max=1000)] = 5,
+    car_file: CAR = "passat_b8",
     inspection: Annotated[
-        Path | None, typer.Option(help="A file of `twintube inspect --json`: what it sees stands beside on the page.")
+        Path | None,
+        typer.Option(metavar="FILE", help="A file of `twintube inspect --json`: what it sees stands beside on the page."),
     ] = None,
     json_file: JSON_FILE = None,
-    output: Annotated[Path | None, typer.Option(help="Write a page and pictures to this folder.")] = None,
+    output: Annotated[Path | None, typer.Option(metavar="FOLDER", help="Write a page and pictures to this folder.")] = None,
 ) -> None:
-    """Drive the whole car with worn dampers and compare it with the intact car, and with a scalar factor in their place."""
+    """Drive the whole car with worn dampers and with intact ones.
+
+    A car with a scalar factor in place of the worn dampers drives, too.
+    """
+    from twintube import dampers
     from twintube.report.car import page, picture
     from twintube.report.car_courses import pictures
     from twintube.report.conclusion import read_inspection
@@ -111,20 +121,29 @@ def car(
         typer.echo(f"not driven: {reason}", err=True)
 
 
-@app.command(epilog="Example: twintube car-sensitivity --oil-level 0.5 --seeds 4 --draws 48 --output car_sensitivity")
+@app.command(
+    rich_help_panel=VEHICLE,
+    epilog="Example: twintube car-sensitivity --oil-level 0.5 --seeds 4 --draws 48 --output car_sensitivity",
+)
 def car_sensitivity(
     front: FRONT = "SA7",
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
-    oil_level: Annotated[float, typer.Option(help="Oil of the worn dampers.")] = 0.5,
-    seeds: Annotated[int, typer.Option(help="Roads and slip controls for each value.", min=1, max=1000)] = 4,
-    draws: Annotated[int, typer.Option(help="Draws of all values at once; 0 for none.", min=0, max=10_000)] = 48,
-    seed: Annotated[int, typer.Option(help="Seed of the draws.", min=0)] = 1,
-    car_file: CAR_FILE = "passat_b8",
+    oil_level: Annotated[float, typer.Option(metavar="0..1", help="Oil of the worn dampers.")] = 0.5,
+    seeds: Annotated[int, typer.Option(metavar="N", help="Roads and slip controls for each value.", min=1, max=1000)] = 4,
+    draws: Annotated[
+        int, typer.Option(metavar="N", help="Draws of all values at once; 0 for none.", min=0, max=10_000)
+    ] = 48,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the draws.", min=0)] = 1,
+    car_file: CAR = "passat_b8",
     json_file: JSON_FILE = None,
-    output: Annotated[Path | None, typer.Option(help="Write a page and a picture to this folder.")] = None,
+    output: Annotated[Path | None, typer.Option(metavar="FOLDER", help="Write a page and a picture to this folder.")] = None,
 ) -> None:
-    """Vary every assumed value of the car and its brakes, and see how the effect of the worn dampers moves."""
+    """Vary every assumed value of the whole car and its brakes.
+
+    It says how the effect of the worn dampers moves.
+    """
+    from twintube import dampers
     from twintube.report.car_sensitivity import as_json, page, text, tornado
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.catalogue import Case

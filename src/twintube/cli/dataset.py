@@ -7,38 +7,47 @@ from typing import Annotated
 
 import typer
 
-from twintube.cli.base import app
-from twintube.engine.simulate import InputError
+from twintube.cli.base import BENCH, app
+from twintube.cli.options import damper_option
+from twintube.errors import InputError
 from twintube.extras import extra_of
 
 EXAMPLE = "bench_SA8"
 
 
-@app.command("new-dataset", epilog="Example: twintube new-dataset my_dataset --from block.csv --damper SA8")
+@app.command(
+    "new-dataset", rich_help_panel=BENCH, epilog="Example: twintube new-dataset my_dataset --from block.csv --damper SA8"
+)
 def new_dataset(
-    folder: Annotated[Path, typer.Argument(help="The folder of the new dataset; files that lie in it are taken, too.")],
+    folder: Annotated[
+        Path, typer.Argument(metavar="FOLDER", help="Of the new dataset; files that lie in it are taken, too.")
+    ],
     source: Annotated[
-        list[Path] | None, typer.Option("--from", help="A measured record to copy into the folder; repeatable.")
+        list[Path] | None,
+        typer.Option("--from", metavar="FILE", help="A measured record to copy into the folder; repeatable."),
     ] = None,
     reference: Annotated[
         list[Path] | None,
         typer.Option(
-            help="A record of the damper as it was, before whatever happened to it; taken like --from; repeatable."
+            metavar="FILE",
+            help="A record of the damper as it was, before whatever happened to it; taken like --from; repeatable.",
         ),
     ] = None,
-    damper: Annotated[str, typer.Option(help="A name of `twintube dampers` or a parameter file.")] = "",
+    damper: Annotated[str, damper_option("A name of `twintube dampers` or a parameter file.")] = "",
     oil_level: Annotated[
         float | None,
-        typer.Option(min=0.0, max=1.0, help="Share of the intact oil volume in all files; unknown if left out."),
+        typer.Option(
+            metavar="0..1", min=0.0, max=1.0, help="Share of the intact oil volume in all files; unknown if left out."
+        ),
     ] = None,
     gas_lost: Annotated[
         bool | None, typer.Option("--gas-lost/--gas-present", help="Gas preload in all files; unknown if left out.")
     ] = None,
 ) -> None:
-    """Write a commented dataset.toml, with delimiter, decimal sign, header, names and units read off the files.
+    """Write the dataset.toml of measured files for you to confirm.
 
-    What is not certain is said in its comments; an oil level and a gas preload that are not given are "unknown". No file is
-    overwritten.
+    Delimiter, decimal sign, header, names and units are found. What is not certain is said in its comments; an oil level and
+    a gas preload that are not given are "unknown". No file is overwritten.
     """
     from twintube.data import check_dataset, report
     from twintube.data.findings import UNCONFIRMED
@@ -62,11 +71,16 @@ def new_dataset(
     typer.echo(f"After that: twintube diagnose {folder}, or twintube identify {folder}{needs}")
 
 
-@app.command(epilog="Example: twintube example my_example")
+@app.command(rich_help_panel=BENCH, epilog="Example: twintube example my_example")
 def example(
-    folder: Annotated[Path, typer.Argument(help="Folder to copy the example into; it must not exist or be empty.")],
+    folder: Annotated[
+        Path, typer.Argument(metavar="FOLDER", help="To copy the example into; it must not exist or be empty.")
+    ],
 ) -> None:
-    """Copy the example dataset: seven records of a simulated bench, in which `twintube diagnose` finds a cause."""
+    """Copy a dataset of seven records to try things on.
+
+    They are from a simulated bench, and `twintube diagnose` finds a cause in them.
+    """
     from twintube.files import write_bytes
 
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):

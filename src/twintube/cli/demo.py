@@ -5,32 +5,33 @@ from typing import Annotated
 
 import typer
 
-from twintube.cli.base import app
+from twintube.cli.base import VEHICLE, app
+from twintube.cli.options import CAR, SEED, STEP_MS, damper_option
 from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
-from twintube.dampers import load
 from twintube.files import write_text
-from twintube.vehicle.cars import axle, load_car
-from twintube.vehicle.ride import DT
 
-DAMPER = Annotated[str, typer.Option(help="A named damper or a parameter file.")]
-CAR = Annotated[str, typer.Option(help="A named car or a car's file.")]
+DAMPER = Annotated[str, damper_option("A named damper or a parameter file.")]
 
 
-@app.command(epilog="Example: twintube demo --damper SA7 --output results/front")
+@app.command(rich_help_panel=VEHICLE, epilog="Example: twintube demo --damper SA7 --output results/front")
 def demo(
-    output: Annotated[Path, typer.Option(help="Folder for summary.json and the pictures.")] = Path("results/vehicle_demo"),
+    output: Annotated[Path, typer.Option(metavar="FOLDER", help="For summary.json and the pictures.")] = Path(
+        "results/vehicle_demo"
+    ),
     damper: DAMPER = "SA8",
     car: CAR = "passat_b8",
-    seconds: Annotated[float, typer.Option(help="Length of each ride [s].", min=20.0, max=3600.0)] = 120.0,
-    step_ms: Annotated[float, typer.Option(help="Communication step [ms].", min=0.05, max=1.0)] = DT * 1e3,
-    seed: Annotated[int, typer.Option(help="Seed of the road.", min=0)] = 1,
+    seconds: Annotated[float, typer.Option(metavar="S", help="Length of each ride.", min=20.0, max=3600.0)] = 120.0,
+    step_ms: Annotated[float, typer.Option(metavar="MS", help="Communication step.", min=0.05, max=1.0)] = STEP_MS,
+    seed: SEED = 1,
 ) -> None:
-    """Drive a quarter car over a class D road with the damper FMU, from intact to 30 % oil.
+    """Drive a quarter car with the FMU, from intact to 30 % oil.
 
-    The bands show the dependence on every assumption. A damper with effects, such as the extended.toml of a diagnosis, is
-    also driven without them to show their influence.
+    The road is of class D. The bands show the dependence on every assumption. A damper with effects, such as the
+    extended.toml of a diagnosis, is also driven without them to show their influence.
     """
+    from twintube.dampers import load
     from twintube.demo.job import main_job, table
+    from twintube.vehicle.cars import axle, load_car
 
     loaded, vehicle = load(damper), load_car(car)
     check_folder(output, ("summary.json",), of_options())
@@ -44,13 +45,18 @@ def demo(
     typer.echo(f"{output / 'summary.json'} and {', '.join(p.name for p in pictures)}")
 
 
-@app.command(epilog="Example: twintube sensitivity --output docs/sensitivity.md")
+@app.command(rich_help_panel=VEHICLE, epilog="Example: twintube sensitivity --output docs/sensitivity.md")
 def sensitivity(
-    output: Annotated[Path, typer.Option(help="Markdown file for the table.")] = Path("results/sensitivity.md"),
+    output: Annotated[Path, typer.Option(metavar="FILE", help="Markdown file for the table.")] = Path(
+        "results/sensitivity.md"
+    ),
     damper: DAMPER = "SA8",
     car: CAR = "passat_b8",
 ) -> None:
-    """Drive the quarter car with every assumption varied, and write the table of the DLC."""
+    """Vary every assumption about the quarter car, one by one.
+
+    It writes the table of the dynamic load coefficient (DLC).
+    """
     from twintube.demo.sensitivity import page
 
     text = page(damper, car)

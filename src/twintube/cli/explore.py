@@ -5,23 +5,24 @@ from typing import Annotated
 
 import typer
 
-from twintube.cli.base import app
+from twintube.cli.base import MODEL, app
 from twintube.cli.outputs import keep_other
-from twintube.dampers import load
 from twintube.files import write_text
 
 
-@app.command(epilog="Example: twintube explore --output explorer.html")
+@app.command(rich_help_panel=MODEL, epilog="Example: twintube explore --output explorer.html")
 def explore(
     parameters: Annotated[
-        list[Path] | None, typer.Option(help="A parameter file (TOML) beside SA1 to SA8; may be repeated.")
+        list[Path] | None, typer.Option(metavar="FILE", help="A parameter file (TOML) beside SA1 to SA8; repeatable.")
     ] = None,
-    output: Annotated[Path, typer.Option(help="HTML file.")] = Path("explorer.html"),
+    output: Annotated[Path, typer.Option(metavar="FILE", help="HTML file.")] = Path("explorer.html"),
 ) -> None:
-    """Write a page that runs the damper in a browser: chambers, loops, work and wheel load, live and against intact.
+    """Write a page that runs the damper in a browser.
 
-    The page needs no network. What it computes is the native FMU, compiled for browsers.
+    It shows chambers, loops, work and wheel load, live and against intact. It needs no network. What it computes is the
+    native FMU, compiled for browsers.
     """
+    from twintube.dampers import load
     from twintube.explorer.assemble import page
 
     if output.is_dir():

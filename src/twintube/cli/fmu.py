@@ -2,24 +2,25 @@
 
 import time
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from twintube.cli.base import AS_PUBLISHED, app
+from twintube.cli.base import MODEL, app
+from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, PLATFORM
 from twintube.cli.outputs import keep_other, refuse_other
-from twintube.dampers import Damper, load
-from twintube.dampers.freed_gas import acting
 from twintube.files import write_text
-from twintube.fmu.platforms import PLATFORMS, Kind
 from twintube.words import printable
 
-PARAMETERS = Annotated[Path | None, typer.Option(help="A parameter file (TOML) instead of a named damper.")]
-OIL_LEVEL = Annotated[float | None, typer.Option(help="Start value: oil, share of the intact volume.")]
+if TYPE_CHECKING:
+    from twintube.dampers import Damper
+
+PARAMETERS = Annotated[Path | None, typer.Option(metavar="FILE", help="A parameter file (TOML) instead of a named damper.")]
+OIL_LEVEL = Annotated[float | None, typer.Option(metavar="0..1", help="Start value: oil, share of the intact volume.")]
 GAS_LOST = Annotated[bool, typer.Option("--gas-lost", help="Start value: the gas preload is lost.")]
 
 
-def start_state(damper: Damper, oil_level: float | None, gas_lost: bool) -> Damper:
+def start_state(damper: "Damper", oil_level: float | None, gas_lost: bool) -> "Damper":
     """The damper with its start values; raises ParameterError."""
     changes: dict[str, Any] = {} if oil_level is None else {"oil_level": oil_level}
     if gas_lost:
@@ -27,32 +28,34 @@ def start_state(damper: Damper, oil_level: float | None, gas_lost: bool) -> Damp
     return damper.with_(**changes)
 
 
-@app.command(epilog="Example: twintube fmu SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu")
+@app.command(rich_help_panel=MODEL, epilog="Example: twintube fmu SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu")
 def fmu(
-    damper: Annotated[str | None, typer.Argument(help="A named damper or a parameter file; default: SA8.")] = None,
+    damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
     parameters: PARAMETERS = None,
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = False,
     kind: Annotated[
-        Kind, typer.Option(help="Compiled for all platforms, or Python source run by the host's Python.")
+        Literal["native", "python"],
+        typer.Option(metavar="native|python", help="Compiled, or Python source that the host's Python runs."),
     ] = "native",
-    platform: Annotated[
-        list[str] | None, typer.Option(help=f"Only for this platform; may be repeated: {', '.join(PLATFORMS)}.")
-    ] = None,
+    platform: PLATFORM = None,
     published: AS_PUBLISHED = False,
-    output: Annotated[Path, typer.Option(help="File (.fmu) or folder; default: the current folder.")] = Path(),
+    output: Annotated[Path, typer.Option(metavar="FILE|FOLDER", help="An .fmu file, or a folder for it.")] = Path(),
 ) -> None:
     """Build the FMU of a damper and validate it with fmpy.
 
-    Gas that cavitation frees dissolves again, unless --as-published asks for the paper's equations alone or the
-    parameter set says what freed gas does.
+    Without a damper it is that of SA8. Gas that cavitation frees dissolves again, unless --as-published asks for the paper's
+    equations alone or the parameter set says what freed gas does.
 
     The first build for Windows compiles the runtime too and takes a minute or two; later ones take seconds.
     """
+    from twintube.dampers import load
+    from twintube.dampers.freed_gas import acting
     from twintube.fmu import BuildError, build_fmu
     from twintube.fmu.archive import start_values
     from twintube.fmu.assemble import target_file
     from twintube.fmu.description import model_name
+    from twintube.fmu.platforms import PLATFORMS
     from twintube.fmu.table import variables
 
     began = time.monotonic()
@@ -76,15 +79,19 @@ def fmu(
     )
 
 
-@app.command(epilog="Example: twintube ssv SA8 --oil-level 0.6 --gas-lost --output worn.ssv")
+@app.command(rich_help_panel=MODEL, epilog="Example: twintube ssv SA8 --oil-level 0.6 --gas-lost --output worn.ssv")
 def ssv(
-    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
+    damper: DAMPER,
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = False,
     published: AS_PUBLISHED = False,
-    output: Annotated[Path, typer.Option(help="SSV file for the parameters.")] = Path("parameters.ssv"),
+    output: Annotated[Path, typer.Option(metavar="FILE", help="SSV file for the parameters.")] = Path("parameters.ssv"),
 ) -> None:
-    """Write all parameters for an importer of the FMU, as System Structure Parameter Values of SSP 1.0."""
+    """Write the parameters of a damper for the FMU's importer.
+
+    The file holds System Structure Parameter Values (SSV) of SSP 1.0.
+    """
+    from twintube.dampers import load
     from twintube.fmu.ssv import to_ssv
 
     chosen = start_state(load(damper, as_published=published), oil_level, gas_lost)

@@ -4,20 +4,21 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from tqdm import tqdm
 
-from twintube import dampers
-from twintube.cli.base import app
+from twintube.cli.base import VEHICLE, app
+from twintube.cli.options import CAR, FREED_GAS, INSPECTIONS, JSON_FILE, dampers, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
-from twintube.dampers import Damper
-from twintube.engine.simulate import InputError
+from twintube.errors import InputError
 from twintube.files import write_text
 
+if TYPE_CHECKING:
+    from twintube.dampers import Damper
 
-def at_dead_lengths(damper: Damper, lengths_mm: Sequence[float] | None) -> list[Damper]:
+
+def at_dead_lengths(damper: "Damper", lengths_mm: Sequence[float] | None) -> "list[Damper]":
     """The damper with each of these dead lengths, which its name then says; raises InputError outside their bounds."""
     from twintube.core.checks import outside
     from twintube.dampers.dead_length import LONGEST, SHORTEST
@@ -31,47 +32,69 @@ def at_dead_lengths(damper: Damper, lengths_mm: Sequence[float] | None) -> list[
     return changed or [damper]
 
 
-@app.command(epilog="Example: twintube inspect SA8 SA1 --method eusama --oil-level 1 --oil-level 0.5 --json inspect.json")
+@app.command(
+    rich_help_panel=VEHICLE,
+    epilog="Example: twintube inspect SA8 SA1 --method eusama --oil-level 1 --oil-level 0.5 --json inspect.json",
+)
 def inspect(
     names: Annotated[
-        list[str] | None, typer.Argument(metavar="[DAMPER]...", help="Names or parameter files; SA8 if left out.")
+        list[str] | None,
+        typer.Argument(metavar="DAMPER", autocompletion=dampers, help="Names or parameter files; SA8 if left out."),
     ] = None,
     methods: Annotated[
         list[str] | None,
-        typer.Option(
+        one_of(
+            INSPECTIONS,
             "--method",
-            help="eusama, phase_shift, damping_ratio, push_down, bump or tiring; if left out all but tiring, which takes "
-            "about as long as they do.",
+            metavar="NAME",
+            help=f"{', '.join(INSPECTIONS)}; repeatable; if left out all but tiring, which takes as long as they do.",
         ),
     ] = None,
     levels: Annotated[
-        list[float] | None, typer.Option("--oil-level", help="Oil, share of the intact volume; 1.0 to 0.3 if left out.")
+        list[float] | None,
+        typer.Option("--oil-level", metavar="0..1", help="Oil, share of the intact volume; 1.0 to 0.3 if left out."),
     ] = None,
     gas_lost: Annotated[
         bool | None, typer.Option("--gas-lost/--with-preload", help="Gas preload; lost below 100 % oil if left out.")
     ] = None,
     dead_lengths: Annotated[
         list[float] | None,
-        typer.Option("--dead-length", help="Dead length [mm] in place of the damper's, 60 to 110; several are compared."),
+        typer.Option(
+            "--dead-length", metavar="MM", help="Dead length in place of the damper's, 60 to 110; several are compared."
+        ),
     ] = None,
-    car: Annotated[str, typer.Option(help="A named car or a car's file.")] = "passat_b8",
-    freed_gas: Annotated[str | None, typer.Option(help="What freed gas does; several ways, as a band, if left out.")] = None,
+    car: CAR = "passat_b8",
+    freed_gas: Annotated[
+        str | None,
+        one_of(
+            FREED_GAS, metavar="WAY", help=f"What freed gas does: {', '.join(FREED_GAS)}; several as a band if left out."
+        ),
+    ] = None,
     plate: Annotated[
         list[float] | None,
-        typer.Option(help="Amplitude [mm] of the plate of tiring; several in turn; 6, 8 and 10 if left out."),
+        typer.Option(metavar="MM", help="Amplitude of the plate of tiring; several in turn; 6, 8 and 10 if left out."),
     ] = None,
-    scatter: Annotated[int, typer.Option(help="Cars and testers drawn for the detection; 0 for none.", min=0)] = 100,
-    seed: Annotated[int, typer.Option(help="Seed of the scatter.", min=0)] = 1,
-    processes: Annotated[int | None, typer.Option(help="Processes; all cores if left out.", min=1)] = None,
-    json_file: Annotated[Path | None, typer.Option("--json", help="Write all figures to this file.")] = None,
-    output: Annotated[Path | None, typer.Option(help="Folder for the page and its pictures.")] = None,
+    scatter: Annotated[
+        int, typer.Option(metavar="N", help="Cars and testers drawn for the detection; 0 for none.", min=0)
+    ] = 100,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the scatter.", min=0)] = 1,
+    processes: Annotated[int | None, typer.Option(metavar="N", help="Processes; all cores if left out.", min=1)] = None,
+    json_file: JSON_FILE = None,
+    output: Annotated[Path | None, typer.Option(metavar="FOLDER", help="For the page and its pictures.")] = None,
 ) -> None:
-    """Put one corner of a car on the inspection benches, and say from which oil level on each method sees the loss."""
+    """Put a corner of the car on inspection benches.
+
+    It says from which oil level on each method sees the loss.
+    """
+    from tqdm import tqdm
+
+    from twintube.dampers import load
     from twintube.dampers.freed_gas import VARIED, known
     from twintube.inspection import LEVELS, USUAL, Setting, conditions, inspected, method, study
     from twintube.inspection.detection import check_count
     from twintube.inspection.tiring import AMPLITUDES, shaker
-    from twintube.report.inspection import Inspection, summary, terminal, write_report
+    from twintube.report.inspected import Inspection, summary, terminal
+    from twintube.report.inspection import write_report
     from twintube.vehicle.cars import load_car
 
     if output is not None:
@@ -82,7 +105,7 @@ def inspect(
     if plate and "tiring" not in wanted:
         raise InputError("--plate: is the plate of --method tiring, which is not among the methods")
     plates = shaker(sorted(x * 1e-3 for x in dict.fromkeys(plate)) if plate else AMPLITUDES)
-    chosen = [dampers.load(name) for name in dict.fromkeys(names or ["SA8"])]
+    chosen = [load(name) for name in dict.fromkeys(names or ["SA8"])]
     lengths = list(dict.fromkeys(dead_lengths or []))
     loaded, vehicle = [each for damper in chosen for each in at_dead_lengths(damper, lengths)], load_car(car)
     steps = sorted(dict.fromkeys(levels or LEVELS), reverse=True)

@@ -1,29 +1,19 @@
-"""Commands about the model: parameter sets, simulation, excitations, claims."""
+"""Commands about the model: parameter sets, simulation, excitations."""
 
 import json
-import math
 import re
 import warnings
-from dataclasses import asdict, fields, replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 import typer
-from tqdm import tqdm
 
-from twintube import dampers
-from twintube.cli.base import AS_PUBLISHED, app
+from twintube.cli.base import BENCH, MODEL, app
+from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, SEED
 from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
-from twintube.core.effects import Parameters
-from twintube.core.variables import Inputs, Outputs, fmi_name
-from twintube.dampers import ParameterError
-from twintube.dampers.dead_length import bounds, collapse_level
-from twintube.dampers.freed_gas import acting, as_published
-from twintube.engine.simulate import InputError
-from twintube.errors import InputWarning
+from twintube.errors import InputError, InputWarning
 from twintube.files import write_bytes, write_text
-from twintube.rig import signals
 
 if TYPE_CHECKING:
     from twintube.data.motion import Motion
@@ -32,12 +22,17 @@ FOR_FMU = Annotated[
     bool, typer.Option("--for-fmu", help="Columns as the FMU names them, in SI units: for fmpy simulate --input-file.")
 ]
 ASSUMED = " (assumed, it is unknown there)"
-FMU_NAMES = {item.name: fmi_name(item) for item in fields(Outputs)}
 
 
-@app.command("dampers", epilog="Example: twintube dampers SA8")
-def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this damper: a name or a file.")] = None) -> None:
-    """List the named dampers with the oil level at which their chambers fall short, or show one as TOML with its sources."""
+@app.command("dampers", rich_help_panel=MODEL, epilog="Example: twintube dampers SA8")
+def list_dampers(damper: Annotated[str | None, DAMPER_ARGUMENT] = None) -> None:
+    """List the named dampers, or show one as a parameter file.
+
+    The list has the oil level at which their chambers fall short. A parameter file (TOML) has the sources of its values.
+    """
+    from twintube import dampers
+    from twintube.dampers.dead_length import bounds, collapse_level
+
     if damper is not None:
         chosen = dampers.load(damper)
         typer.echo(dampers.to_toml(chosen), nl=False)
@@ -56,25 +51,30 @@ def list_dampers(damper: Annotated[str | None, typer.Argument(help="Show this da
     )
 
 
-@app.command(epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv")
+@app.command(
+    rich_help_panel=MODEL,
+    epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv",
+)
 def simulate(
-    damper: Annotated[
-        str | None, typer.Argument(help="A name or a parameter file; may be left out for a record of a dataset.")
-    ] = None,
+    damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
     record: Annotated[
         Path | None,
         typer.Option(
+            metavar="FILE",
             help="A record in any format of a dataset. If the dataset.toml of its folder names it, damper, oil level, "
-            "preload, columns and signs come from there; else it needs 'time [s]' and 'stroke [mm]'."
+            "preload, columns and signs come from there; else it needs 'time [s]' and 'stroke [mm]'.",
         ),
     ] = None,
     block: Annotated[
-        int | None, typer.Option(min=1, help="Of a text file with several tables: the number of the one, from 1.")
+        int | None,
+        typer.Option(metavar="N", min=1, help="Of a text file with several tables: the number of the one, from 1."),
     ] = None,
-    velocity: Annotated[float, typer.Option(help="Without a record: maximum velocity [m/s] of a harmonic block.")] = 1.048,
-    amplitude_mm: Annotated[float, typer.Option(help="Without a record: amplitude of the block [mm].")] = 45.0,
+    velocity: Annotated[
+        float, typer.Option(metavar="M/S", help="Without a record: maximum velocity of a harmonic block.")
+    ] = 1.048,
+    amplitude_mm: Annotated[float, typer.Option(metavar="MM", help="Without a record: amplitude of the block.")] = 45.0,
     oil_level: Annotated[
-        float | None, typer.Option(help="Oil, share of the intact volume; 1 if no dataset states it.")
+        float | None, typer.Option(metavar="0..1", help="Oil, share of the intact volume; 1 if no dataset states it.")
     ] = None,
     gas_lost: Annotated[
         bool | None,
@@ -82,18 +82,25 @@ def simulate(
     ] = None,
     published: AS_PUBLISHED = False,
     for_fmu: FOR_FMU = False,
-    output: Annotated[Path, typer.Option(help="CSV file for the result.")] = Path("simulation.csv"),
+    output: Annotated[Path, typer.Option(metavar="FILE", help="CSV file for the result.")] = Path("simulation.csv"),
     plot: Annotated[
-        Path | None, typer.Option(help="PNG file for a picture: stroke, force over stroke and velocity.")
+        Path | None,
+        typer.Option(metavar="FILE", help="PNG file for a picture: stroke, force over stroke and velocity."),
     ] = None,
 ) -> None:
-    """Simulate a record, or a harmonic block with its preconditioning, and write forces and volumes.
+    """Simulate a block or a record; write forces and volumes.
 
-    A force in the record is compared with the simulated one.
+    The damper may be left out for a record of a dataset. Without a record a harmonic block with its preconditioning is
+    simulated. A force in the record is compared with the simulated one.
     """
+    import numpy as np
+
+    from twintube import dampers
+    from twintube.core.variables import Outputs, fmi_name
+    from twintube.dampers.freed_gas import acting, as_published
     from twintube.data import listed_record
     from twintube.data.motion import Motion, read_moved
-    from twintube.engine.simulate import disagreement, simulate_quietly, unit_of
+    from twintube.engine.simulate import disagreement, simulate_quietly
     from twintube.fitting import prediction
 
     if record is not None and not record.exists():
@@ -132,13 +139,14 @@ def simulate(
     head = ["time [s]", "stroke [m]", "velocity [m/s]"]
     columns: list[Any] = [time, result.stroke, result.velocity]
     for name, values in result.columns.items():
-        head.append(f"{name} [{unit_of(name)}]")
+        head.append(f"{name} [{result.units[name]}]")
         columns.append(values)
     if motion.force is not None:
         head.append("measured_force [N]")
         columns.append(motion.force)
     if for_fmu:
-        head = [FMU_NAMES.get(name, name) for name in (title.partition(" ")[0] for title in head)]
+        fmu_names = {item.name: fmi_name(item) for item in fields(Outputs)}
+        head = [fmu_names.get(name, name) for name in (title.partition(" ")[0] for title in head)]
     lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
     text = "\n".join(lines) + "\n"
     keep_other(output, text.encode())
@@ -165,22 +173,30 @@ def simulate(
 def block_motion(velocity: float, amplitude_mm: float) -> "Motion":
     """A harmonic block with its preconditioning; raises InputError."""
     from twintube.data.motion import Motion
+    from twintube.rig import signals
 
     signal = signals.harmonic_block(velocity, amplitude_mm * 1e-3)
     return Motion(signal.time, signal.stroke, signal.velocity, None)
 
 
-@app.command(epilog="Example: twintube rig SA8 --output excitations")
+@app.command(rich_help_panel=BENCH, epilog="Example: twintube rig SA8 --output excitations")
 def rig(
-    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
-    output: Annotated[Path, typer.Option(help="Folder for one CSV per measurement and plan.json.")] = Path("rig"),
-    seed: Annotated[int, typer.Option(help="Seed of the uneven road.", min=0)] = 1,
+    damper: DAMPER,
+    output: Annotated[Path, typer.Option(metavar="FOLDER", help="For one CSV per measurement and plan.json.")] = Path("rig"),
+    seed: SEED = 1,
     recovery: Annotated[
         bool, typer.Option("--recovery", help="The plan that decides what becomes of gas that cavitation frees.")
     ] = False,
     for_fmu: FOR_FMU = False,
 ) -> None:
-    """Write the excitations of the paper's measurement plan (Table 3) for a damper."""
+    """Write the excitations of a bench for a damper.
+
+    They are those of the paper's measurement plan (Table 3).
+    """
+    import numpy as np
+    from tqdm import tqdm
+
+    from twintube import dampers
     from twintube.rig.plan import RECOVERY_LEVELS, REST, recovery_plan
     from twintube.vehicle.plan import plan
 
@@ -207,114 +223,14 @@ def rig(
     typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
 
 
-START = Annotated[str, typer.Option(help="Where an oscillation begins: rebound, top, compression or bottom.")]
-
-
-@app.command(epilog="Example: twintube claims --json claims.json")
-def claims(
-    json_file: Annotated[Path | None, typer.Option("--json", help="Write one entry per claim to this file.")] = None,
-    reading: Annotated[
-        list[str] | None, typer.Option(help="Another reading of the paper, e.g. leak_carries_oil=1; repeatable.")
-    ] = None,
-    start: START = signals.START,
-    freed_gas: Annotated[
-        str, typer.Option(help="What freed gas does in every run; if left out: stays, in drives dissolves.")
-    ] = "",
-    rear_curve: Annotated[
-        bool, typer.Option("--rear-curve", help="Rear dampers with the rear F-v curve of the source of the front one.")
-    ] = False,
-) -> None:
-    """Evaluate the paper's statements C1 to C17 with its published parameters."""
-    from twintube.claims import EVALUATORS, evaluate
-
-    readings = dict(parsed_reading(text) for text in reading or [])
-    claims_one_by_one = evaluate(readings, bench(start, freed_gas), rear=rear_curve)
-    results = list(tqdm(claims_one_by_one, total=len(EVALUATORS), unit="claim", leave=False))
-    if json_file is not None:
-        write_text(
-            json_file, json.dumps([asdict(c) | {"kind": c.kind, "evidence": c.evidence} for c in results], indent=1) + "\n"
-        )
-    for c in results:
-        typer.echo(f"{c.id:4}{'holds' if c.holds else 'DOES NOT HOLD':15}{c.kind:17}{c.statement} ({c.source})")
-        typer.echo(f'      the paper: "{c.quote}"')
-        typer.echo(f"      tested: {c.tested}")
-        for name, value in c.figures.items():
-            typer.echo(f"      {name}: {json.dumps(value)}")
-        typer.echo(f"      needs: {c.needs}")
-        if c.calibrated:
-            typer.echo(f"      used for the dead length of: {', '.join(c.calibrated)}")
-        if not c.holds:
-            typer.echo(f"      why not ({c.because}): {c.reason}")
-    for kind in dict.fromkeys(["evidence", *(c.kind for c in results)]):
-        some = [c for c in results if c.kind == kind]
-        typer.echo(f"{kind}: {sum(c.holds for c in some)} of {len(some)} hold")
-
-
-def bench(start: str, freed_gas: str = "") -> Any:
-    """The bench of the claims; raises ParameterError."""
-    from twintube.claims import Bench
-    from twintube.dampers.freed_gas import known
-
-    if start not in signals.STARTS:
-        raise ParameterError(f"--start {start}: must be one of {', '.join(signals.STARTS)}")
-    return Bench(start=start, freed_gas=known(freed_gas, "--freed-gas").name if freed_gas else "")
-
-
-def parsed_reading(text: str) -> tuple[str, float]:
-    """`name=value` of a reading; raises ParameterError."""
-    name, _, value = text.partition("=")
-    known = {item.name: item.metadata["integer"] for item in fields(Parameters) if item.metadata["group"] == "reading"}
-    try:
-        number = float(value)
-    except ValueError:
-        number = math.nan
-    if name not in known or not math.isfinite(number) or (known[name] and number % 1):
-        raise ParameterError(
-            f"--reading {text}: must be NAME=NUMBER with a name of {', '.join(known)}, whole but for the last"
-        )
-    return name, int(number) if known[name] else number
-
-
-@app.command(epilog="Example: twintube calibrate SA8")
-def calibrate(
-    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
-    start: START = signals.START,
-) -> None:
-    """Find the dead length of the chambers from all claims, as it was done for the named dampers."""
-    from twintube.claims.calibrate import calibrate as run
-
-    result = run(dampers.load(damper), bench(start))
-    for fit in result.fits:
-        deviations = ", ".join(f"{name} {value:.2f}" for name, value in fit.deviations.items() if value)
-        mark = "chosen" if fit is result.chosen else ""
-        typer.echo(f"{mark:8}{fit.dead_length * 1e3:5.0f} mm  misfit {fit.misfit:7.2f}  {deviations}")
-    low, high = (1e3 * x for x in result.range)
-    typer.echo(f"as good as the best: {low:.0f} to {high:.0f} mm (deviations from the claims in units of their tolerances)")
-
-
-@app.command(epilog="Example: twintube readings --json readings.json")
-def readings(
-    json_file: Annotated[Path | None, typer.Option("--json", help="Write every effect to this file.")] = None,
-) -> None:
-    """Measure what each other reading, start, position, amplitude, way of freed gas and F-v curve does to every claim."""
-    from twintube.claims.compare import alternatives, compare
-
-    table = []
-    for other, effects in tqdm(compare(), total=len(alternatives()), unit="choice", leave=False):
-        flips = [f"{e.id} {'holds' if e.holds else 'fails'}" for e in effects if e.flips]
-        tqdm.write_text(f"{other.name} = {other.value}: {', '.join(flips) or 'no claim flips'}")
-        for effect in effects:
-            if effect.moves:
-                tqdm.write_text(f"      {effect.id:4}{effect.moves}")
-        table.append({"choice": other.name, "value": other.value, "claims": [asdict(effect) for effect in effects]})
-    if json_file is not None:
-        write_text(json_file, json.dumps(table, indent=1) + "\n")
-
-
-@app.command(epilog="Example: twintube variables > docs/variables.md")
+@app.command(rich_help_panel=MODEL, epilog="Example: twintube variables > docs/variables.md")
 def variables() -> None:
-    """Print the table of all inputs, outputs and parameters as Markdown."""
-    typer.echo("| name | symbol | unit | from | to | meaning | source |\n|---|---|---|---|---|---|---|")
+    """Print all inputs, outputs and parameters as Markdown."""
+    from twintube.core.effects import Parameters
+    from twintube.core.variables import Inputs, Outputs, fmi_name
+
+    typer.echo("# Variables\n\nInputs, outputs and parameters of the model and its FMU, in SI units.\n")
+    typer.echo("| name | symbol | unit | range | meaning | source |\n|---|---|---|---|---|---|")
     for record in (Inputs, Outputs, Parameters):
         for item in fields(record):
             meta = item.metadata
@@ -324,8 +240,7 @@ def variables() -> None:
                 f"`{fmi_name(item)}{size}`",
                 meta["symbol"],
                 meta["unit"],
-                low,
-                high,
+                f"{low}..{high}" if low or high else "",
                 meta["description"],
                 meta["source"],
             )

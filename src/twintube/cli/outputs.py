@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from twintube.cli.base import RUNNING
-from twintube.engine.simulate import InputError
+from twintube.errors import InputError
 from twintube.files import write_text
 
 MARK = "made_from.json"
@@ -44,7 +44,13 @@ def of_options() -> dict[str, str]:
     """What the running command computes from: all its options but the places of outputs; paths are resolved."""
     context = RUNNING.get()
     given = {name: value for name, value in context.params.items() if name not in ELSEWHERE and value is not None}
-    return {"command": str(context.command.name)} | {name: resolved(value) for name, value in given.items()}
+    return {"command": full_name(context)} | {name: resolved(value) for name, value in given.items()}
+
+
+def full_name(context: Any) -> str:
+    """The name of a command with that of its group, `paper figures`, without the program's."""
+    name, above = str(context.command.name), context.parent
+    return f"{above.command.name} {name}" if above is not None and above.parent is not None else name
 
 
 def resolved(value: Any) -> str:

@@ -3,26 +3,25 @@
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from twintube.cli.base import AS_PUBLISHED, app
+from twintube.cli.base import VEHICLE, app
+from twintube.cli.options import AS_PUBLISHED, CAR, FRONT, PLATFORM, REAR, WORN_AT
 from twintube.cli.outputs import named, refuse_other
-from twintube.dampers import Damper, load
-from twintube.fmu.platforms import PLATFORMS
 
-FRONT = Annotated[str, typer.Option(help="Damper of the front axle: a name or a parameter file.")]
-REAR = Annotated[str, typer.Option(help="Damper of the rear axle.")]
-WORN = Annotated[str, typer.Option(help="Worn dampers: all, front, rear, or a wheel such as rear_left.")]
-OIL_LEVEL = Annotated[float, typer.Option(help="Oil of the worn dampers; below 1 their gas preload is lost.")]
-PLATFORM = Annotated[
-    list[str] | None, typer.Option(help=f"Only for this platform; may be repeated: {', '.join(PLATFORMS)}.")
+if TYPE_CHECKING:
+    from twintube.dampers import Damper
+
+OIL_LEVEL = Annotated[
+    float, typer.Option(metavar="0..1", help="Oil of the worn dampers; below 1 their gas preload is lost.")
 ]
 
 
-def four(front: str, rear: str, worn: str, oil_level: float, published: bool) -> list[Damper]:
+def four(front: str, rear: str, worn: str, oil_level: float, published: bool) -> list["Damper"]:
     """The dampers in the order of the wheels; raises ParameterError and InputError."""
+    from twintube.dampers import load
     from twintube.vehicle.full.catalogue import Case
     from twintube.vehicle.full.maneuvers import SMOOTH
     from twintube.vehicle.full.study import dampers_of
@@ -37,22 +36,24 @@ def progress() -> Callable[[str], None]:
     return lambda text: typer.echo(f"{time.monotonic() - began:4.0f} s  {text}", err=True)
 
 
-@app.command(epilog="Example: twintube ssp --worn rear_left --oil-level 0.5 --output car.ssp")
+@app.command(rich_help_panel=VEHICLE, epilog="Example: twintube ssp --worn rear_left --oil-level 0.5 --output car.ssp")
 def ssp(
-    output: Annotated[Path, typer.Option(help="SSP file.")] = Path("car.ssp"),
+    output: Annotated[Path, typer.Option(metavar="FILE", help="SSP file.")] = Path("car.ssp"),
     front: FRONT = "SA7",
     rear: REAR = "SA8",
-    worn: WORN = "all",
+    worn: WORN_AT = "all",
     oil_level: OIL_LEVEL = 1.0,
-    speed: Annotated[float, typer.Option(help="Speed at the start [km/h].")] = 50.0,
-    car_file: Annotated[str, typer.Option("--car", help="A named car or a car's file.")] = "passat_b8",
+    speed: Annotated[float, typer.Option(metavar="KM/H", help="Speed at the start.")] = 50.0,
+    car_file: CAR = "passat_b8",
     platform: PLATFORM = None,
     published: AS_PUBLISHED = False,
 ) -> None:
-    """Write the whole car as an SSP 1.0 file: the car's FMU, four damper FMUs, connections and parameters.
+    """Write the whole car as an SSP 1.0 file of five FMUs.
 
-    A simulator that knows SSP runs it; road and driver are inputs of the car. The dampers are not preconditioned.
+    It holds the car's FMU, four damper FMUs, connections and parameters. A simulator that knows SSP runs it; road and driver
+    are inputs of the car. The dampers are not preconditioned.
     """
+    from twintube.fmu.platforms import PLATFORMS
     from twintube.fmu.ssp import build_ssp, described, members
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.maneuvers import checked_speed
@@ -67,20 +68,23 @@ def ssp(
     )
 
 
-@app.command(epilog="Example: twintube container --front SA7 --rear SA8 --output dampers.fmu")
+@app.command(rich_help_panel=VEHICLE, epilog="Example: twintube container --front SA7 --rear SA8 --output dampers.fmu")
 def container(
-    output: Annotated[Path, typer.Option(help="File (.fmu) or folder; default: the current folder.")] = Path(),
+    output: Annotated[Path, typer.Option(metavar="FILE|FOLDER", help="An .fmu file, or a folder for it.")] = Path(),
     front: FRONT = "SA7",
     rear: REAR = "SA8",
-    worn: WORN = "all",
+    worn: WORN_AT = "all",
     oil_level: OIL_LEVEL = 1.0,
-    step_ms: Annotated[float, typer.Option(help="Communication step [ms]; the importer's must be a multiple.")] = 1.0,
+    step_ms: Annotated[
+        float, typer.Option(metavar="MS", help="Communication step; the importer's must be a multiple.")
+    ] = 1.0,
     platform: PLATFORM = None,
     published: AS_PUBLISHED = False,
 ) -> None:
-    """Write the four dampers of a car as one container FMU, for tools in which a single unit is easier than four.
+    """Write the four dampers of a car as one container FMU.
 
-    It needs the FMU Manipulation Toolbox, which also brings the container's libraries.
+    It is for tools in which a single unit is easier than four. It needs the FMU Manipulation Toolbox, which also brings the
+    container's libraries.
     """
     from twintube.fmu.archive import start_values
     from twintube.fmu.assemble import XML, target_file

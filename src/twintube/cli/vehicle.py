@@ -1,34 +1,40 @@
 """Commands about the car around the damper."""
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from twintube import dampers
-from twintube.cli.base import AS_PUBLISHED, app
-from twintube.dampers import ParameterError
+from twintube.cli.base import VEHICLE, app
+from twintube.cli.options import AS_PUBLISHED, CAR, DAMPER, FREED_GAS, JSON_FILE, ROADS, SEED, one_of
+from twintube.errors import ParameterError
 from twintube.files import write_text
 
 
-@app.command(epilog="Example: twintube ride SA8 --oil-level 0.6 --gas-lost --speed 50 --json ride.json")
+@app.command(
+    rich_help_panel=VEHICLE, epilog="Example: twintube ride SA8 --oil-level 0.6 --gas-lost --speed 50 --json ride.json"
+)
 def ride(
-    damper: Annotated[str, typer.Argument(help="A name or a parameter file.")],
-    oil_level: Annotated[float, typer.Option(help="Oil, share of the intact volume.")] = 1.0,
+    damper: DAMPER,
+    oil_level: Annotated[float, typer.Option(metavar="0..1", help="Oil, share of the intact volume.")] = 1.0,
     gas_lost: Annotated[bool, typer.Option("--gas-lost", help="The gas preload is lost.")] = False,
-    speed: Annotated[float, typer.Option(help="Speed [km/h].", min=1.0, max=200.0)] = 50.0,
-    road_class: Annotated[str, typer.Option(help="Class of ISO 8608, A to E.")] = "D",
-    seconds: Annotated[float, typer.Option(help="Length [s].", min=20.0, max=3600.0)] = 120.0,
-    seed: Annotated[int, typer.Option(help="Seed of the road.", min=0)] = 1,
-    car: Annotated[str, typer.Option(help="A named car or a car's file.")] = "passat_b8",
+    speed: Annotated[float, typer.Option(metavar="KM/H", help="Speed.", min=1.0, max=200.0)] = 50.0,
+    road_class: Annotated[str, one_of(ROADS, help="Class of the road, ISO 8608.")] = "D",
+    seconds: Annotated[float, typer.Option(metavar="S", help="Length.", min=20.0, max=3600.0)] = 120.0,
+    seed: SEED = 1,
+    car: CAR = "passat_b8",
     published: AS_PUBLISHED = False,
     freed_gas: Annotated[
-        str | None, typer.Option(help="What freed gas does, another way than the default: see docs/effects.md.")
+        str | None,
+        one_of(FREED_GAS, metavar="WAY", help=f"What gas does that cavitation frees: {', '.join(FREED_GAS)}."),
     ] = None,
-    json_file: Annotated[Path | None, typer.Option("--json", help="Write the figures to this file.")] = None,
+    json_file: JSON_FILE = None,
 ) -> None:
-    """Drive the quarter car over a random road and compare the damper with the intact one on the same road."""
+    """Drive a quarter car, worn and intact, over a random road.
+
+    Both dampers drive the same road.
+    """
+    from twintube import dampers
     from twintube.dampers.freed_gas import acting, known, with_freed_gas
     from twintube.vehicle.cars import axle, load_car
     from twintube.vehicle.ride import WINDOW, measures, track

@@ -69,7 +69,7 @@ def fmi_name(item: Field[Any]) -> str:
 class Parameters:
     """Everything that is given about a damper and its condition; cannot be changed, `dataclasses.replace` makes another."""
 
-    oil_level: float = var("", "", "1", "oil in the damper, share of the intact oil volume", lower=0, upper=1,
+    oil_level: float = var("", "", "1", "oil over the intact oil volume", lower=0, upper=1,
                            source="Table 2", default=1.0)
     gas_preload: int = var("", "", "1", "gas preload: 1 present, 0 lost", lower=0, upper=1, integer=True,
                            source="Section 2", default=1)
@@ -107,40 +107,39 @@ class Parameters:
                         source="Figure 12, unpublished", tunable=True)
     v_S: float = var("friction", "v_S", "m/s", "velocity over which the Stribeck scaling settles", lower=1e-4, upper=2,
                      source="Figure 12, unpublished", tunable=True)
-    oil_loss_gain: float = var("friction", "", "1", "relative rise of the friction at full oil loss", lower=0, upper=5,
+    oil_loss_gain: float = var("friction", "", "1", "rise of the friction at full oil loss", lower=0, upper=5,
                                source="Section 3.2, unpublished", tunable=True)
 
-    F_0: float = var("gas_spring", "F_0", "N", "gas force at stroke 0 with preload (pushes the rod out)", lower=0,
+    F_0: float = var("gas_spring", "F_0", "N", "gas force at stroke 0 with preload", lower=0,
                      upper=5000, source="Figure 7, unpublished", tunable=True)
     c_gas: float = var("gas_spring", "c_gas", "N/m", "gas spring stiffness with preload", lower=0, upper=1e5,
                        source="Figure 7, unpublished", tunable=True)
-    c_gas_lost: float = var("gas_spring", "c_gas", "N/m", "gas spring stiffness after the loss of the preload", lower=0,
+    c_gas_lost: float = var("gas_spring", "c_gas", "N/m", "gas spring stiffness, preload lost", lower=0,
                             upper=1e5, source="Figure 7, unpublished", tunable=True)
 
-    polytropic: int = var("gas_spring", "", "1", "0: linear spring; 1: F_0 and c_gas are those of an enclosed gas that is "
-                          "compressed slowly, which follows p V^n_gas", lower=0, upper=1, integer=True,
-                          source="beyond the paper, which has a slope", default=0)
-    n_gas: float = var("gas_spring", "n", "1", "exponent of the polytropic gas: 1 slow, 1.4 nitrogen that exchanges no heat",
-                       lower=1, upper=1.4, source="assumed: little heat exchanged in a stroke", tunable=True, default=1.35)
+    polytropic: int = var("gas_spring", "", "1", "0: linear spring; 1: enclosed gas, p V^n_gas",
+                          lower=0, upper=1, integer=True, source="beyond the paper", default=0)
+    n_gas: float = var("gas_spring", "n", "1", "exponent of the polytropic gas: 1 slow, 1.4 adiabatic",
+                       lower=1, upper=1.4, source="assumed", tunable=True, default=1.35)
 
-    X_Re: float = var("degradation", "X_Re", "1", "oil share of the mixed flow through the piston valve in rebound",
+    X_Re: float = var("degradation", "X_Re", "1", "oil share of the piston valve's mixed flow, rebound",
                       lower=0, upper=1, source="Table 9, equation 22", tunable=True)
-    L_PV: float = var("degradation", "L_PV", "1", "leakage: oil through the piston valve that makes no force", lower=0,
+    L_PV: float = var("degradation", "L_PV", "1", "leakage of the piston valve", lower=0,
                       upper=1, source="Table 9, equation 22", tunable=True)
-    G_PV: float = var("degradation", "G_PV", "1", "share of the compression force made by surplus piston valve flow",
+    G_PV: float = var("degradation", "G_PV", "1", "compression force by surplus piston valve flow",
                       lower=0, upper=1, source="Table 9, equation 29", tunable=True)
-    X_Co1: float = var("degradation", "X_Co1", "1", "bottom valve flow in compression while V2 holds oil and gas",
+    X_Co1: float = var("degradation", "X_Co1", "1", "bottom valve flow, compression, V2 with gas",
                        lower=0, upper=1, source="Table 9, equation 27", tunable=True)
-    X_Co2: float = var("degradation", "X_Co2", "1", "bottom valve flow in compression while V2 is full and V1 is not",
+    X_Co2: float = var("degradation", "X_Co2", "1", "bottom valve flow, compression, V2 full, V1 not",
                        lower=0, upper=1, source="Table 9, equation 28", tunable=True)
 
-    S_BV: float = var("foam", "S_BV", "1", "share of the bottom valve's gas flow that foams in rebound", lower=0, upper=1,
+    S_BV: float = var("foam", "S_BV", "1", "foaming share of the bottom valve's gas, rebound", lower=0, upper=1,
                       source="Table 9, equation 30", tunable=True)
-    S_BVoil: float = var("foam", "S_BVoil", "1", "oil per gas in the foam made at the bottom valve", lower=0, upper=1,
+    S_BVoil: float = var("foam", "S_BVoil", "1", "oil per gas in the bottom valve's foam", lower=0, upper=1,
                          source="Table 9, equation 34", tunable=True)
-    S_PV: float = var("foam", "S_PV", "1", "share of the piston valve's gas flow that foams in compression", lower=0,
+    S_PV: float = var("foam", "S_PV", "1", "foaming share of the piston valve's gas, compression", lower=0,
                       upper=1, source="Table 9, equation 30", tunable=True)
-    S_PVoil: float = var("foam", "S_PVoil", "1", "oil per gas in the foam made at the piston valve", lower=0, upper=1,
+    S_PVoil: float = var("foam", "S_PVoil", "1", "oil per gas in the piston valve's foam", lower=0, upper=1,
                          source="Table 9, equation 34", tunable=True)
     B: float = var("foam", "B", "1", "foam acts like oil (1) or like gas (0)", lower=0, upper=1,
                    source="Table 9, equation 36", tunable=True)
@@ -151,23 +150,22 @@ class Parameters:
 
     v_cav: float = var("cavitation", "v_cav", "m/s", "velocity above which the piston valve cavitates", lower=0, upper=10,
                        source="Table 9, equation 40", tunable=True)
-    Y_Co_cav: float = var("cavitation", "Y_Co", "1", "share of the piston valve's oil that becomes gas in compression",
+    Y_Co_cav: float = var("cavitation", "Y_Co", "1", "piston valve's oil that becomes gas, compression",
                           lower=0, upper=1, source="Table 9, equation 40", tunable=True)
-    Y_Re_cav: float = var("cavitation", "Y_Re", "1", "share of the piston valve's oil that becomes gas in rebound",
+    Y_Re_cav: float = var("cavitation", "Y_Re", "1", "piston valve's oil that becomes gas, rebound",
                           lower=0, upper=1, source="Table 9, equation 40", tunable=True)
 
-    leak_carries_oil: int = var("reading", "", "1", "1: the leak L_PV adds oil to the mixed flow (reading B)", lower=0,
+    leak_carries_oil: int = var("reading", "", "1", "1: the leak L_PV adds oil to the mixed flow", lower=0,
                                 upper=1, integer=True, source="open choice 1", default=0)
-    foam_leaves_with_gas: int = var("reading", "", "1", "1: beside gas, foam leaves a chamber before oil; 0: oil first",
+    foam_leaves_with_gas: int = var("reading", "", "1", "1: beside gas, foam leaves before oil",
                                     lower=0, upper=1, integer=True, source="open choice 4", default=1)
-    foam_decays: int = var("reading", "", "1", "1: foam leaving V1 beside oil separates into oil and gas", lower=0,
+    foam_decays: int = var("reading", "", "1", "1: foam leaving V1 beside oil separates", lower=0,
                            upper=1, integer=True, source="open choice 5", default=1)
     cavitation_foams: int = var("reading", "", "1", "1: gas freed by cavitation foams as S_PV says", lower=0, upper=1,
                                 integer=True, source="equation 40 beside 30", default=0)
-    venting: int = var("reading", "", "1", "compression, cavitation brings gas into a full V1: 0, k_degr slides; 1, it goes "
-                       "step by step after what V1 holds", lower=0, upper=1, integer=True,
-                       source="equations 19 and 29", default=0)
-    cavitation_loss: float = var("reading", "", "1", "oil loss from which cavitation acts in full, below it in proportion",
+    venting: int = var("reading", "", "1", "cavitation into a full V1: 0, k_degr slides; 1, step by step",
+                       lower=0, upper=1, integer=True, source="equations 19 and 29", default=0)
+    cavitation_loss: float = var("reading", "", "1", "oil loss from which cavitation acts in full",
                                  lower=0, upper=1, source="open choice 3", default=0.2)
 
     def __post_init__(self) -> None:
@@ -191,8 +189,8 @@ class Outputs:
     """What the surroundings read. Force is positive where the damper is pulled in rebound."""
 
     force: float = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1")
-    k_degr: float = var("", "k_degr", "1", "fluid force relative to the intact damper, mean over the step; above 1 only "
-                        "with a stiffer valve or colder oil", lower=0, upper=15, source="equations 23-39")
+    k_degr: float = var("", "k_degr", "1", "fluid force over that of the intact damper, mean of the step",
+                        lower=0, upper=15, source="equations 23-39")
     V1_oil: float = var("V1.oil", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5")
     V1_gas: float = var("V1.gas", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5")
     V1_foam: float = var("V1.foam", "V_1foam", "m3", "foam in the rebound chamber", lower=0, source="equation 5")
@@ -227,7 +225,7 @@ class Derived:
     Y_Co: float = var("derived", "Y_Co", "1", "cavitation share in compression in this condition", default=0.0)
     Y_Re: float = var("derived", "Y_Re", "1", "cavitation share in rebound in this condition", default=0.0)
     cavitation: float = var("derived", "", "1", "share of the cavitation that the oil loss brings", default=0.0)
-    displaced: float = var("derived", "", "1", "share of the oil that freed gas pushes into the reserve", default=0.0)
+    displaced: float = var("derived", "", "1", "oil that freed gas pushes into the reserve", default=0.0)
     extended: int = var("derived", "", "1", "1: an effect beyond the paper's model acts", integer=True, default=0)
 
 

@@ -1,5 +1,7 @@
 """A damper: its parameter set, where the values come from, and what was measured."""
 
+from __future__ import annotations
+
 import difflib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import Field, dataclass, fields, replace
@@ -9,18 +11,14 @@ from twintube.core.checks import problems
 from twintube.core.effects import Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers.quantity import quantity
-from twintube.errors import UserError
+from twintube.errors import ParameterError as ParameterError  # noqa: PLC0414  # others have it from here
 from twintube.words import shown
 
 MOST_MESSAGES = 20
 LONGEST_NAME = 60  # characters, of names that are compared
 
 
-class ParameterError(UserError, ValueError):
-    """A parameter set that cannot be used; the message names file, line, quantity, value and allowed range."""
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Damper:
     """A named, sourced and checked parameter set. Do not change its parameters; `with_` makes another one."""
 
@@ -33,7 +31,7 @@ class Damper:
     measured_amplitude: float | None = None  # [m] of the harmonic measurements, where it is not 90 % of the maximum stroke
     gas_pressure: float | None = None  # [Pa] gauge, cold, at which the gas spring was measured; see gas_spring.py
 
-    def with_(self, **changes: Any) -> "Damper":
+    def with_(self, **changes: Any) -> Damper:
         """The same damper with other parameters, e.g. `oil_level=0.4, gas_preload=0`; raises ParameterError.
 
         Values are SI numbers or quantities such as `"60 %"` or `"29.8 mm"`.
@@ -55,6 +53,11 @@ class Damper:
         changed = replace(self.parameters, **changes)
         refuse(self.name, explained(problems(changed), changed))
         return replace(self, parameters=changed)
+
+    def __repr__(self) -> str:
+        p = self.parameters
+        gas = "present" if p.gas_preload else "lost"
+        return f"<Damper {self.name}: {self.title}, {100 * p.oil_level:.4g} % oil, gas {gas}>"
 
 
 def elements(damper: Damper) -> Iterator[tuple[str, Field[Any], int, float]]:

@@ -1,5 +1,7 @@
 """Parameter sets in TOML: read, check, write. A named set is a file in this folder."""
 
+from __future__ import annotations
+
 import re
 import warnings
 from collections.abc import Mapping

@@ -1,27 +1,26 @@
 """The kernel driven over records: stroke and velocity in, forces and volumes out."""
 
+from __future__ import annotations
+
 import warnings
-from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.arrays import Array
 from twintube.core import effects, messages, model
 from twintube.core.agreement import Agreement, ways
 from twintube.core.checks import VELOCITY, bad_input, problems
 from twintube.core.frame import stroke_limit
-from twintube.core.variables import Derived, Flow, Outputs, blank
+from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper, load
 from twintube.dampers.damper import refuse
 from twintube.engine import compiled, loops
-from twintube.errors import InputWarning, UserError
-
-
-class InputError(UserError, ValueError):
-    """A record that cannot be simulated; the message names the quantity, the sample, the value and the range."""
+from twintube.engine.simulation import Simulation
+from twintube.errors import InputError as InputError  # noqa: PLC0414  # others have it from here
+from twintube.errors import InputWarning
 
 
 @runtime_checkable
@@ -39,48 +38,6 @@ class Motion(Protocol):
     @property
     def velocity(self) -> Array:
         """(n,) [m/s]."""
-
-
-@dataclass(frozen=True)
-class Simulation:
-    """What `simulate` returns; all arrays (n,), read-only, SI units, row i belongs to sample i of the record."""
-
-    stroke: Array  # [m]
-    velocity: Array  # [m/s]
-    force: Array  # [N], positive when the damper resists rebound (Eq. 1)
-    k_degr: Array  # [1], mean over the step (Eq. 23-39)
-    F_fluid: Array  # [N]
-    F_friction: Array  # [N]
-    F_gas: Array  # [N]
-    work: Array  # [J] dissipated since the start
-    V1_oil: Array  # [m3], as all volumes
-    V1_gas: Array
-    V1_foam: Array
-    V2_oil: Array
-    V2_gas: Array
-    V2_foam: Array
-    V3_oil: Array
-    V3_gas: Array
-    V3_foam: Array
-    V_cav: Array  # [m3] of oil lost to gas by cavitation so far
-
-    def __post_init__(self) -> None:
-        """Nobody writes into a result."""
-        freeze_arrays(self)
-
-    @property
-    def columns(self) -> dict[str, Array]:
-        """The results by name, without the inputs."""
-        return {name: getattr(self, name) for name in RESULTS}
-
-
-RESULTS = tuple(item.name for item in fields(Simulation) if item.name not in ("stroke", "velocity"))
-
-
-def unit_of(name: str) -> str:
-    """The unit of a result."""
-    table = {item.name: item.metadata["unit"] for item in (*fields(effects.State), *fields(Outputs))}
-    return str(table[name])
 
 
 def checked(stroke: ArrayLike, velocity: ArrayLike, limit: float) -> tuple[Array, Array]:
@@ -216,7 +173,7 @@ def simulate_quietly(
     finished(done, z)
     columns: dict[str, Array] = {name: out[:, i] for i, name in enumerate(loops.COLUMNS)}
     columns["V3_gas"] = np.maximum(0.0, records[1].V_reserve - columns["V3_oil"] - columns["V3_foam"])
-    return Simulation(z, v, **columns)
+    return Simulation(z, v, **columns, time=None if time is None else t)
 
 
 def work_between(

@@ -1,5 +1,7 @@
 """Build the damper as an FMI 2.0 co-simulation FMU: parameter set -> FMU -> validated -> written."""
 
+from __future__ import annotations
+
 import hashlib
 import json
 import shutil
@@ -103,16 +105,16 @@ def build_fmu(
     output: Path | str | None = None,
     kind: Kind = "native",
     platforms: Sequence[str] = tuple(PLATFORMS),
-    progress: Progress = lambda text: None,
+    progress: Callable[[str], None] | None = None,
 ) -> Path:
     """Build and validate the FMU of a damper; `output` is a file or a folder, by default the current one.
 
-    `damper` may be the name or the file of a parameter set. `platforms` are those that a native FMU gets libraries for.
-    `progress` is called with a few words before each step. The environment variable SOURCE_DATE_EPOCH fixes the date; all
-    other bytes follow from damper, kind and platforms. Nothing is left behind if it fails. Raises BuildError,
-    ParameterError, and OSError where the output cannot be written.
+    `damper` may be the name or the file of a parameter set. `kind` is "native" or "python". `platforms` are those that a
+    native FMU gets libraries for. `progress` is called with a few words before each step. The environment variable
+    SOURCE_DATE_EPOCH fixes the date; all other bytes follow from damper, kind and platforms. Nothing is left behind if it
+    fails. Raises BuildError, ParameterError, and OSError where the output cannot be written.
     """
-    damper = load(damper)
+    damper, progress = load(damper), progress or (lambda text: None)
     target = target_file(output, model_name(damper))
     inadmissible = problems(damper.parameters)
     if inadmissible:

@@ -1,9 +1,11 @@
 """From a dataset folder to an identified parameter set with its origin and its validation."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
@@ -21,21 +23,56 @@ from twintube.identification.pressure import at_one_pressure
 from twintube.identification.remarks import EQUAL_SPEEDS, SINGLE, continuation, noisy, reach, signs
 from twintube.identification.validation import Validated, intact, validate_drives, validate_harmonic
 from twintube.identification.workflow import PAPER, Budget, Identification, identify_damper
+from twintube.showing import picture, table
 from twintube.words import listed
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 ENOUGH = 5  # distinct velocities from which on some are held out, where dataset.toml splits nothing
 HELD_OUT = (3, 1)  # every third velocity from the second on; not the two highest, between which cavitation begins
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
-    """What `twintube identify` reports."""
+    """What `twintube identify` reports: `identification.damper` is the identified damper.
+
+    `to_dataframe()` and `plot()` show how it does on the records, `identification.to_dataframe()` the parameters.
+    """
 
     dataset: LoadedDataset
     harmonics: list[tuple[Harmonic, str]]  # with their split, in the order of the dataset
     identification: Identification
     validation: list[Validated]
     remarks: list[str]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """A row for each record: its state, whether it was fitted, and how far the identified damper is off in it.
+
+        Works are of the first and the last oscillation, of drives the total. Units stand in `.attrs["units"]`. Raises
+        UserError where pandas is not installed.
+        """
+        rows = [
+            {
+                "record": v.name, "split": v.split, "oil_level": v.oil_level, "gas_preload": v.gas_preload,
+                "top_speed": v.top_speed, "force_rmse": v.force_rmse, "force_peak": v.force_peak,
+                "work_first": v.work_measured[0], "work_first_simulated": v.work_simulated[0],
+                "work_last": v.work_measured[-1], "work_last_simulated": v.work_simulated[-1],
+            }
+            for v in self.validation
+        ]  # fmt: skip
+        forces, works = ("force_rmse", "force_peak"), ("first", "first_simulated", "last", "last_simulated")
+        units = {"top_speed": "m/s"} | dict.fromkeys(forces, "N") | {f"work_{which}": "J" for which in works}
+        return table(rows, units, index="record")
+
+    def plot(self) -> Figure:
+        """Draw the work of each oscillation, measured and simulated, as a figure of pyplot."""
+        return picture(self)
+
+    def __repr__(self) -> str:
+        fitted = sum(row.split == "fit" for row in self.validation)
+        return f"<Result: {self.identification.damper.name} from {fitted} of {len(self.validation)} records>"
 
 
 def identify(

@@ -23,7 +23,7 @@ def judgement(result: Result) -> list[str]:
     if full:
         some, where = judged(full)
         error, size = overall([row.force_rmse for row in some]), overall([row.force_rms for row in some])
-        figures = f"error {error:.1f} N of {size:.0f} N root mean square ({error / size:.1%}), {where}"
+        figures = f"error {error:.1f} N of {size:.0f} N ({error / size:.1%}), {where}"
         sentences.append(f"{verdict(error, size)} for the full damper up to {fastest(full):.3g} m/s: {figures}")
     if less:
         some, where = judged(less)
@@ -31,7 +31,7 @@ def judgement(result: Result) -> list[str]:
         lost = FULL - float(np.mean([row.oil_level for row in some]))
         levels = f"{min(row.oil_level for row in less):.0%}"
         text = f"{verdict(error, effect)} for oil levels down to {levels} up to {fastest(less):.3g} m/s: error {error:.1f} N"
-        text += f", {effect:.1f} N as if no oil were lost"
+        text += f", where the lost oil makes {effect:.1f} N"
         if error < effect:
             text += f"; the error weighs as much as {100 * lost * error / effect:.2g} % of the oil"
         sentences.append(f"{text}, {where}")
@@ -50,9 +50,9 @@ def judged(rows: Sequence[Validated]) -> tuple[list[Validated], str]:
     """The records that a judgement rests on, and which they are."""
     held = [row for row in rows if row.split == "heldout"]
     return (
-        (held, f"on {counted(len(held), 'held-out record')}")
+        (held, f"on {counted(len(held), 'record')} that {'was' if len(held) == 1 else 'were'} not fitted")
         if held
-        else (list(rows), "on the fitted records, none is held out")
+        else (list(rows), "on fitted records")
     )
 
 
@@ -68,7 +68,7 @@ def next_step(result: Result, folder: str = "identified") -> str:
             f"take the load cell's zero of {identified.offset:.1f} N out (offset in channels, dataset.toml), identify again"
         )
     if all(row.split != "heldout" for row in rows):
-        return "measure five velocities or more in each state: some are then held out and show whether the set predicts"
+        return "measure five velocities or more in each state: some are then not fitted and show whether the set predicts"
     if not identified.steps:
         return "for oil loss, measure one or two oil levels without preload at the same velocities, and identify again"
     if any(not e.determined for e in identified.estimates):

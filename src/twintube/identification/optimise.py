@@ -63,7 +63,7 @@ def de(journal: Journal, bounds: Array, population: int, generations: int, seed:
 
 
 METHODS = {"de": de, "pso": pso, "cma": cma_es}
-DEFAULT = "de"  # of every door; docs/open_choices.md says what was measured
+DEFAULT = "de"  # of every door; docs/identification.md says what was measured
 
 
 def minimise(

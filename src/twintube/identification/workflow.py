@@ -1,12 +1,16 @@
 """The paper's four-step parameterisation (Section 3.2) as one function, and the intervals of its result."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from twintube.arrays import Array
+from twintube.core.effects import Parameters
 from twintube.dampers import Damper
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
 from twintube.engine.simulate import InputError
@@ -19,6 +23,10 @@ from twintube.identification.sines import identify_sines
 from twintube.identification.together import VALLEYS, search, together
 from twintube.identification.uncertainty import Estimate, estimates, polished
 from twintube.provenance import fingerprint
+from twintube.showing import table
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SLOW = 0.53  # Table 6 is fitted to records up to 0.5 m/s, which is the bench's 0.524 m/s
 TOGETHER = "all together"
@@ -57,7 +65,7 @@ class Step:
     unit: str  # of the error: N (equation 42) or N + J (equation 43)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Identification:
     """The identified damper and what is known about it."""
 
@@ -67,6 +75,25 @@ class Identification:
     pairs: list[tuple[str, str, float]]  # parameters that the records hardly tell apart, with their correlation
     offset: float  # zero of the load cell [N], sought only without a quasi-static record
     remarks: list[str]
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """A row for each parameter: value, interval (95 % for all together), allowed range, and whether it is determined.
+
+        Values are SI numbers, with their unit in a column. Raises UserError where pandas is not installed.
+        """
+        known = Parameters.__dataclass_fields__
+        rows = [
+            {
+                "name": e.name, "value": e.value, "low": e.low, "high": e.high, "unit": known[e.name].metadata["unit"],
+                "allowed_from": e.bounds[0], "allowed_to": e.bounds[1], "determined": e.determined, "at_bound": e.at_bound,
+            }
+            for e in self.estimates
+        ]  # fmt: skip
+        return table(rows, index="name")
+
+    def __repr__(self) -> str:
+        known = sum(e.determined for e in self.estimates)
+        return f"<Identification: {self.damper.name}, {known} of {len(self.estimates)} parameters determined>"
 
 
 def identify_damper(

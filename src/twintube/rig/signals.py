@@ -1,5 +1,7 @@
 """Excitations of the paper's test rig (Section 2, Table 3)."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -30,7 +32,7 @@ START = "bottom"
 RUN_UP = 0.05  # cycles over which the rig takes up full velocity in 0.1 of a period: about 90 m/s2 at 1.572 m/s (assumed)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Signal:
     """An excitation: read-only arrays (n,), SI units; `marks` are the bounds of the measured oscillations as samples."""
 
@@ -42,6 +44,13 @@ class Signal:
     def __post_init__(self) -> None:
         """Freeze the arrays: blocks are cached and shared."""
         freeze_arrays(self)
+
+    def __repr__(self) -> str:
+        size, speed, count = np.abs(self.stroke).max(), np.abs(self.velocity).max(), max(len(self.marks) - 1, 0)
+        return (
+            f"<Signal: {len(self.time)} samples, {self.time[-1] - self.time[0]:.4g} s, {count} measured oscillations, "
+            f"up to {size:.4g} m and {speed:.4g} m/s>"
+        )
 
 
 def oscillations(velocity: float, amplitude: float, count: int, dt: float, phase: float = 0.0) -> tuple[Array, Array, Array]:
@@ -105,7 +114,6 @@ def check_block(velocity: float, amplitude: float, dt: float, start: str) -> Non
         raise InputError(f"start = {shown(start)}: must be one of {', '.join(STARTS)}")
 
 
-@lru_cache(maxsize=64)
 def harmonic_block(
     velocity: float,
     amplitude: float = AMPLITUDE,
@@ -123,15 +131,21 @@ def harmonic_block(
     `velocity` is from 0.001 to 20 m/s, `amplitude` [m] from 0.1 to 500 mm, and an oscillation takes at most 30 s; raises
     InputError.
     """
+    return block(velocity, amplitude, dt, rest, start, position)
+
+
+@lru_cache(maxsize=64)
+def block(velocity: float, amplitude: float, dt: float, rest: float, start: str, position: float) -> Signal:
+    """As `harmonic_block`, which is made once for the same arguments."""
     check_block(velocity, amplitude, dt, start)
     pause, slow, phase = rest if rest > 0.0 else dt, max(dt, 2e-3), STARTS[start]
     conditioning = oscillations(V_PRECONDITIONING, amplitude, PRECONDITIONING, slow, phase)
-    block = oscillations(velocity, amplitude, OSCILLATIONS, dt, phase)
+    measured = oscillations(velocity, amplitude, OSCILLATIONS, dt, phase)
     lead = run_up(velocity, amplitude, dt, phase)
-    segments, pauses = [conditioning, block], [pause]
+    segments, pauses = [conditioning, measured], [pause]
     if len(lead[0]):
         transfer = approach(float(conditioning[1][-1]), float(lead[1][0]), slow)
-        segments, pauses = [conditioning, transfer, lead, block], [slow, pause, float(lead[0][1])]
+        segments, pauses = [conditioning, transfer, lead, measured], [slow, pause, float(lead[0][1])]
     time, stroke, speed = joined(segments, pauses)
-    first, samples = len(time) - len(block[0]), (len(block[0]) - 1) // OSCILLATIONS
+    first, samples = len(time) - len(measured[0]), (len(measured[0]) - 1) // OSCILLATIONS
     return Signal(time, stroke + position, speed, first + samples * np.arange(OSCILLATIONS + 1))

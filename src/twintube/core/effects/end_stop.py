@@ -25,11 +25,11 @@ TURN = 0.01  # [m/s] over which the hysteresis turns
 class Parameters(variables.Parameters):
     """Force and onset of each side."""
 
-    F_stop_re: float = var("end_stop", "", "N", "force of the rebound stop 10 mm beyond its onset", lower=0, upper=2e4,
+    F_stop_re: float = var("end_stop", "", "N", "force of the rebound stop 10 mm beyond onset", lower=0, upper=2e4,
                            source="power law of the depth", default=0.0, role="strength")  # fmt: skip
     onset_re: float = var("end_stop", "", "m", "stroke at which the rebound stop touches", lower=0, upper=0.4,
                           source="", default=0.04, role="place")  # fmt: skip
-    F_stop_co: float = var("end_stop", "", "N", "force of the compression stop 10 mm beyond its onset", lower=0,
+    F_stop_co: float = var("end_stop", "", "N", "force of the compression stop 10 mm beyond onset", lower=0,
                            upper=2e4, source="power law of the depth", default=0.0, role="strength")  # fmt: skip
     onset_co: float = var("end_stop", "", "m", "stroke (magnitude) at which the compression stop touches", lower=0,
                           upper=0.4, source="", default=0.04, role="place")  # fmt: skip

@@ -46,28 +46,28 @@ FAINT = 1e-12  # [1, s] k_degr that makes no force, time in which nothing moves
 class Parameters(variables.Parameters):
     """Compliance of the oil column."""
 
-    C_fluid: float = var("fluid_lag", "", "m/N", "compliance of the oil in series with the valves, rebound, stroke 0",
-                         lower=0, upper=2e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
+    C_fluid: float = var("fluid_lag", "", "m/N", "compliance of the oil, rebound, stroke 0",
+                         lower=0, upper=2e-5, source="Duym 2000, Vehicle System Dynamics 33",
                          default=0.0, role="strength")  # fmt: skip
-    C_fluid_co: float = var("fluid_lag", "", "m/N", "the same in compression, which presses on the rod's area", lower=0,
-                            upper=5e-5, source="Maxwell element; Duym 2000, Vehicle System Dynamics 33",
+    C_fluid_co: float = var("fluid_lag", "", "m/N", "the same in compression", lower=0,
+                            upper=5e-5, source="Duym 2000, Vehicle System Dynamics 33",
                             default=0.0, role="strength")  # fmt: skip
-    V_air: float = var("fluid_lag", "", "m3", "air trapped in the oil of both chambers at stroke 0, at ambient pressure",
-                       lower=0, upper=5e-6, source="ideal gas at constant temperature; Manring, Hydraulic Control Systems",
+    V_air: float = var("fluid_lag", "", "m3", "air in the oil at ambient pressure, stroke 0",
+                       lower=0, upper=5e-6, source="ideal gas; Manring, Hydraulic Control Systems",
                        default=0.0, role="strength")  # fmt: skip
-    tau_fluid: float = var("fluid_lag", "", "s", "time constant with which late valves change the fluid force", lower=0,
+    tau_fluid: float = var("fluid_lag", "", "s", "time constant of late valves", lower=0,
                            upper=0.02, source="first-order lag", default=0.0, role="strength")  # fmt: skip
-    closing_stroke: float = var("fluid_lag", "", "m", "stroke after a reversal until the check valves have closed", lower=0,
-                                upper=15e-3, source="a plate is carried to its seat; Dixon, The Shock Absorber Handbook",
+    closing_stroke: float = var("fluid_lag", "", "m", "stroke until the check valves have closed", lower=0,
+                                upper=15e-3, source="Dixon, Shock Absorber Handbook",
                                 default=0.0, role="strength")  # fmt: skip
-    relief_first: float = var("fluid_lag", "", "1", "share of a column's force that is relieved before the other builds up",
-                              lower=0, upper=1, source="1: a single Maxwell element; Duym 2000", default=0.0,
+    relief_first: float = var("fluid_lag", "", "1", "share of the force relieved before the other builds up",
+                              lower=0, upper=1, source="1: Maxwell element; Duym 2000", default=0.0,
                               role="law")  # fmt: skip
-    air_at_rest: float = var("fluid_lag", "", "1", "0: as much air with preload as without; 1: as much volume at rest",
-                             lower=0, upper=1, source="1: bubbles of the reserve's gas, entrained at its pressure",
+    air_at_rest: float = var("fluid_lag", "", "1", "0: same mass of air with preload; 1: same volume",
+                             lower=0, upper=1, source="1: bubbles of the reserve's gas",
                              default=0.0, role="law")  # fmt: skip
-    column_share: float = var("fluid_lag", "", "1", "share of the columns' compliance that goes with their length", lower=0,
-                              upper=1, source="V / K; Manring, Hydraulic Control Systems", default=1.0,
+    column_share: float = var("fluid_lag", "", "1", "share of the compliance that follows the stroke", lower=0,
+                              upper=1, source="Manring, Hydraulic Control Systems", default=1.0,
                               role="law")  # fmt: skip
 
 

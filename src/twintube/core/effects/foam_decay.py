@@ -25,11 +25,11 @@ class Parameters(variables.Parameters):
     """Rate of the decay, and how long dry foam lasts."""
 
     foam_decay_rate: float = var("foam_decay", "", "1/s", "share of the foam that separates per second", lower=0, upper=10,
-                                 source="first-order foam decay; Bikerman, Foams", default=0.0, role="strength")  # fmt: skip
+                                 source="Bikerman, Foams", default=0.0, role="strength")  # fmt: skip
     foam_order: float = var("foam_decay", "", "1", "foam separates with its volume to this power", lower=0, upper=1,
-                            source="1: all bubbles; 0: a front; Bikerman, Foams", default=1.0, role="law")  # fmt: skip
-    dry_share: float = var("foam_decay", "", "1", "rate at which the gas leaves, of that of the oil", lower=0.1, upper=1,
-                           source="1: both alike; drainage before collapse: Bikerman, Foams", default=1.0,
+                            source="Bikerman, Foams", default=1.0, role="law")  # fmt: skip
+    dry_share: float = var("foam_decay", "", "1", "rate of the gas over that of the oil", lower=0.1, upper=1,
+                           source="Bikerman, Foams", default=1.0,
                            role="law")  # fmt: skip
 
 

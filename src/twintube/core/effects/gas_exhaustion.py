@@ -22,8 +22,8 @@ NEEDS_TIME = False
 class Parameters(variables.Parameters):
     """The limit."""
 
-    exhaustion: float = var("gas_exhaustion", "", "1", "oil volume over the largest volume of freed gas", lower=0, upper=10,
-                            source="Section 3.2: 9.3 to 11.3 % of the oil's volume at ambient pressure",
+    exhaustion: float = var("gas_exhaustion", "", "1", "oil volume over largest volume of freed gas", lower=0, upper=10,
+                            source="Section 3.2",
                             default=0.0, role="strength")  # fmt: skip
 
 

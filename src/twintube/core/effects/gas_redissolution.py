@@ -25,12 +25,12 @@ class Parameters(variables.Parameters):
     """Rate of the return."""
 
     redissolution_rate: float = var("gas_redissolution", "", "1/s", "share of the freed gas that dissolves per second",
-                                    lower=0, upper=10, source="first-order mass transfer (Henry's law)",
+                                    lower=0, upper=10, source="Henry's law",
                                     default=0.0, role="strength")  # fmt: skip
     reserve_share: float = var("gas_redissolution", "", "1", "share of it that dissolves in the reserve", lower=0, upper=1,
-                               source="where the bubbles are is not known", default=0.0, role="law")  # fmt: skip
+                               source="unknown", default=0.0, role="law")  # fmt: skip
     pressed_share: float = var("gas_redissolution", "", "1", "share of the rate that goes with the fluid force", lower=0,
-                               upper=1, source="solubility goes with pressure (Henry's law)", default=0.0,
+                               upper=1, source="Henry's law", default=0.0,
                                role="law")  # fmt: skip
 
 

@@ -24,13 +24,13 @@ NEEDS_TIME = False
 class Parameters(variables.Parameters):
     """Force with preload; stiffness and force without."""
 
-    F_surplus: float = var("gas_spring", "", "N", "gas force at stroke 0 beyond that of the parameter set (pushes the rod "
-                           "out), with preload", lower=-1000, upper=1000, source="pressure times the rod's cross-section",
+    F_surplus: float = var("gas_spring", "", "N", "gas force beyond F_0, with preload",
+                           lower=-1000, upper=1000, source="pressure times the rod's cross-section",
                            default=0.0, role="strength")  # fmt: skip
-    c_residual: float = var("gas_spring", "", "N/m", "gas spring stiffness beyond that of the parameter set, preload lost",
+    c_residual: float = var("gas_spring", "", "N/m", "gas spring stiffness beyond c_gas_lost, preload lost",
                             lower=-2e4, upper=2e4, source="linearised polytropic compression", default=0.0,
                             role="strength")  # fmt: skip
-    F_residual: float = var("gas_spring", "", "N", "gas force at stroke 0 beyond that of the parameter set, preload lost",
+    F_residual: float = var("gas_spring", "", "N", "gas force at stroke 0, preload lost",
                             lower=-2000, upper=2000, source="pressure times the rod's cross-section", default=0.0,
                             role="strength")  # fmt: skip
 

@@ -37,15 +37,15 @@ class Parameters(variables.Parameters):
     """Compliance and damping of the rubber."""
 
     C_mount: float = var("mount_compliance", "", "m/N", "compliance of the mount, 1 / stiffness", lower=0, upper=2e-5,
-                         source="Kelvin-Voigt element; Dixon, The Shock Absorber Handbook", default=0.0,
+                         source="Kelvin-Voigt; Dixon, Shock Absorber Handbook", default=0.0,
                          role="strength")  # fmt: skip
     tau_mount: float = var("mount_compliance", "", "s", "damping of the mount over its stiffness", lower=0, upper=0.02,
-                           source="loss factor of rubber about 0.1 to 0.2 at 10 Hz", default=1e-3, role="scale")  # fmt: skip
+                           source="rubber: loss factor 0.1 to 0.2", default=1e-3, role="scale")  # fmt: skip
     hardening: float = var("mount_compliance", "", "1/m2", "cubic part of the mount's stiffness over the linear", lower=0,
-                           upper=1e6, source="progressive bushing; Blundell and Harty, Multibody Systems Approach",
+                           upper=1e6, source="Blundell and Harty, Multibody Systems Approach",
                            default=0.0, role="law")  # fmt: skip
     m_rod: float = var("mount_compliance", "", "kg", "mass of rod and piston behind the mount", lower=0, upper=5,
-                       source="weighed; 1 to 3 kg in a passenger car", default=0.0, role="scale")  # fmt: skip
+                       source="1 to 3 kg in cars", default=0.0, role="scale")  # fmt: skip
 
 
 @dataclass(slots=True)

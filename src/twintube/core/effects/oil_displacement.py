@@ -21,7 +21,7 @@ NEEDS_TIME = False
 class Parameters(variables.Parameters):
     """How much of the oil is kept."""
 
-    displaced_share: float = var("oil_displacement", "", "1", "share of the oil that freed gas pushes into the reserve",
+    displaced_share: float = var("oil_displacement", "", "1", "oil that freed gas pushes into the reserve",
                                  lower=0, upper=1, source="mass balance of the oil", default=0.0,
                                  role="strength")  # fmt: skip
 

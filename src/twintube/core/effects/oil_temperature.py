@@ -36,12 +36,12 @@ class Parameters(variables.Parameters):
     """Fade and cooling; what a kelvin changes."""
 
     fade_heat: float = var("oil_temperature", "", "1/J", "relative loss of fluid force per retained heat", lower=0,
-                           upper=1e-3, source="Reynolds 1886 (viscosity), lumped heat capacity", default=0.0,
+                           upper=1e-3, source="Reynolds 1886 (viscosity)", default=0.0,
                            role="strength")  # fmt: skip
     cooling_time: float = var("oil_temperature", "", "s", "time constant of the cooling", lower=5, upper=2000,
                               source="Newton's law of cooling, lumped", default=300.0, role="scale")  # fmt: skip
-    H_start: float = var("oil_temperature", "", "J", "heat at the start beyond that of the F-v curve's temperature",
-                         lower=-2e4, upper=6e4, source="a hot or cold damper, 700 J/K", default=0.0,
+    H_start: float = var("oil_temperature", "", "J", "heat at the start beyond the F-v curve's",
+                         lower=-2e4, upper=6e4, source="700 J/K", default=0.0,
                          role="start")  # fmt: skip
     fade_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of fluid force per kelvin measured", lower=0,
                              upper=0.08, source="Reynolds 1886 (viscosity)", default=0.0, role="strength")  # fmt: skip
@@ -50,11 +50,11 @@ class Parameters(variables.Parameters):
                                  role="strength")  # fmt: skip
     gas_kelvin: float = var("oil_temperature", "", "1/K", "relative rise of the preload per kelvin measured", lower=0,
                             upper=0.01, source="ideal gas, enclosed: 1/296 K", default=0.00338, role="scale")  # fmt: skip
-    turbulence: float = var("oil_temperature", "", "s/m", "turbulent over laminar pressure drop per velocity; 0: all is "
-                            "laminar", lower=0, upper=20, source="Hagen-Poiseuille and Bernoulli: a mu v + b v^2",
+    turbulence: float = var("oil_temperature", "", "s/m", "turbulent over laminar pressure drop per velocity",
+                            lower=0, upper=20, source="Hagen-Poiseuille, Bernoulli",
                             default=0.0, role="law")  # fmt: skip
     thin_density: float = var("oil_temperature", "", "1", "relative loss of density over that of viscosity", lower=0,
-                              upper=0.05, source="7e-4/K of mineral oil; Dixon, The Shock Absorber Handbook",
+                              upper=0.05, source="mineral oil; Dixon, Shock Absorber Handbook",
                               default=0.02, role="law")  # fmt: skip
     gas_heat: float = var("oil_temperature", "", "1/J", "relative rise of the preload per retained heat", lower=0,
                           upper=1e-3, source="ideal gas, lumped heat capacity", default=0.0, role="law")  # fmt: skip

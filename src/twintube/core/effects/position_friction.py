@@ -23,14 +23,14 @@ NEEDS_TIME = False
 class Parameters(variables.Parameters):
     """Relative change of the friction with the stroke."""
 
-    friction_slope: float = var("position_friction", "", "1/m", "relative rise of the friction with the stroke (extension)",
+    friction_slope: float = var("position_friction", "", "1/m", "rise of the friction with the stroke (extension)",
                                 lower=-60, upper=60, source="lever of guide and piston", default=0.0,
                                 role="strength")  # fmt: skip
-    friction_bow: float = var("position_friction", "", "1/m2", "relative rise of the friction to both ends of the stroke",
+    friction_bow: float = var("position_friction", "", "1/m2", "rise of the friction to both ends",
                               lower=0, upper=4000, source="tube worn in the middle", default=0.0,
                               role="strength")  # fmt: skip
-    friction_spot: float = var("position_friction", "", "1", "relative rise of the friction at a spot", lower=0, upper=20,
-                               source="a dent in the tube, a score on the rod", default=0.0, role="strength")  # fmt: skip
+    friction_spot: float = var("position_friction", "", "1", "rise of the friction at a spot", lower=0, upper=20,
+                               source="dent or score", default=0.0, role="strength")  # fmt: skip
     spot_at: float = var("position_friction", "", "m", "stroke of the spot (extension)", lower=-0.12, upper=0.12,
                          source="anywhere in the stroke", default=0.0, role="place")  # fmt: skip
     spot_width: float = var("position_friction", "", "m", "half width of the spot", lower=1e-3, upper=0.05,

@@ -33,15 +33,15 @@ class Parameters(variables.Parameters):
     """The film's cross-section and what it depends on; the cut's area."""
 
     leak_film: float = var("seal_leak", "", "m2", "oil lost per stroke travelled, at 0.1 m/s", lower=0, upper=1e-5,
-                           source="film on the rod; Mueller and Nau, Fluid Sealing Technology", default=0.0,
+                           source="Mueller and Nau, Fluid Sealing Technology", default=0.0,
                            role="strength")  # fmt: skip
     leak_power: float = var("seal_leak", "", "1", "oil lost per time goes with the speed to this power", lower=0, upper=2,
                             source="1: constant film", default=1.0, role="law")  # fmt: skip
-    leak_beyond: float = var("seal_leak", "", "1", "share of the film's loss that goes on without oil in the reserve",
-                             lower=0, upper=1, source="1: the rod guide passes on what V1 presses through it",
+    leak_beyond: float = var("seal_leak", "", "1", "share of the film's loss with an empty reserve",
+                             lower=0, upper=1, source="flow through the rod guide",
                              default=1.0, role="law")  # fmt: skip
     cut_area: float = var("seal_leak", "", "m2", "area of a cut, times its discharge coefficient", lower=0, upper=1e-7,
-                          source="orifice; Merritt, Hydraulic Control Systems", default=0.0, role="strength")  # fmt: skip
+                          source="Merritt, Hydraulic Control Systems", default=0.0, role="strength")  # fmt: skip
 
 
 @dataclass(slots=True)

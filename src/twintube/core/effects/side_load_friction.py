@@ -27,8 +27,8 @@ class Parameters(variables.Parameters):
     side_load: float = var("side_load_friction", "", "1", "relative rise of the friction by side load", lower=0, upper=30,
                            source="Coulomb", default=0.0, role="strength")  # fmt: skip
     v_side: float = var("side_load_friction", "", "m/s", "speed from which the side load shows", lower=1e-3, upper=0.1,
-                        source="rigs align themselves in slow ramps", default=0.02, role="scale")  # fmt: skip
-    side_lever: float = var("side_load_friction", "", "1/m", "relative growth of that rise with the stroke (extension)",
+                        source="rigs align in slow ramps", default=0.02, role="scale")  # fmt: skip
+    side_lever: float = var("side_load_friction", "", "1/m", "growth of that rise with the stroke (extension)",
                             lower=-25, upper=25, source="lever of guide and piston, bent rod", default=0.0,
                             role="law")  # fmt: skip
 

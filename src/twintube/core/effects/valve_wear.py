@@ -36,17 +36,17 @@ class Parameters(variables.Parameters):
                          source="scaled F-v curve", default=0.0, role="strength")  # fmt: skip
     wear_co: float = var("valve_wear", "", "1", "relative change of the fluid force in compression", lower=-0.8, upper=1,
                          source="scaled F-v curve", default=0.0, role="strength")  # fmt: skip
-    bleed_re: float = var("valve_wear", "", "m/s", "piston speed that a leak beside the valves takes at 1000 N, rebound",
-                          lower=0, upper=0.5, source="turbulent orifice; Dixon, The Shock Absorber Handbook", default=0.0,
+    bleed_re: float = var("valve_wear", "", "m/s", "piston speed that a leak takes at 1000 N, rebound",
+                          lower=0, upper=0.5, source="Dixon, Shock Absorber Handbook", default=0.0,
                           role="strength", nominal=0.05)  # fmt: skip
     bleed_co: float = var("valve_wear", "", "m/s", "the same in compression", lower=0, upper=0.5,
-                          source="turbulent orifice; Dixon, The Shock Absorber Handbook", default=0.0, role="strength",
+                          source="Dixon, Shock Absorber Handbook", default=0.0, role="strength",
                           nominal=0.05)  # fmt: skip
-    opening_re: float = var("valve_wear", "", "N", "force that the open blow-off has lost, rebound", lower=0, upper=1000,
-                            source="preload of the valve's spring; Dixon, The Shock Absorber Handbook", default=0.0,
+    opening_re: float = var("valve_wear", "", "N", "force lost by the open blow-off, rebound", lower=0, upper=1000,
+                            source="Dixon, Shock Absorber Handbook", default=0.0,
                             role="strength")  # fmt: skip
     opening_co: float = var("valve_wear", "", "N", "the same in compression", lower=0, upper=1000,
-                            source="preload of the valve's spring; Dixon, The Shock Absorber Handbook", default=0.0,
+                            source="Dixon, Shock Absorber Handbook", default=0.0,
                             role="strength")  # fmt: skip
     opening_speed: float = var("valve_wear", "", "m/s", "speed at which the blow-off is half open", lower=0.02, upper=2,
                                source="knee of the F-v curve", default=0.2, role="scale")  # fmt: skip
