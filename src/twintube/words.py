@@ -47,3 +47,8 @@ def listed(texts: Iterable[str], most: int = 20) -> str:
     names = [short(text) for text in texts]
     rest = len(names) - most
     return ", ".join(names[:most]) + (f" and {rest} more" if rest > 0 else "")
+
+
+def lower(title: str) -> str:
+    """A title inside a sentence; abbreviations such as F-v keep their capitals."""
+    return title if title[1:2].isupper() or title[1:2] == "-" else title[0].lower() + title[1:]

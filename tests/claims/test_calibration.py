@@ -30,7 +30,7 @@ def test_dead_lengths_are_possible(name: str) -> None:
     assert damper.parameters.dead_length / STEP == pytest.approx(round(damper.parameters.dead_length / STEP))
     assert 6.0 < pressure(damper) <= HIGHEST
     assert all(pressure(candidate) <= HIGHEST for candidate in candidates(damper))
-    assert "twintube calibrate" in damper.assumed["geometry.dead_length"]
+    assert "twintube paper calibrate" in damper.assumed["geometry.dead_length"]
 
 
 def test_gas_of_a_long_dead_length_is_refused() -> None:

@@ -177,10 +177,36 @@ def test_the_tour_has_five_findings_with_figures(view: View) -> None:
     assert not page.is_visible("#tour-step")
 
 
+def test_a_step_of_the_tour_is_read_beside_its_picture_and_ends_with_a_change(view: View) -> None:
+    page = view.open().page
+    page.set_viewport_size({"width": 1280, "height": 900})
+    for number in range(1, 6):
+        view.open(f"#tour={number}")
+        boxes = {name: page.locator(name).bounding_box() for name in ("#tour-step", "#tube", "#chart-s", "#player")}
+        for name in ("#tour-step", "#tube", "#chart-s"):
+            assert boxes[name]["y"] + boxes[name]["height"] < boxes["#player"]["y"], (number, name)
+    page.click("#play")
+    page.click("#play")
+    assert page.is_visible("#tour-step")  # it is what is shown, only earlier
+    page.focus("#oil")
+    page.keyboard.press("ArrowLeft")
+    assert not page.is_visible("#tour-step")
+    view.until(lambda: "tour" not in page.evaluate("location.hash"))
+
+
+def test_a_drive_draws_the_intact_damper_in_its_loops(view: View) -> None:
+    page = view.open("#damper=SA8&oil=50&excitation=drive&time=0").page
+    inked = """id => { const canvas = document.querySelector(`#${id} .u-wrap > canvas`);
+        const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+        let count = 0; for (let i = 3; i < data.length; i += 4) count += data[i] > 0; return count / (data.length / 4); }"""
+    grid = 0.06  # of the picture that axes, grid and names take
+    assert page.evaluate(inked, "chart-s") > 2 * grid
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_contrast_labels_and_widths(chromium: Any, explorer: Path, scheme: str) -> None:
     axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
-    for address in ("#damper=SA8&tour=5&factor=yes", "#damper=SA8&excitation=drive"):
+    for address in ("#tour=5", "#damper=SA8&excitation=drive"):
         shown = View(chromium, explorer, color_scheme=scheme).open(address)
         shown.page.evaluate("document.querySelectorAll('details').forEach(part => part.open = true)")
         for width in WIDTHS:

@@ -27,7 +27,7 @@ NS = {
 }
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
 SCHEMA = SCHEMAS / "SystemStructureParameterValues.xsd"
-GUIDE = Path(__file__).parents[2] / "docs" / "import.md"
+GUIDE = Path(__file__).parents[2] / "docs" / "import_ssp.md"
 # Another damper than the FMU's, in another condition: hardly a parameter is that of SA8.
 WORN = load("SA7").with_(oil_level=0.56, gas_preload=0)
 STROKE, VELOCITY, FORCE = 0, 1, 2  # value references, in the order of the variables

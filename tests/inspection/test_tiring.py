@@ -35,7 +35,7 @@ from twintube.inspection.tiring import (
     shaker,
     twice,
 )  # fmt: skip
-from twintube.report.inspection import Inspection, sentence
+from twintube.report.inspected import Inspection, sentence
 from twintube.report.inspection_tiring import remarks
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track

@@ -52,4 +52,4 @@ def test_the_plate_that_watches(head: str, changes: float, level: float | None) 
     damper = load("SA8").with_(**scalar_factor(changes)) if level is None else condition(load("SA8"), level, 0)
     found = row(damper, 6.0)
     figures = [f"{found[name]:.2f}" for name in ("first", "largest", "growth", "force growth")]
-    assert [*figures, f"{100 * found['off the plate']:.0f} %"] in rows(re.escape(head))
+    assert [*figures, f"{100 * found['off the plate']:.0f} %"] in rows(re.escape(head), "inspection_tiring.md")

@@ -3,7 +3,10 @@
 import csv
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
+from typing import Any, get_type_hints
 
 import fmpy
 import pytest
@@ -16,11 +19,93 @@ from twintube.cli import app
 RUNNER = CliRunner()
 
 
-@pytest.mark.parametrize("command", sorted(typer.main.get_command(app).commands))  # type: ignore[attr-defined]
-def test_help_has_an_example(command: str) -> None:
-    run = RUNNER.invoke(app, [command, "--help"])
+TOP: Any = typer.main.get_command(app)
+COMMANDS = sorted([*(set(TOP.commands) - {"paper"}), *(f"paper {name}" for name in TOP.commands["paper"].commands)])
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_is_for_a_person(command: str) -> None:
+    run = RUNNER.invoke(app, [*command.split(), "-h"])
     assert run.exit_code == 0
     assert f"Example: twintube {command}" in run.output
+    assert not re.search(r"<\w|None|PATH|TEXT|FLOAT", run.output)  # units and names, no types of Python
+
+
+@pytest.mark.parametrize("group", [[], ["paper"]])
+def test_commands_are_grouped_and_sorted_and_no_line_is_cut(group: list[str]) -> None:
+    run = RUNNER.invoke(app, [*group, "--help"], env={"COLUMNS": "80"})
+    sections = re.findall(r"^(\w[\w ]*):\n((?:  .*\n)+)", run.output, re.MULTILINE)
+    titles = [title for title, _ in sections if title != "Options"]
+    assert titles == (["Paper"] if group else ["Model and FMU", "Bench data", "Vehicle", "Paper"])
+    found = []
+    for title, body in sections:
+        if title != "Options":
+            rows = re.findall(r"^  (\S+) +(\S.*\.)$", body, re.MULTILINE)
+            assert len(rows) == body.count("\n"), title  # every command has one whole line
+            assert [name for name, _ in rows] == sorted(name for name, _ in rows)
+            found += [name for name, _ in rows]
+    assert set(found) == set(TOP.commands["paper"].commands if group else TOP.commands)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("claims", "claims"), ("reproduce", "figures"), ("readings", "readings"), ("calibrate", "calibrate")],
+)
+def test_a_command_that_moved_says_where(old: str, new: str) -> None:
+    run = RUNNER.invoke(app, [old, "--json", "x"])
+    assert run.exit_code == 2
+    assert f"'twintube {old}' is 'twintube paper {new}' now" in run.stderr
+
+
+@pytest.mark.parametrize("option", ["--version", "--help"])
+def test_help_imports_nothing_scientific(option: str) -> None:
+    script = f"import sys\nfrom twintube.cli import app\napp(['{option}'], standalone_mode=False)\nprint(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    slow = {"numpy", "scipy", "pandas", "numba", "pint", "matplotlib", "fmpy", "tqdm", "rich", "pydantic"}
+    assert not slow & set(done.stdout.splitlines()[-1].split())
+
+
+@pytest.mark.parametrize(
+    ("typed", "offered"),
+    [
+        ("simulate SA", {f"SA{i}" for i in range(1, 9)}),
+        ("pap", {"paper"}),
+        ("paper ", {"calibrate", "claims", "figures", "readings"}),
+        ("ride SA8 --road-class ", set("ABCDE")),
+        ("fmu --platform l", {"linux64"}),
+    ],
+)
+def test_the_shell_completes(typed: str, offered: set[str]) -> None:
+    line = f"twintube {typed}"
+    asked = {"_TWINTUBE_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(line.split(" ")) - 1)}
+    run = RUNNER.invoke(app, [], prog_name="twintube", env=asked)
+    assert set(run.output.split()) == offered
+
+
+def test_the_values_in_the_help_are_those_of_the_library() -> None:
+    from twintube import dampers
+    from twintube.cli import fmu, options
+    from twintube.dampers.freed_gas import WAYS
+    from twintube.fmu.platforms import PLATFORMS, Kind
+    from twintube.identification import METHODS
+    from twintube.inspection import METHODS as INSPECTIONS
+    from twintube.rig import signals
+    from twintube.vehicle import cars, ride, road
+    from twintube.vehicle.full.catalogue import MANEUVERS
+    from twintube.vehicle.full.study import WORN
+
+    assert options.dampers() == dampers.names()
+    assert tuple(PLATFORMS) == options.PLATFORMS
+    assert tuple(road.GD_N0) == options.ROADS
+    assert tuple(sorted(path.stem for path in cars.FOLDER.glob("*.toml"))) == options.CARS
+    assert tuple(WAYS) == options.FREED_GAS
+    assert set(options.MANEUVERS) | {"table3"} == set(MANEUVERS)
+    assert set(options.WORN) == set(WORN)
+    assert tuple(INSPECTIONS) == options.INSPECTIONS
+    assert tuple(METHODS) == options.SEARCHES
+    assert (tuple(signals.STARTS), signals.START) == (options.STARTS, options.START)
+    assert options.STEP_MS == 1e3 * ride.DT
+    assert get_type_hints(fmu.fmu, {"Damper": Any})["kind"] == Kind
 
 
 def test_dampers_are_listed_and_shown(tmp_path: Path) -> None:
@@ -89,14 +174,14 @@ def test_bad_records(tmp_path: Path, text: str, message: str) -> None:
         (["simulate", "SA8", "--velocity", "nan"], "error: velocity = nan m/s"),
         (["simulate", "SA8", "--amplitude-mm", "200"], "stroke = "),
         (
-            ["claims", "--reading", "leaks=1"],
+            ["paper", "claims", "--reading", "leaks=1"],
             "error: --reading leaks=1: must be NAME=NUMBER with a name of leak_carries_oil",
         ),
-        (["reproduce", "--figure", "99"], "error: figure 99: must be one of 3, 5"),
-        (["reproduce", "--processes", "0"], "error: processes = 0: must be at least 1"),
-        (["reproduce", "--figure", "18", "--output", "/dev/null/x"], "error: "),
+        (["paper", "figures", "--figure", "99"], "error: figure 99: must be one of 3, 5"),
+        (["paper", "figures", "--processes", "0"], "error: processes = 0: must be at least 1"),
+        (["paper", "figures", "--figure", "18", "--output", "/dev/null/x"], "error: "),
         (["identify", "nowhere"], "error: "),
-        (["claims", "--reading", "foam_decays=7"], "reading.foam_decays = 7: must be a number from 0 to 1"),
+        (["paper", "claims", "--reading", "foam_decays=7"], "reading.foam_decays = 7: must be a number from 0 to 1"),
     ],
 )
 def test_bad_arguments(arguments: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,7 +202,7 @@ def test_unwritable_output(tmp_path: Path) -> None:
 def test_claims_as_json(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(claims, "EVALUATORS", claims.EVALUATORS[:2])  # tests/claims evaluates all
     out = tmp_path / "claims.json"
-    run = RUNNER.invoke(app, ["claims", "--json", str(out)])
+    run = RUNNER.invoke(app, ["paper", "claims", "--json", str(out)])
     assert run.exit_code == 0, run.output
     found = json.loads(out.read_text())
     assert [c["id"] for c in found] == ["C1", "C2"]

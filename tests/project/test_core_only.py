@@ -11,8 +11,8 @@ for name in ("asammdf", "cma", "distributed", "emcee", "h5py", "pandas", "pyarro
     sys.modules[name] = None
 from typer.testing import CliRunner
 
-import twintube.diagnosis
-import twintube.report.diagnosis
+import twintube.evidence
+import twintube.report.answered
 from twintube.cli import app
 
 for arguments in (["example", "my_example"], ["check", "my_example"], ["simulate", "SA8", "--amplitude-mm", "10"]):

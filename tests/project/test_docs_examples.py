@@ -2,23 +2,29 @@
 
     <!-- not run: reason -->   before a block that cannot be run here
     <!-- file: NAME -->        before a block that is the text of a file, which later blocks of the page may use
+    <!-- output -->            before lines that the block above it prints; ... stands for anything
 
 Commands within the text are not run, but their names and options are checked.
 """
 
+import io
 import os
 import re
 import shlex
 import shutil
+import subprocess
+import sys
 import tomllib
 import zipfile
 from collections.abc import Iterator
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-import click
 import pytest
 import typer
+import yaml
 from typer.testing import CliRunner
 
 from twintube.cli import app
@@ -26,7 +32,8 @@ from twintube.cli import app
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUN_ELSEWHERE = {"main": "tests/vehicle", "test": ".ci/run"}  # marks of the README's two commands
-LANGUAGES = {"sh", "python", "toml", "text", "xml", "lua", "json", ""}
+LANGUAGES = {"sh", "python", "toml", "text", "xml", "lua", "json", "yaml", ""}
+OTHERS = {"fmpy": ["-m", "fmpy"], "python": []}  # commands beside `twintube`, run by this Python
 
 
 @dataclass(frozen=True)
@@ -67,23 +74,34 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.Fixt
     return tmp_path
 
 
-def run_shell(block: Block) -> None:
-    """Every line must be a `twintube` command, with its output to a file where the line says so."""
+def run_shell(block: Block) -> str:
+    """Run a block, a command a line: `twintube`, fmpy, or a Python file that the page has written. Returns what it prints."""
+    printed = ""
     for line in block.text.replace("\\\n", " ").splitlines():
         words = shlex.split(line, comments=True)
         if not words:
             continue
-        assert words[0] == "twintube", f"{block.page}: line {block.line}: mark the block as not run, or use twintube: {line}"
+        where = f"{block.page}: line {block.line}: {line}"
+        if words[0] in OTHERS and (words[0] != "python" or Path(words[1]).is_file()):
+            command = [sys.executable, *OTHERS[words[0]], *words[1:]]
+            run = subprocess.run(command, capture_output=True, text=True, check=False)
+            assert run.returncode == 0, f"{where}\n{run.stdout}\n{run.stderr}"
+            printed += run.stdout
+            continue
+        assert words[0] == "twintube", f"mark the block as not run, or use twintube: {where}"
         target = words[words.index(">") + 1] if ">" in words else None
         words = words[: words.index(">")] if target else words
         done = CliRunner().invoke(app, words[1:])
-        assert done.exit_code == 0, f"{block.page}: line {block.line}: {line}\n{done.output}\n{done.exception!r}"
+        assert done.exit_code == 0, f"{where}\n{done.output}\n{done.exception!r}"
         if target:
             Path(target).write_text(done.stdout, encoding="utf-8")
+        printed += done.output
+    return printed
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_the_blocks_of_a_page_run(page: Path, folder: Path) -> None:
+    printed = ""
     for block in blocks(page):
         where = f"{block.page}: line {block.line}"
         kind, _, detail = block.mark.partition(": ")
@@ -94,12 +112,27 @@ def test_the_blocks_of_a_page_run(page: Path, folder: Path) -> None:
             (folder / detail).parent.mkdir(parents=True, exist_ok=True)
             (folder / detail).write_text(block.text, encoding="utf-8")
         elif block.language == "sh" and kind not in RUN_ELSEWHERE:
-            run_shell(block)
+            printed = run_shell(block)
         elif block.language == "python":
-            exec(compile(block.text, f"{page}:{block.line}", "exec"), {"__name__": "__main__"})
+            with redirect_stdout(io.StringIO()) as out:
+                exec(compile(block.text, f"{page}:{block.line}", "exec"), {"__name__": "__main__"})
+            printed = out.getvalue()
+        elif kind == "output":
+            for line in block.text.splitlines():
+                assert re.search(".*".join(map(re.escape, line.split("..."))), printed), f"{where}: {line}\n{printed}"
         if block.language == "toml":
             tomllib.loads(block.text)
     assert Path.cwd() == folder
+
+
+def test_the_workflow_runs_the_commands_of_its_page() -> None:
+    """What the page on CI tries by hand, which the test above runs, is what its workflow does."""
+    written = list(blocks(ROOT / "docs" / "ci.md"))
+    (workflow,) = (yaml.safe_load(block.text) for block in written if block.language == "yaml")
+    (steps,) = (job["steps"] for job in workflow["jobs"].values())
+    assert all(("run" in step) != ("uses" in step) for step in steps)
+    tried = [line for block in written if block.language == "sh" for line in block.text.splitlines()]
+    assert [step["run"] for step in steps if "run" in step and not step["run"].startswith("pip ")] == tried
 
 
 def inline(page: Path) -> Iterator[str]:
@@ -108,19 +141,24 @@ def inline(page: Path) -> Iterator[str]:
     yield from re.findall(r"`(twintube [^`]+)`", text)
 
 
+def check_options(words: list[str], where: str) -> None:
+    """The words behind `twintube` name a command and options of it."""
+    command: Any = typer.main.get_command(app)
+    for word in words:
+        if not hasattr(command, "commands") or word.startswith("-"):
+            break
+        assert word in command.commands, where
+        command = command.commands[word]
+    known = {name for parameter in command.params for name in (*parameter.opts, *parameter.secondary_opts)}
+    options = {word.split("=")[0] for word in words if word.startswith("-") and not word.lstrip("-")[:1].isdigit()}
+    assert options <= known | {"-h", "--help"}, where
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_commands_in_the_text_exist_with_their_options(page: Path) -> None:
-    group = typer.main.get_command(app)
-    assert isinstance(group, click.Group) or hasattr(group, "commands")
     for text in inline(page):
         words = shlex.split(text.replace("[", "").replace("]", ""), comments=True)[1:]
-        if words[0].startswith("-"):
-            continue
-        command = group.commands.get(words[0])  # type: ignore[attr-defined]
-        assert command is not None, f"{page.name}: {text}"
-        known = {name for parameter in command.params for name in (*parameter.opts, *parameter.secondary_opts)}
-        options = [word.split("=")[0] for word in words[1:] if word.startswith("--")]
-        assert set(options) <= known | {"--help"}, f"{page.name}: {text}"
+        check_options(words, f"{page.name}: {text}")
 
 
 def test_every_page_is_reached_from_the_readme() -> None:

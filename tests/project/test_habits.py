@@ -92,7 +92,7 @@ def test_the_page_of_effects_has_every_effect_with_its_parameters() -> None:
 
 def test_the_guide_says_what_identify_holds_out() -> None:
     numbers = {1: "second", 2: "third", 3: "third", 4: "fourth"}
-    guide = " ".join((ROOT / "docs" / "user_guide.md").read_text(encoding="utf-8").split())
+    guide = " ".join((ROOT / "docs" / "identification.md").read_text(encoding="utf-8").split())
     every, first = HELD_OUT
     assert f"every {numbers[every]} degraded velocity from the {numbers[first]} on is held out" in guide
     assert ENOUGH == 5 and "five or more velocities" in guide

@@ -1,5 +1,7 @@
 """The Python interface: names and signals in place of dampers and arrays work, what cannot work is said."""
 
+import inspect
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -8,18 +10,64 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
 from typer.testing import CliRunner
 
 import twintube
 from twintube import InputError, ParameterError, build_fmu, diagnose, harmonic_block, identify, load, simulate
 from twintube.cli import app
 from twintube.dampers import to_toml
+from twintube.errors import UserError
 
 BLOCK = harmonic_block(1.2, 0.02)
 
 
 def test_the_public_names_are_listed() -> None:
     assert dir(twintube) == sorted(twintube.__all__)
+
+
+@pytest.mark.parametrize("function", [load, simulate, harmonic_block, build_fmu, identify, diagnose, twintube.Simulation])
+def test_signatures_are_for_a_person(function: Callable[..., Any]) -> None:
+    text = str(inspect.signature(function))
+    assert not re.search(r"typing|numpy|collections|twintube\.|function|object", text)
+
+
+@pytest.fixture(scope="module")
+def result() -> twintube.Simulation:
+    return simulate("SA1", BLOCK)
+
+
+def test_a_simulation_has_time_units_and_a_table(result: twintube.Simulation) -> None:
+    assert result.time is not None
+    np.testing.assert_array_equal(result.time, BLOCK.time)
+    frame = result.to_dataframe()
+    assert frame.index.name == "time"
+    assert list(frame) == ["stroke", "velocity", *result.columns]
+    assert set(result.units) == {"time", *frame} and frame.attrs["units"]["V1_gas"] == "m3"
+    np.testing.assert_array_equal(frame["force"], result.force)
+    timeless = simulate(load("SA1", as_published=True), BLOCK.stroke, BLOCK.velocity)
+    assert timeless.time is None and "time" not in timeless.to_dataframe() and len(timeless.plot().axes) == 2
+
+
+def test_a_simulation_draws_itself_where_pyplot_shows_it(result: twintube.Simulation) -> None:
+    drawn = result.plot()
+    assert drawn is pyplot.gcf()
+    assert {ax.get_xlabel() for ax in drawn.axes} == {"time [s]", "stroke [mm]", "velocity [m/s]"}
+    assert all(re.search(r"\[.+\]", ax.get_ylabel()) for ax in drawn.axes)
+    pyplot.close("all")
+
+
+def test_texts_of_results_are_short(result: twintube.Simulation) -> None:
+    assert repr(load("SA1").with_(oil_level=0.6, gas_preload=0)).endswith("60 % oil, gas lost>")
+    for shown in (result, BLOCK, load("SA1")):
+        assert len(repr(shown)) < 150 and "\n" not in repr(shown)
+    assert "J dissipated" in repr(result)
+
+
+def test_a_table_without_pandas_says_what_to_install(monkeypatch: pytest.MonkeyPatch, result: twintube.Simulation) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(UserError, match="the package pandas is not installed"):
+        result.to_dataframe()
 
 
 def test_a_name_a_file_and_a_signal_stand_for_what_they_hold(tmp_path: Path) -> None:

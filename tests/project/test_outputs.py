@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import fmpy
 import pytest
@@ -86,7 +87,7 @@ def test_a_folder_keeps_the_answer_to_another_dataset(command: str, monkeypatch:
     def computing(*arguments: object, **options: object) -> None:
         raise InputError("it computes")
 
-    monkeypatch.setattr("twintube.diagnosis.diagnose", computing)
+    monkeypatch.setattr("twintube.evidence.diagnose", computing)
     monkeypatch.setattr("twintube.identification.identify_dataset", computing)
     for name in ("first", "second"):
         assert run("example", name).exit_code == 0
@@ -101,6 +102,13 @@ def test_a_folder_keeps_the_answer_to_another_dataset(command: str, monkeypatch:
     refused(run(command, "second"), f"{output} holds a result made from dataset =", "first", "another folder with --output")
     assert (Path(output) / main).read_text() == "{}"
     assert run(command, "second", "--output", "elsewhere").stderr.endswith("error: it computes\n")
+
+
+def test_a_folder_says_which_command_of_a_group_made_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = SimpleNamespace(page=Path("out/index.html"), pictures=())
+    monkeypatch.setattr("twintube.report.reproduce.reproduce", lambda *arguments, **options: made)
+    assert run("paper", "figures", "--output", "out").exit_code == 0
+    assert json.loads((Path("out") / MARK).read_text())["command"] == "paper figures"
 
 
 def test_an_interrupted_identification_goes_on_and_no_other_takes_its_journal(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,8 @@ from tests.identification.test_noisy_strokes import record
 from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.identification import Result, identify_dataset
-from twintube.report.identification import works, write_report
+from twintube.report.identification import write_report
+from twintube.report.identification_pictures import works
 
 SIZES = {0.131: 0.02, 0.2: 0.01, 0.3: 0.02}  # amplitude [m] by velocity [m/s]
 
@@ -27,6 +28,12 @@ def test_page_of_intact_records(tmp_path: Path) -> None:
     assert "F_FrS" in page and "1, 1 stochastic" in page
     assert "Measured up to 0.3 m/s" in page
     assert page.count('"label":"100% oil') == 3  # to look into
+    assert repr(identified) == "<Result: SA1-identified from 3 of 4 records>"
+    assert set(identified.to_dataframe().loc["drive", ["work_first", "work_last"]]) == {
+        identified.validation[-1].work_measured[0]
+    }
+    parameters = identified.identification.to_dataframe()
+    assert parameters.loc["F_FrS", "unit"] == "N" and (parameters["low"] <= parameters["high"]).all()
     axes = works([row for row in identified.validation if row.measurement == "harmonic"]).axes[0]
     lines = [line for line in axes.lines if line.get_linestyle() == "-" and len(line.get_xdata()) > 1]
     # Two of the records have equal amplitudes: the work between them rises, without a dent at the third.

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from twintube.report import style
 from twintube.report.live import MOST_POINTS, Curve, Look, live
 from twintube.report.page import Section, html
 
-CURVES = [Curve("measured", "measured", "#1c2226"), Curve("base", "base model <b>", "#0b6ca3", (6, 4)),
-          Curve("other", "other model", "#2d7a3f", shown=False)]  # fmt: skip
+CURVES = [Curve("measured", "measured", style.INK), Curve("base", "base model <b>", style.BLUE, (6, 4)),
+          Curve("other", "other model", style.GREEN, shown=False)]  # fmt: skip
 
 
 def look(name: str, turns: int) -> Look:
@@ -89,7 +90,16 @@ def test_another_record_has_its_own_parts(page: Any) -> None:
     assert parts[-1] == f"oscillation {(MOST_POINTS - 1) // 100}"  # what is beyond is left out
 
 
-def test_labels_and_contrast(page: Any) -> None:
+def test_curves_are_seen_on_dark_paper(page: Any) -> None:
+    ink = "getComputedStyle(document.documentElement).getPropertyValue('--look-measured').trim()"
+    assert page.evaluate(ink) == style.INK
+    page.emulate_media(color_scheme="dark")
+    assert page.evaluate(ink) == style.DARK[style.INK]
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_labels_and_contrast(page: Any, scheme: Any) -> None:
+    page.emulate_media(color_scheme=scheme)
     axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
     for width in (360, 900):
         page.set_viewport_size({"width": width, "height": 900})

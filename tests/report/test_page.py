@@ -5,7 +5,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from twintube.report.page import Finding, Picture, Section, Table, html, readable
+from twintube.report.page import Finding, Headline, Picture, Section, Table, html, readable
 
 PNG = b"\x89PNG\r\n\x1a\n0000"
 
@@ -67,6 +67,16 @@ def test_the_page_contains_its_input(text):
     for content in ("A title", "A lead", "A paragraph", "0 of 1", "A table", "the foot", 'alt="a picture"', "SA1: 1.0, 2.0"):
         assert content in text
     assert "work &lt; force &amp; more" in text
+
+
+def test_an_answer_comes_first_and_the_rest_folds():
+    step, picture = "Run `twintube check`.", Picture(PNG, "loops")
+    headline = Headline("The oil gets hot.", "cause named", "found", "Very likely (95 %).", step, picture)
+    page = html("A title", [], [Section("one", "Numbers", text=["Inside"])], headline=headline)
+    before, _, after = page.partition("<details>")
+    for said in ("The oil gets hot.", "cause named", "Very likely (95 %).", "<code>twintube check</code>", 'alt="loops"'):
+        assert said in before
+    assert "Inside" in after and parsed(page).links == []
 
 
 def test_verdicts_have_marks(text):

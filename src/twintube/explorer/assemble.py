@@ -21,7 +21,7 @@ CHARTS = (  # identifier, title, text for screen readers
     ("chart-s", "Force over stroke", "Force over stroke of this damper and the intact one"),
     ("chart-v", "Force over velocity", "Force over velocity of this damper and the intact one"),
     ("chart-work", "Work", "Work of every oscillation, or second of a drive; the same values are in the table below"),
-    ("chart-k", "Degradation factor", "k_degr, the fluid force over that of the intact damper, over time"),
+    ("chart-k", "Degradation factor", "Fluid force over that of the intact damper (k_degr), over time"),
     ("chart-load", "Wheel load", "Wheel load over time with this damper and with the intact one"),
 )
 

@@ -12,7 +12,8 @@ from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.gas_spring import at_pressure
 from twintube.data import Record
-from twintube.engine.simulate import InputError, Simulation, simulate_quietly
+from twintube.engine.simulate import InputError, simulate_quietly
+from twintube.engine.simulation import Simulation
 from twintube.fitting.averaging import averaged
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.oscillations import harmonic, smooth_velocity

@@ -37,46 +37,43 @@ class Method:
 METHODS: Final = MappingProxyType({item.name: item for item in (
     Method(
         "eusama", "EUSAMA adhesion",
-        "smallest vertical plate force of the coast over the static force, times 100", "%", 40.0, True,
-        "EUSAMA recommendation: 6 mm peak to peak, up to 25 Hz; classes 0-20, 21-40, 41-60 and above 60",
-        "figure sure; the limit in use is 20 or 40, and sources differ on the classes",
+        "smallest plate force of the coast over the static force", "%", 40.0, True,
+        "EUSAMA: 6 mm peak to peak, up to 25 Hz; classes 0-20, 21-40, 41-60, above 60",
+        "figure sure; the limit in use is 20 or 40",
     ),
     Method(
         "phase_shift", "minimum phase shift",
-        "smallest angle by which the plate force leads the plate's height, one per cycle, from 2 Hz to the wheel's "
-        "resonance",
+        "smallest angle by which the plate's force leads its height, from 2 Hz to the wheel's resonance",
         "deg", 35.0, True,
-        "EGEA SPECSUS2018 after Tsymberov, SAE 960735: fails below 35 deg between the resonances of body and wheel "
-        "(public slides of 2017 and 2019)",
-        "limit sure; how a tester finds the window is not published: the window is a reading, see those of other windows",
+        "EGEA SPECSUS2018 after Tsymberov, SAE 960735 (public slides of 2017 and 2019)",
+        "limit sure; the window is not published",
     ),
     Method(
         "damping_ratio", "damping ratio of the wheel",
-        "Lehr's damping ratio at the wheel's resonance, fitted to the force of the cycles around it", "", 0.1, True,
-        "used by testers beside EUSAMA; the limit 0.1 is quoted without a primary source",
-        "unsure: neither the way to the figure nor the limit is published; here a fit of a single mass to the plate run",
+        "Lehr's damping ratio, fitted around the wheel's resonance", "", 0.1, True,
+        "in use beside EUSAMA; no primary source for 0.1",
+        "unsure: neither figure nor limit is published; here a fit of a single mass",
     ),
     Method(
         "push_down", "push-down",
-        "logarithmic decrement of the body per cycle after release, from the first swing beyond rest", "", 1.4, True,
-        "rocking by hand; the limit is assumed: half of the push is left in the first swing beyond rest",
-        "method old and still in use, judged by eye; limit assumed",
+        "logarithmic decrement of the body after release", "", 1.4, True,
+        "rocking by hand; half of the push left in the first swing",
+        "in use, judged by eye; limit assumed",
     ),
     Method(
         "bump", "slow speed bump",
-        "root mean square of the axle's vertical acceleration behind the bump, over that of the intact damper",
+        "RMS of the axle's acceleration behind the bump, over the intact damper's",
         "", 2.0, False,
-        "Schramm, Zwosta and Prokop, measurement 3 of Table 3 at 8 km/h, proposed there for inspection",
-        "a proposal, in no regulation; bump of 50 mm assumed, limit assumed so that about 5 % of intact dampers fail",
+        "Schramm, Zwosta and Prokop, measurement 3 of Table 3 at 8 km/h",
+        "a proposal; bump of 50 mm and limit assumed, so that about 5 % of intact dampers fail",
     ),
     Method(
         "tiring", "tiring of the damper",
-        "root mean square of the damper's velocity on a plate at 12 Hz: largest of the half seconds of 20 s over the first; "
+        "RMS of the damper's velocity at 12 Hz: largest of the half seconds of 20 s over the first; "
         "plates of 6, 8 and 10 mm in turn",
         "", tiring.LIMIT, False,
         "proposed here; no tester has it",
-        "unsure: rests on the speed of cavitation and on how much gas it frees; limit: above what the heat of the run does "
-        "to an intact damper",
+        "unsure: rests on cavitation and its gas; limit: above what heat does to an intact damper",
     ),
 )})  # fmt: skip
 

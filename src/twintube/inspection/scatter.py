@@ -38,22 +38,21 @@ class Range:
 
 BENCHES: Final = (
     Range("tyre", "tyre stiffness over the car file's", 0.8, 1.2, "", "assumed",
-          "pressure up to 20 % off, stiffness in proportion to it; public data of car tyres go from 158 to 348 N/mm"),
+          "pressure up to 20 % off; public data: 158 to 348 N/mm"),
     Range("load", "sprung mass of the corner over the car file's", 0.85, 1.25, "", "assumed",
-          "from the driver alone to a full rear seat; the height of the body and the stroke's middle stay"),
+          "from the driver alone to a full rear seat"),
     Range("force", "F-v curve over the parameter set's", 0.9, 1.1, "", "assumed", "tolerance of new dampers"),
     Range("temperature_degC", "temperature of oil and gas", 0.0, 40.0, "degC", "assumed",
-          "winter to summer; above 23 degC the fluid force is 0.3 % weaker per kelvin (assumed), and the gas presses harder "
-          "as an ideal one"),
+          "winter to summer; fluid force 0.3 % weaker per kelvin (assumed), ideal gas"),
     Range("amplitude", "amplitude of the plate", 2.9e-3, 3.1e-3, "m",
           "3 mm sourced (EUSAMA), tolerance assumed", "wear of the crank"),
     Range("top", "highest frequency of the plate", 24.0, 26.0, "Hz",
           "25 Hz sourced (EUSAMA), tolerance assumed", "slip of the motor"),
-    Range("coast", "time of the plate to rest", 10.0, 20.0, "s", "assumed", "flywheel and friction differ between testers"),
+    Range("coast", "time of the plate to rest", 10.0, 20.0, "s", "assumed", "testers differ"),
     Range("force_noise", "noise of the plate's force, root mean square", 0.0, 20.0, "N", "assumed",
           "below 1 % of the static force"),
     Range("phase_error", "error of the phase", -2.0, 2.0, "deg", "assumed",
-          "delay between the channels of force and height"),
+          "delay between the channels"),
     Range("push", "depth of the push-down", 0.04, 0.06, "m", "assumed", "by hand"),
     Range("height_noise", "noise of the body's height, root mean square", 0.0, 5e-4, "m", "assumed", "optical sensor"),
     Range("speed_kmh", "speed over the bump", 7.0, 9.0, "km/h", "8 km/h sourced (the paper), tolerance assumed", "a driver"),
@@ -62,10 +61,10 @@ BENCHES: Final = (
 )  # fmt: skip
 # Drawn after the others, whose draws so stay as they are without them.
 OF_TIRING: Final = (
-    Range("drift", "change of the frequency of the plate of tiring within its 20 s", -0.005, 0.005, "1", "assumed",
+    Range("drift", "frequency of the plate of tiring within 20 s", -0.005, 0.005, "1", "assumed",
           "slip of a motor that gets warm"),
     Range("velocity_noise", "noise of the damper's velocity, root mean square", 0.0, 0.02, "m/s", "assumed",
-          "optical sensor between wheel and wing, 0.25 mm at 12 Hz"),
+          "optical sensor between wheel and wing"),
 )  # fmt: skip
 RANGES: Final = (*BENCHES, *OF_TIRING)
 

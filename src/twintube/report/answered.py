@@ -4,8 +4,8 @@ from pathlib import Path
 
 from twintube.evidence import Answer
 from twintube.files import write_bytes, write_text
-from twintube.report import changes, state, style
-from twintube.report.page import Headline, Picture, html
+from twintube.report import changes, state
+from twintube.report.page import html
 
 
 def lines(answer: Answer) -> list[str]:
@@ -16,16 +16,17 @@ def lines(answer: Answer) -> list[str]:
     return [*unknown, *changes.lines(answer)]
 
 
-def write_report(title: str, answer: Answer, folder: Path) -> None:
-    """Write report.html and its pictures."""
+def write_report(answer: Answer, folder: Path) -> None:
+    """Write report.html and its picture."""
     if answer.changes is None:
-        image, name = style.png(state.picture(answer.states)), state.PICTURE
-        text, caption = " ".join(state.sentence(one) for one in answer.states), "Probability of the oil level."
-        sections = [state.section(answer.states, [state.next_step(answer.states), state.ASSUMED])]
+        head, name = state.headline(answer.states), state.PICTURE
+        sections = [state.section(answer.states, [state.ASSUMED])]
     else:
-        image, name = style.png(changes.picture(answer)), changes.PICTURE
-        text, caption = changes.sentence(answer), "Probability of each hypothesis. Blue: together they hold 90 %."
-        sections = [changes.section(answer), state.section(answer.states)]
-    head = Headline(text, picture=Picture(image, caption, caption))
-    write_bytes(folder / name, image)
-    write_text(folder / "report.html", html(title, [], sections, [], f"Computed in {answer.seconds:.0f} s.", head))
+        head, name = changes.headline(answer), changes.PICTURE
+        sections = [changes.section(answer)]
+        if answer.states:
+            sections.append(state.section(answer.states, pictures=[state.drawn(answer.states)]))
+    assert head.picture is not None, "both answers are drawn"
+    write_bytes(folder / name, head.picture.png)
+    foot = f"Computed in {answer.seconds:.0f} s."
+    write_text(folder / "report.html", html(f"Diagnosis: {answer.title}", [], sections, [], foot, head))

@@ -1,23 +1,26 @@
 """Courses of the standards' manoeuvres and of a stop, as pictures: intact, worn, and a scalar factor in its place."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, SCALAR
 from twintube.engine.simulate import InputError
 from twintube.report.page import Picture
-from twintube.report.style import BLUE, GREY, INK, ORANGE, RED, canvas, legend_above, png, title
+from twintube.report.style import BLUE, GREY, INK, ORANGE, RED, grid, legend_above, title
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.full import standards
 from twintube.vehicle.full.catalogue import MANEUVERS, Case
 from twintube.vehicle.full.lane_change import entry_of, lanes, width_of
 from twintube.vehicle.full.maneuvers import APPROACH
-from twintube.vehicle.full.run import CarRun, FullCar, full_car
+from twintube.vehicle.full.run import CarRun, full_car
 from twintube.vehicle.full.standard_figures import side_slip
 from twintube.vehicle.full.study import dampers_of, run_of
 
@@ -50,6 +53,17 @@ COURSES: Mapping[str, tuple[str, Read, tuple[float, float], tuple[tuple[str, Rea
 }
 
 
+@dataclass(frozen=True)
+class Course:
+    """A drive to its end, with what it is called and its colour."""
+
+    case: Case
+    run: CarRun
+    width: float  # [m] of the car
+    words: str
+    colour: str
+
+
 def pictures(car: CarSet, dampers: tuple[Damper, Damper], worn: str, cases: Sequence[Case], name: str) -> list[Picture]:
     """Those of a manoeuvre, one for each speed with a row for each road: first seed, intact and at the lowest oil level."""
     own = [case for case in cases if case.maneuver == name and case.seed == 1]
@@ -58,42 +72,57 @@ def pictures(car: CarSet, dampers: tuple[Damper, Damper], worn: str, cases: Sequ
     level = min(case.oil_level for case in own)
     found = []
     for speed in dict.fromkeys(case.speed_kmh for case in own):
-        roads = list(dict.fromkeys(case.road for case in own if case.speed_kmh == speed))
-        figure, axes = canvas(len(roads), 3, (11.0, 0.7 + 2.5 * len(roads)))
-        for row, road in zip(axes, roads, strict=True):
-            base = next(case for case in own if (case.speed_kmh, case.road) == (speed, road))
-            states = [(1.0, DEFAULT, "intact", INK)]
-            if level < 1.0:
-                states += [(level, DEFAULT, f"{level:.0%} oil", RED), (level, SCALAR, f"{level:.0%}, scalar factor", BLUE)]
-            for oil, model, words, colour in states:
-                case = replace(base, oil_level=oil, model=model)
-                full = full_car(car, dampers_of(*dampers, worn, case))
-                draw(row, full, case, words, colour)
-            title(row[0], "smooth road" if road == "smooth" else f"class {road}")
-        legend_above(figure, *axes.flat)
+        bases: dict[str, Case] = {}  # the first of each road
+        for case in own:
+            if case.speed_kmh == speed:
+                bases.setdefault(case.road, case)
+        driven = {road: courses(car, dampers, worn, base, level) for road, base in bases.items()}
         caption = f"{MANEUVERS[name].title}, {speed:g} km/h, first seed."
-        found.append(Picture(png(figure), f"courses of {MANEUVERS[name].title.lower()} at {speed:g} km/h", caption))
+        found.append(Picture.drawn(partial(drawn, driven), caption))
     return found
 
 
-def draw(row: Sequence[Any], car: FullCar, case: Case, words: str, colour: str) -> None:
-    """A state's lines; none where it could not be driven to the end."""
+def courses(car: CarSet, dampers: tuple[Damper, Damper], worn: str, base: Case, level: float) -> list[Course]:
+    """Intact and, below a full damper, worn and by a scalar factor; without those that could not be driven to the end."""
+    states = [(1.0, DEFAULT, "intact", INK)]
+    if level < 1.0:
+        states += [(level, DEFAULT, f"{level:.0%} oil", RED), (level, SCALAR, f"{level:.0%}, scalar factor", BLUE)]
+    found = []
+    for oil, model, words, colour in states:
+        case = replace(base, oil_level=oil, model=model)
+        full = full_car(car, dampers_of(*dampers, worn, case))
+        with suppress(InputError):
+            found.append(Course(case, run_of(full, case), width_of(full), words, colour))
+    return found
+
+
+def drawn(driven: Mapping[str, Sequence[Course]], narrow: bool = False) -> Figure:
+    """The panels of every road."""
+    figure, axes = grid(3 * len(driven), (3.7, 2.5), narrow)
+    rows = axes.reshape(len(driven), 3)
+    for row, (road, several) in zip(rows, driven.items(), strict=True):
+        for course in several:
+            draw(row, course)
+        title(row[0], "smooth road" if road == "smooth" else f"class {road}")
+    legend_above(figure, *axes.flat)
+    return figure
+
+
+def draw(row: Sequence[Any], course: Course) -> None:
+    """A drive's lines."""
+    case, run = course.case, course.run
     across, at, limits, panels = COURSES[case.maneuver]
-    try:
-        run = run_of(car, case)
-    except InputError:
-        return
     moved = entry_of(case.speed_kmh / 3.6) if case.maneuver == "lane_change" else 0.0
     x = at(run) - moved
     keep = (x >= limits[0]) & (x <= limits[1])
     if case.maneuver == "circle":
         keep &= run.time > standards.TURN_APPROACH
     for ax, (name, read) in zip(row, panels, strict=True):
-        ax.plot(x[keep][::5], read(run)[keep][::5], color=colour, lw=1.2, label=words, alpha=0.9)
+        ax.plot(x[keep][::5], read(run)[keep][::5], color=course.colour, lw=1.2, label=course.words, alpha=0.9)
         ax.set_xlabel(across)
         ax.set_ylabel(name)
     if case.maneuver == "lane_change":
-        for lane in lanes(width_of(car)):
+        for lane in lanes(course.width):
             for side in (lane.left, lane.right):
                 row[0].plot([lane.begin, lane.end], [side, side], color=ORANGE, lw=2.0, ls=":", label="cones")
     if case.maneuver == "braking_in_turn" and case.intact:

@@ -2,26 +2,36 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from twintube.inspection.tables import markdown
 from twintube.readable import unit_of
+from twintube.report.framed import framed, oil
 from twintube.report.page import Headline, Picture, Section, Table, html
-from twintube.report.style import BLUE, FAINT, INK, RED, canvas, legend_above, png, title
+from twintube.report.style import BLUE, FAINT, INK, ORANGE, grid, png, title
 from twintube.vehicle.full.catalogue import MANEUVERS
 from twintube.vehicle.full.sensitivity import ASSUMED, DRIVES, SPEED, Assumed, Sensitivity, mean
 from twintube.words import counted
 
 SHORT = {"ride": "DLC", "braking": "stop", "cornering": "bend"}
 SHARES = (5, 95)  # [%] of the draws between which the band lies
-MOST_BARS = 10
+MOST_BARS = 6  # of each panel, in letters that can be read
+CAPTION = "For each headline the assumed values that move it most, from their low to their high end."
+READ = "Measure or look up the values with the longest bars before the headline is relied on."
 
 
 def name_of(drive: tuple[str, str]) -> str:
     """A drive's headline in a few words."""
     return f"{SHORT[drive[0]]}, {'smooth' if drive[1] == 'smooth' else 'class ' + drive[1]}"
+
+
+def road_of(drive: tuple[str, str]) -> str:
+    """The road of a drive."""
+    return "smooth road" if drive[1] == "smooth" else f"class {drive[1]} road"
 
 
 def percent(value: float) -> str:
@@ -87,10 +97,13 @@ def text(result: Sensitivity) -> str:
 
 
 def tornado(result: Sensitivity) -> bytes:
-    """PNG: for each headline the values that move it most, from end to end."""
-    columns = min(3, len(DRIVES))
-    lines = -(-len(DRIVES) // columns)
-    figure, axes = canvas(lines, columns, (4.7 * columns, 4.2 * lines))
+    """The picture as PNG."""
+    return png(drawn(result))
+
+
+def drawn(result: Sensitivity, narrow: bool = False) -> Figure:
+    """For each headline the values that move it most, from end to end."""
+    figure, axes = grid(len(DRIVES), (4.7, 2.9), narrow)
     for drive, ax in zip(DRIVES, axes.flat, strict=False):
         centre = 100 * mean(result.nominal[drive])
         reach = 100 * error_of(result.nominal[drive])
@@ -102,26 +115,37 @@ def tornado(result: Sensitivity) -> bytes:
         for i, name in enumerate(largest):
             low, high = ends[name]
             ax.barh(i, low - centre, left=centre, height=0.38, align="edge", color=BLUE, label="low end")
-            ax.barh(i, high - centre, left=centre, height=-0.38, align="edge", color=RED, label="high end")
+            ax.barh(i, high - centre, left=centre, height=-0.38, align="edge", color=ORANGE, label="high end")
         names = list(largest)
         if result.draws[drive]:
-            low, high = (100 * x for x in band_of(result.draws[drive]))
-            ax.plot(
-                [low, high],
-                [-1.0, -1.0],
-                color=INK,
-                lw=4,
-                solid_capstyle="butt",
-                label="all at once, 5 to 95 % of the draws",
-            )
+            ends_of_all = [100 * x for x in band_of(result.draws[drive])]
+            label = f"all at once, {SHARES[0]} to {SHARES[1]} % of the draws"
+            ax.plot(ends_of_all, [-1.0, -1.0], color=INK, lw=4, solid_capstyle="butt", label=label)
             names.insert(0, "all at once")
-        ax.set_yticks(range(len(largest) - len(names), len(largest)), names, fontsize=8)
+        ax.set_yticks(range(len(largest) - len(names), len(largest)), names)
         ax.axvline(centre, color=INK, lw=0.8)
-        ax.axvline(0.0, color=INK, lw=0.8, ls=":")
-        title(ax, name_of(drive))
-        ax.set_xlabel(f"{MANEUVERS[drive[0]].headline[1]} against intact [%]", fontsize=8.5)
-    legend_above(figure, *axes.flat)
-    return png(figure)
+        ax.axvline(0.0, color=INK, lw=1.0, ls=":")
+        ax.grid(visible=False, axis="y")
+        title(ax, f"{MANEUVERS[drive[0]].headline[1]},\n{road_of(drive)}")
+        ax.set_xlabel("worn against intact [%]")
+    told = (
+        f"Change from intact to worn dampers, whole car at {SPEED:g} km/h, mean of {counted(result.seeds, 'seed')}. "
+        f"Each assumed value at both ends of its range, alone; the {MOST_BARS} that move most. Dotted: no change."
+    )
+    framed(figure, sure(result), told, "Assumed: all of these values, their ranges, F-v curves and friction.", axes.flat[0])
+    return figure
+
+
+def sure(result: Sensitivity) -> str:
+    """Which changes keep their sign where all assumed values are drawn at once."""
+    bands = {drive: band_of(result.draws[drive]) for drive in DRIVES if result.draws[drive]}
+    if not bands:
+        return f"What moves the effect of {oil(result.level)} most"
+    held = [f"{name_of(d)} ({100 * low:+.0f} to {100 * high:+.0f} %)" for d, (low, high) in bands.items() if low * high > 0]
+    which = f": {'; '.join(held)}" if held else ""
+    return (
+        f"With {oil(result.level)}, {len(held)} of {len(bands)} changes keep their sign with all values drawn at once{which}"
+    )
 
 
 def page(result: Sensitivity, conditions: Mapping[str, Any]) -> str:
@@ -140,7 +164,7 @@ def page(result: Sensitivity, conditions: Mapping[str, Any]) -> str:
     return html(
         f"Whole car: what the assumed values do, {conditions['car']}", lead,
         [Section("table", "All assumed values", tables=[Table(head, rows)]), Section("ranges", "Ranges", notes=reasons)],
-        headline=Headline(sentence, picture=Picture(tornado(result), "headlines over the assumed values")),
+        headline=Headline(sentence, next=READ, picture=Picture.drawn(partial(drawn, result), CAPTION)),
     )  # fmt: skip
 
 

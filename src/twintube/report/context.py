@@ -12,7 +12,8 @@ from twintube.arrays import Array
 from twintube.claims import EVALUATORS, Claim
 from twintube.claims.claim import block
 from twintube.dampers import Damper
-from twintube.engine.simulate import Simulation, simulate, work_between
+from twintube.engine.simulate import simulate, work_between
+from twintube.engine.simulation import Simulation
 from twintube.provenance import fingerprint
 from twintube.report import fitted, records
 from twintube.report.records import Records, harmonic_jobs, slow_jobs

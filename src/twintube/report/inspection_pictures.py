@@ -1,10 +1,12 @@
 """The pictures of `twintube inspect`."""
 
+import textwrap
 from collections.abc import Callable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from twintube.dampers import Damper
 from twintube.inspection import Condition, Detection, Entry, Method, Setting
@@ -16,26 +18,61 @@ from twintube.vehicle.cars import CarSet
 
 PALETTE = (style.INK, style.BLUE, style.GREEN, style.ORANGE, style.RED, style.VIOLET)
 MOST_CURVES = 6
-COLUMNS = 3
+FIELDS = {  # verdict -> what it is called, colour
+    True: ("passes", "#cfe6d4"),
+    False: ("fails", "#f0b9b4"),
+    None: ("not judged", "#e3e6e8"),
+    "differs": ("depends on what freed gas does", "#f6e3bd"),
+}
 LEGEND = 7.4  # [inch] its width
 
 
-def grid(methods: Sequence[Method], height: float = 2.9) -> tuple[Figure, list[tuple[Method, Axes]]]:
+def grid(methods: Sequence[Method], narrow: bool) -> tuple[Figure, list[tuple[Method, Axes]]]:
     """One panel per method."""
-    columns = min(COLUMNS, len(methods))
-    rows = -(-len(methods) // columns)
-    figure, axes = style.canvas(rows, columns, (max(3.7 * columns, LEGEND), height * rows + 0.5))
-    for ax in axes.flat[len(methods) :]:
-        ax.set_visible(False)
+    figure, axes = style.grid(len(methods), (3.7, 2.9), narrow, least=LEGEND)
     pairs = list(zip(methods, axes.flat, strict=False))
     for method, ax in pairs:
         style.title(ax, method.title)
     return figure, pairs
 
 
-def figures_over_oil(of: Callable[[Damper, Method], list[Entry]], damper: Damper, methods: Sequence[Method]) -> Figure:
+def verdicts(
+    of: Callable[[Damper, Method], list[Entry]],
+    dampers: Sequence[Damper],
+    methods: Sequence[Method],
+    narrow: bool = False,
+) -> Figure:
+    """Every figure in a field of its oil level, in the colour of its verdict; a panel for each damper."""
+    figure, axes = style.grid(len(dampers), (9.0, 0.5 * len(methods) + 0.8), narrow, most=1)
+    for ax, damper in zip(axes.flat, dampers, strict=False):
+        states = [entry.condition for entry in of(damper, methods[0])]
+        for row, method in enumerate(methods):
+            for column, entry in enumerate(of(damper, method)):
+                answers = {entry.passes_under(name) for name in entry.readings}
+                text, colour = FIELDS[answers.pop() if len(answers) == 1 else "differs"]
+                ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, color=colour, ec="white", lw=2))
+                value = f"{entry.figure:.0f}" if method.unit else f"{entry.figure:.2f}"
+                ax.text(column, row, value, ha="center", va="center", fontsize=8 if narrow else 10)
+                ax.fill([], [], color=colour, label=text)
+        names = ["\n".join([*textwrap.wrap(m.title, 18), m.rule]) for m in methods]
+        ax.set_yticks(range(len(methods)), names, fontsize=7.5)
+        ax.set_xticks(range(len(states)), [f"{100 * state.oil_level:.0f}" for state in states])
+        ax.set_xlim(-0.5, len(states) - 0.5)
+        ax.set_ylim(len(methods) - 0.5, -0.5)
+        ax.grid(visible=False)
+        ax.tick_params(length=0)
+        ax.set_xlabel("oil level [% of the intact volume]")
+        if len(dampers) > 1:
+            style.title(ax, damper.name)
+    style.legend_above(figure, *axes.flat)
+    return figure
+
+
+def figures_over_oil(
+    of: Callable[[Damper, Method], list[Entry]], damper: Damper, methods: Sequence[Method], narrow: bool = False
+) -> Figure:
     """Each method's figure over the oil level: model and scalar factor, with the side of the limit that fails."""
-    figure, pairs = grid(methods)
+    figure, pairs = grid(methods, narrow)
     for method, ax in pairs:
         entries = of(damper, method)
         oil = [100 * entry.condition.oil_level for entry in entries]
@@ -51,8 +88,8 @@ def figures_over_oil(of: Callable[[Damper, Method], list[Entry]], damper: Damper
         ax.axhspan(low, high, color=style.RED, alpha=0.08, lw=0)
         ax.axhline(method.limit, color=style.RED, lw=1)
         ax.invert_xaxis()
-        ax.set_xlabel("oil [%]")
-        ax.set_ylabel(f"{method.name}{f' [{method.unit}]' if method.unit else ''}")
+        ax.set_xlabel("oil level [%]")
+        ax.set_ylabel(f"{method.name.replace('_', ' ')} [{method.unit or 1}]")
     style.legend_above(figure, pairs[0][1])
     return figure
 
@@ -63,21 +100,23 @@ def spread(states: Sequence[Condition]) -> list[Condition]:
     return [states[i] for i in sorted(picked)]
 
 
-def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition]) -> Figure:
+def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition], narrow: bool = False) -> Figure:
     """Force and phase over the frequency of the coast."""
-    figure, ((size, phase),) = style.canvas(1, 2, (11.0, 4.4))
+    figure, axes = style.grid(2, (5.5, 3.9), narrow)
+    size, phase = axes.flat
     corner, run = vehicle.corner(damper), plate_motion(Setting().plate, DT)
-    for state, colour in zip(spread(states), PALETTE, strict=False):
+    for i, (state, colour) in enumerate(zip(spread(states), PALETTE, strict=False)):
+        lw = 0.8 + 0.8 * (MOST_CURVES - 1 - i)  # curves that lie on each other are all seen
         found = measured_cycles(run, on_plate(state.applied(damper), corner, run).wheel_load)
         label = f"{state.oil_level:.0%} oil, {'with' if state.gas_preload else 'no'} preload"
-        size.plot(found.frequency, np.abs(found.answer) / corner.c_tyre, ".-", ms=3, lw=1, color=colour, label=label)
-        phase.plot(found.frequency, found.phase, ".-", ms=3, lw=1, color=colour)
+        size.plot(found.frequency, np.abs(found.answer) / corner.c_tyre, lw=lw, color=colour, label=label)
+        phase.plot(found.frequency, found.phase, lw=lw, color=colour)
         phase.axvline(found.wheel_frequency, color=colour, lw=0.8, ls=":")
     phase.axvline(ABOVE_BODY, color=style.GREY, lw=1)
     phase.axhline(35.0, color=style.RED, lw=1)
-    style.title(size, "plate force")
-    style.title(phase, "lead of the force; dotted: wheel's resonance, red: limit")
-    for ax, text in ((size, "force / (height x tyre stiffness)"), (phase, "phase [deg]")):
+    style.title(size, "Force of the plate")
+    style.title(phase, "Lead of the force")
+    for ax, text in ((size, "force / (height × tyre stiffness) [1]"), (phase, "phase [deg]")):
         ax.set_xlabel("frequency [Hz]")
         ax.set_ylabel(text)
     style.legend_above(figure, size)
@@ -90,9 +129,9 @@ def spanned(several: Sequence[Detection]) -> tuple[float, float]:
     return min(low for low, _ in bands), max(high for _, high in bands)
 
 
-def shares(found: Sequence[Detection], methods: Sequence[Method]) -> Figure:
+def shares(found: Sequence[Detection], methods: Sequence[Method], narrow: bool = False) -> Figure:
     """Detected share over the oil level with its band, for model and scalar factor."""
-    figure, pairs = grid(methods)
+    figure, pairs = grid(methods, narrow)
     for method, ax in pairs:
         for scalar, colour, label in ((False, style.INK, "model"), (True, style.BLUE, "oil level as scalar factor")):
             here: dict[float, list[Detection]] = {}
@@ -105,15 +144,15 @@ def shares(found: Sequence[Detection], methods: Sequence[Method]) -> Figure:
         ax.axhline(100 * FALSE_ALARMS, color=style.GREY, lw=1, ls="--", label="false alarms")
         ax.set_ylim(-2, 102)
         ax.invert_xaxis()
-        ax.set_xlabel("oil [%]")
+        ax.set_xlabel("oil level [%]")
         ax.set_ylabel("detected [%]")
     style.legend_above(figure, pairs[0][1])
     return figure
 
 
-def roc_curves(found: Sequence[Detection], methods: Sequence[Method]) -> Figure:
+def roc_curves(found: Sequence[Detection], methods: Sequence[Method], narrow: bool = False) -> Figure:
     """Detected share over false alarms, for every limit."""
-    figure, pairs = grid(methods)
+    figure, pairs = grid(methods, narrow)
     for method, ax in pairs:
         own = [d for d in found if d.method.name == method.name and not d.condition.scalar]
         here = [d for d in own if d.condition.freed_gas == own[0].condition.freed_gas]

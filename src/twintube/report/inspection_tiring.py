@@ -1,9 +1,8 @@
 """What the page of `twintube inspect` says of `tiring`: the course of the runs, the rest, what it rests on."""
 
 from collections.abc import Sequence
+from functools import partial
 
-import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from twintube.dampers import Damper
@@ -13,6 +12,7 @@ from twintube.inspection.scatter import FADE
 from twintube.inspection.tiring import CYCLES, FREQUENCY, HOLD, LIMIT, REST, Tired, returned, twice
 from twintube.inspection.watched import says
 from twintube.report import style
+from twintube.report.framed import OTHER, SCALAR, colour_of, framed, name_lines, oil
 from twintube.report.page import Picture, Section, Table
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.quarter_car import Car
@@ -23,6 +23,7 @@ RESTS_ON = (
     "No damper has been measured on such a plate. Refuted by: a damper with 10 to 20 % of its oil drained whose velocity "
     "does not grow within 20 s above its v_cav, or an intact one whose velocity grows by more than heat explains."
 )
+NOTE = "Assumed: F-v curve, friction, gas spring, dead length, car, what freed gas does, and how heat fades the force."
 PASSES = "passes"
 BLIND = (
     "A damper that has lost half of its force before the first half second ends, and does not tire any more, is not judged "
@@ -59,37 +60,54 @@ def plate_of(entries: Sequence[Entry]) -> Tired:
     return watched.runs[-1]
 
 
-def course(damper: Damper, corner: Car, entries: Sequence[Entry]) -> Figure:
+def course(damper: Damper, corner: Car, entries: Sequence[Entry], narrow: bool = False) -> Figure:
     """Velocity of the damper over the time on the plate, before and after the rest."""
-    figure, ((before, after),) = style.canvas(1, 2, (11.0, 4.4), sharey=True)
+    figure, panels = style.grid(2, (5.5, 3.6), narrow, sharey=True)
+    axes = panels.flat
     plate = plate_of(entries).plate
     failing = [entry for entry in entries if entry.passed is False]
     shown = dict.fromkeys(entry.condition for entry in [entries[0], *failing[:2], entries[-1]])
+    names: list[tuple[float, str, str]] = []
 
-    def line(state: Condition, label: str, colour: str, dashes: str = "-", fade: float = 0.0) -> None:
-        for ax, run in zip((before, after), twice(state.applied(damper), corner, plate, DT, fade), strict=True):
-            ax.plot(run.time, run.answer, dashes, color=colour, lw=1.4, label=label)
+    def line(state: Condition, name: str, colour: str, dashes: str = "-", fade: float = 0.0) -> tuple[Tired, Tired]:
+        runs = twice(state.applied(damper), corner, plate, DT, fade)
+        for ax, run in zip(axes, runs, strict=True):
+            ax.plot(run.time, run.answer, dashes, color=colour, lw=1.6)
+        names.append((float(runs[-1].answer[-1]), name, colour))
+        return runs
 
-    for state, colour in zip(shown, (style.INK, style.RED, style.ORANGE, style.GREEN), strict=False):
-        line(state, f"{state.oil_level:.0%} oil", colour)
-    line(INTACT, f"intact, heated by the run ({FADE:.1%} per kelvin)", style.GREY, "--", FADE)
-    line(Condition(HALF, 0, scalar=True), f"scalar factor {HALF:g}", style.BLUE, ":")
-    axes: tuple[tuple[Axes, str], ...] = (
-        (before, f"{damper.name} on the plate: {plate.amplitude * 1e3:g} mm, {FREQUENCY:g} Hz"),
-        (after, f"after {REST:g} s of rest"),
-    )
-    for ax, text in axes:
+    runs = {state: line(state, named(state), colour_of(state.gas_preload, state.oil_level)) for state in shown}
+    line(INTACT, "intact, heated", OTHER, "--", FADE)
+    line(Condition(HALF, 0, scalar=True), f"force × {HALF:g}", SCALAR, ":")
+    for ax, text in zip(axes, ("first run", f"after {REST:g} s of rest"), strict=True):
         style.title(ax, text)
         ax.set_xlabel("time since the plate starts [s]")
-        ax.set_ylim(bottom=0.0)
-    reached = damper.parameters.v_cav / np.sqrt(2.0)
-    before.axhline(reached, color=style.GREY, lw=1, ls=":")
-    before.text(
-        21.0, reached, "a sine that just reaches v_cav", color=style.GREY, ha="right", va="top", size=style.NOTE_SIZE
+    axes[0].set_ylim(bottom=0.0)
+    axes[0].set_ylabel("velocity of the damper [m/s]")
+    name_lines(axes[1], names)
+    told = (
+        f"Root mean square of {CYCLES} cycles each, on a plate of {plate.amplitude * 1e3:g} mm and {FREQUENCY:g} Hz. "
+        f"Heated: the force fades by {100 * FADE:.1f} % per kelvin of the run's own heat. Force × {HALF:g}: a scalar factor."
     )
-    before.set_ylabel(f"damper velocity [m/s], root mean square of {CYCLES} cycles")
-    style.legend_above(figure, before)
+    message = f"{damper.name} does not tire on this plate"
+    if failing:
+        message = tires(damper, failing[0].condition.oil_level, *runs[failing[0].condition])
+    framed(figure, message, told, NOTE)
     return figure
+
+
+def named(state: Condition) -> str:
+    """A state at its line."""
+    return "intact" if state == INTACT else oil(state.oil_level)
+
+
+def tires(damper: Damper, oil_level: float, first: Tired, again: Tired) -> str:
+    """What the picture says of the highest oil level that fails, before and after the rest."""
+    gone = min(1.0, max(0.0, returned(first, again)))
+    return (
+        f"{damper.name} with {oil(oil_level)} tires: its velocity on the plate grows {first.growth:.1f}-fold, "
+        f"and {100 * gone:.0f} % of the growth is gone after {REST:g} s of rest"
+    )
 
 
 def table(entries: Sequence[Entry]) -> Table:
@@ -109,9 +127,10 @@ def table(entries: Sequence[Entry]) -> Table:
     return Table(head, rows, caption, numeric=range(1, 9))
 
 
-def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[Section, bytes]:
+def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[Section, Picture]:
     """The section of one damper, and its picture."""
-    png = style.png(course(damper, vehicle.corner(damper), entries))
+    caption = "Velocity of the damper on the plate: where oil is lost it grows while the plate shakes."
+    drawn = Picture.drawn(partial(course, damper, vehicle.corner(damper), entries), caption)
     text = [
         f"The plate shakes the wheel for {HOLD:g} s. A weak curve or a stiff tyre answers every cycle alike; oil loss frees "
         f"gas in every fast stroke, and the damper tires. Fails above {LIMIT:g}, more than the heat of the run does to an "
@@ -119,6 +138,5 @@ def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[
         BLIND,
         RESTS_ON,
     ]
-    name = f"{damper.name}_tiring"
-    return Section(f"tiring-{damper.name}", f"Does {damper.name} tire?", text=text, pictures=[Picture(png, name)],
-                   tables=[table(entries)]), png  # fmt: skip
+    title = f"Does {damper.name} tire?"
+    return Section(f"tiring-{damper.name}", title, text=text, pictures=[drawn], tables=[table(entries)]), drawn

@@ -11,19 +11,16 @@
   const at = (id) => document.getElementById(`look-${id}`);
   const [record, over, part, point] = ["record", "over", "part", "point"].map(at);
   const host = document.querySelector("#look .plot");
-  const root = document.documentElement.style;
   const options = (select, names) => select.replaceChildren(...names.map((name, i) => new Option(name, i)));
   const number = (value, digits) => (Number.isFinite(value) ? value.toFixed(digits) : "–");
 
-  data.curves.forEach((curve) => root.setProperty(`--look-${curve.name}`, curve.colour));
   options(record, data.records.map((some) => some.label));
   options(over, OVER.map((some) => some.name));
   const boxes = data.curves.map((curve) => {
     const label = document.createElement("label");
     const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: curve.shown });
     const key = Object.assign(document.createElement("span"), { className: "key" });
-    key.style.borderColor = curve.colour;
-    key.style.borderTopStyle = curve.dash.length ? "dashed" : "solid";
+    key.dataset.curve = curve.name;
     label.append(box, key, curve.label);
     at("curves").append(label);
     box.addEventListener("change", draw);
@@ -96,6 +93,7 @@
     }
     if (best >= 0) tell(best);
   });
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => chart.refresh());
   record.addEventListener("change", choose);
   over.addEventListener("change", draw);
   part.addEventListener("change", draw);

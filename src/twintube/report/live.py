@@ -14,13 +14,14 @@ import numpy as np
 
 from twintube import web
 from twintube.arrays import Array
+from twintube.report import style
 
 MOST_POINTS = 1200  # of a record
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A force to show: `name` is its key in `Look.forces`; `shown` at first."""
+    """A force to show: `name`, an identifier, is its key in `Look.forces`; `colour` is one of `style`; `shown` at first."""
 
     name: str
     label: str
@@ -75,5 +76,11 @@ def live(curves: Sequence[Curve], looks: Sequence[Look]) -> str:
     # No text of a user can end the element.
     text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
     return environment.from_string(source).render(
-        library=web.library(), style=web.library_style(), plots=web.plots(), script=script, data=text
+        library=web.library(),
+        style=web.library_style(),
+        plots=web.plots(),
+        script=script,
+        data=text,
+        curves=curves,
+        dark=style.DARK,
     )

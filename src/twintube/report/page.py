@@ -1,13 +1,23 @@
-"""A self-contained HTML page of sections with pictures, verdicts and tables, independent of the content."""
+"""A self-contained HTML page of sections with pictures, verdicts and tables, independent of the content.
+
+A page that answers a question has a headline: answer, next step and picture are seen at once, the sections fold. A page
+without one is a collection: its sections are open, and contents lead to them.
+"""
 
 import base64
 import json
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from html import escape
 from importlib.resources import files
 from typing import Any
 
 import jinja2
+from matplotlib.figure import Figure
+
+from twintube import __version__
+from twintube.report import style
 
 BRIEF = 420  # characters: longer listings of numbers are folded
 MARKS = {"holds": "yes", "does not hold": "no", "not checkable": "open"}  # verdict -> class of the style sheet
@@ -21,6 +31,11 @@ class Picture:
     alt: str
     caption: str = ""
     narrow: bytes = b""  # the PNG for small screens, if there is one
+
+    @classmethod
+    def drawn(cls, draw: Callable[[bool], Figure], caption: str, alt: str = "") -> "Picture":
+        """A picture in two shapes, for wide and, where `draw` is told so, for narrow screens."""
+        return cls(style.png(draw(False)), alt or caption, caption, style.png(draw(True)))
 
     @property
     def uri(self) -> str:
@@ -70,19 +85,19 @@ class Finding:
 
 @dataclass(frozen=True)
 class Headline:
-    """The result in one sentence, in large type at the top."""
+    """The answer in one sentence, in large type, with what the first screen holds besides."""
 
     text: str
     verdict: str = ""
     mark: str = "open"  # class of the style sheet: yes, no, open, warn or found
-    tiles: Sequence[tuple[str, str]] = ()  # value and label
     remark: str = ""  # below the sentence
+    next: str = ""  # the next step
     picture: Picture | None = None
 
 
 @dataclass(frozen=True)
 class Section:
-    """A section of the page, with an entry in the table of contents."""
+    """A section of the page."""
 
     anchor: str
     title: str
@@ -107,6 +122,11 @@ def data_uri(png: bytes) -> str:
     return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
 
 
+def coded(text: str) -> str:
+    """A text as HTML, in which what stands between backticks is code."""
+    return re.sub("`([^`]+)`", r"<code>\1</code>", escape(text))
+
+
 def readable(value: Any) -> str:
     """Numbers as text that wraps: `name: value` pairs, nested ones in brackets."""
     if isinstance(value, Mapping):
@@ -126,7 +146,13 @@ def html(
 ) -> str:  # fmt: skip
     """The whole page."""
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters["coded"] = coded
     source = files("twintube.report").joinpath("page.html").read_text(encoding="utf-8")
     return environment.from_string(source).render(
-        title=title, lead=list(lead), sections=list(sections), summary=list(summary), foot=foot, headline=headline
+        title=title,
+        lead=list(lead),
+        sections=list(sections),
+        summary=list(summary),
+        headline=headline,
+        foot=". ".join(text for text in (foot.rstrip("."), f"twintube {__version__}") if text),
     )

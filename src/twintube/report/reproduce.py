@@ -116,7 +116,7 @@ def reproduce(
             report(f"Figure {number:2}  {plot.verdict:14} {plot.tally}")
     content: dict[str, Any] = {"paper": PAPER, "twintube": __version__, "bases": BASES, "figures": entries}
     write_bytes(output / "reproduce.json", (json.dumps(content, indent=1) + "\n").encode())
-    page = html(TITLE, LEAD, sections, [summary(entries)], f"twintube {__version__}")
+    page = html(TITLE, LEAD, sections, [summary(entries)])
     write_bytes(output / "index.html", page.encode())
     return Report(output / "index.html", output / "reproduce.json", tuple(pictures), verdicts)
 
@@ -142,7 +142,7 @@ def finding(statement: Statement) -> Finding:
     """The page's finding of a statement."""
     facts = [("Source", statement.source)]
     if statement.claim:
-        facts.append(("Claim", f"{statement.claim} of twintube claims"))
+        facts.append(("Claim", f"{statement.claim} of twintube paper claims"))
     facts.append(("Basis", f"{statement.basis}: {BASES[statement.basis]}"))
     if statement.criterion:
         facts.append(("Criterion", statement.criterion))

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from twintube.arrays import Array
@@ -69,25 +70,41 @@ def picture(
     usable: NDArray[np.bool_],
 ) -> bytes:
     """PNG: stroke and force over time, force over stroke and over velocity; SI arrays (n,)."""
-    figure, axes = canvas(2, 2, (11.0, 7.2))
-    (over_time, over_stroke), (forces, over_velocity) = axes
-    thin = slice(None, None, max(1, len(time) // MOST_POINTS))
+    return png(figure(name, time, stroke, velocity, simulated, measured, usable))
+
+
+def figure(
+    name: str,
+    time: Array | None,
+    stroke: Array,
+    velocity: Array,
+    simulated: Array,
+    measured: Array | None,
+    usable: NDArray[np.bool_],
+) -> Figure:
+    """The same as a figure; without times the left half is missing."""
+    drawn, axes = canvas(2, 1 if time is None else 2, (5.5 if time is None else 11.0, 7.2))
+    over_stroke, over_velocity = axes[:, -1]
+    thin = slice(None, None, max(1, len(stroke) // MOST_POINTS))
+    panels = [
+        (over_stroke, 1e3 * stroke, "Force over stroke", "stroke [mm]"),
+        (over_velocity, velocity, "Force over velocity", "velocity [m/s]"),
+    ]
+    if time is not None:
+        over_time, forces = axes[:, 0]
+        over_time.plot(time[thin], 1e3 * stroke[thin], color=GREY, lw=1)
+        title(over_time, plain(name))
+        over_time.set(xlabel="time [s]", ylabel="stroke [mm]")
+        over_time.sharex(forces)
+        panels.append((forces, time, "Force over time", "time [s]"))
     curves = [(simulated, RED, "simulated")]
     if measured is not None:
         curves.insert(0, (np.where(usable, measured, np.nan), INK, "measured"))
-    over_time.plot(time[thin], 1e3 * stroke[thin], color=GREY, lw=1)
-    for force, colour, label in curves:
-        for ax, x in ((forces, time), (over_stroke, 1e3 * stroke), (over_velocity, velocity)):
+    for ax, x, text, label_x in panels:
+        for force, colour, label in curves:
             ax.plot(x[thin], force[thin], color=colour, lw=0.8, alpha=0.8, label=label)
-    for ax, text, label_x, label_y in (
-        (over_time, plain(name), "time [s]", "stroke [mm]"),
-        (forces, "Force over time", "time [s]", "force [N]"),
-        (over_stroke, "Force over stroke", "stroke [mm]", "force [N]"),
-        (over_velocity, "Force over velocity", "velocity [m/s]", "force [N]"),
-    ):
         title(ax, text)
-        ax.set_xlabel(label_x)
-        ax.set_ylabel(label_y)
-    over_time.sharex(forces)
-    legend_above(figure, over_stroke)
-    return png(figure)
+        ax.set(xlabel=label_x, ylabel="force [N]")
+    if measured is not None:
+        legend_above(drawn, over_stroke)
+    return drawn

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from twintube.evidence import StateAnswer
 from twintube.evidence.numbers import NUMBERS
 from twintube.report import style
-from twintube.report.answer import chance
-from twintube.report.page import Picture, Section, Table
+from twintube.report.page import Headline, Picture, Section, Table
+from twintube.report.repairs import chance
 from twintube.words import listed
 
 PICTURE = "state.png"
@@ -21,9 +21,10 @@ NARROWER = (
     "Where the oil fills both working chambers in every stroke, nothing in the force depends on how much is left."
 )
 ASSUMED = (
-    "The parameter set is taken for this damper's, its own law some per cent off. Another dead length moves the level: see "
-    "the level of collapse in `twintube dampers`. Nothing else is looked for where the fill is unknown."
+    "The parameter set is taken to be that of this damper; its forces may be some per cent off. Another dead length (what "
+    "piston, valves and stops take of the tube) moves the level. Nothing else is looked for while the fill is unknown."
 )
+CAPTION = "Probability of each oil level, stacked with and without gas preload. Grey: it lies there with 90 %."
 
 
 def sentence(answer: StateAnswer) -> str:
@@ -58,13 +59,37 @@ def next_step(answers: Sequence[StateAnswer]) -> str:
     return "Next: state this fill in dataset.toml; `twintube diagnose` then asks what else the model lacks."
 
 
-def picture(answers: Sequence[StateAnswer]) -> Figure:
+def headline(answers: Sequence[StateAnswer]) -> Headline:
+    """What the first screen says."""
+    text = " ".join(sentence(answer) for answer in answers)
+    step = next_step(answers).removeprefix("Next: ")
+    return Headline(text, *badge(answers), next=step[0].upper() + step[1:], picture=drawn(answers))
+
+
+def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
+    """The answer in two words with its class of the style sheet; the worst of several states."""
+    intervals = [answer.posterior.interval() for answer in answers]
+    if any(high < 1.0 for _, high in intervals):
+        return "oil lost", "no"
+    if any(answer.posterior.gas_lost > SURE for answer in answers):
+        return "gas preload lost", "no"
+    if any(high - low > WIDE for low, high in intervals):
+        return "cannot tell", "warn"
+    return "no oil lost", "yes"
+
+
+def drawn(answers: Sequence[StateAnswer]) -> Picture:
+    """The picture for wide and narrow screens."""
+    return Picture.drawn(lambda narrow: picture(answers, narrow), CAPTION)
+
+
+def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
     """Probability over the oil level of each state, with and without preload."""
-    figure, axes = style.canvas(len(answers), 1, (7.5, 2.9 * len(answers)))
+    figure, axes = style.grid(len(answers), (8.5, 3.3), narrow, most=1)
     for ax, answer in zip(axes[:, 0], answers, strict=True):
         p = answer.posterior
         low, high = p.interval()
-        ax.axvspan(100 * low, 100 * high, color=style.FAINT, alpha=0.35, lw=0, label="90 %")
+        ax.axvspan(100 * low, 100 * high, color=style.FAINT, alpha=0.35, lw=0, label="90 % interval")
         edges = np.arange(NUMBERS.level_low, 1.0 - 1e-9, BAR)
         bars = [np.histogram(p.levels[:-1], [*edges, 1.0 + 1e-9], weights=row[:-1])[0] for row in p.probability]
         middles = np.concatenate([100 * (edges + BAR / 2), [100 * (1.0 + BAR)]])  # the last: nothing lost
@@ -75,16 +100,17 @@ def picture(answers: Sequence[StateAnswer]) -> Figure:
             bottom += height
         ax.set_xlim(100 * NUMBERS.level_low, 100 * (1.0 + 2 * BAR))
         ax.set_xticks([20, 40, 60, 80, 100 * (1.0 + BAR)], ["20", "40", "60", "80", "full"])
-        ax.set_ylim(0, 1.3 * float(bottom.max()))
+        ax.set_ylim(0, 1.05 * float(bottom.max()))
         ax.set_ylabel("probability [%]")
-        style.title(ax, sentence(answer) if len(answers) == 1 else listed(answer.records, 2))
-        ax.legend(loc="upper center", ncols=3)
+        if len(answers) > 1:
+            style.title(ax, listed(answer.records, 2))
+    style.legend_above(figure, axes[0, 0])
     axes[-1, 0].set_xlabel("oil level [% of the intact volume]")
     return figure
 
 
-def section(answers: Sequence[StateAnswer], text: Sequence[str] = ()) -> Section:
-    """The part of the page about states of filling."""
+def section(answers: Sequence[StateAnswer], text: Sequence[str] = (), pictures: Sequence[Picture] = ()) -> Section:
+    """The part of the page about states of filling; without pictures where the first screen has them."""
     rows = [
         [
             listed(answer.records, 3),
@@ -96,12 +122,4 @@ def section(answers: Sequence[StateAnswer], text: Sequence[str] = ()) -> Section
         for answer in answers
     ]
     table = Table(("records", "oil level", "90 % interval", "preload lost", "as the file says"), rows)
-    image = style.png(picture(answers))
-    caption = "Probability of the oil level, stacked with and without preload. Grey: the shortest 90 % interval."
-    return Section(
-        "states",
-        "State of the damper",
-        text=text,
-        tables=[table],
-        pictures=[Picture(image, caption, caption)],
-    )
+    return Section("states", "Oil and gas in numbers", text=text, tables=[table], pictures=pictures)

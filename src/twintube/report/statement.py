@@ -21,7 +21,7 @@ class Statement:
     basis: str  # a `Claim.kind`, or stand-in | consistency | not checkable
     criterion: str = ""  # of the verdict: a claim's test, or our own where the paper gives no number
     reason: str = ""  # why it does not hold, or why it cannot be checked
-    claim: str = ""  # id in `twintube claims`
+    claim: str = ""  # id in `twintube paper claims`
 
     def __post_init__(self) -> None:
         if self.holds is not None:

@@ -1,7 +1,9 @@
 """Style of the pictures: colours, panels, notes under a plot."""
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from io import BytesIO
 from typing import Any
 
@@ -12,6 +14,9 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 INK, GREY, FAINT = "#1b1b1b", "#8a949b", "#c3cbd0"
 BLUE, ORANGE, RED, GREEN, VIOLET = "#2a7f9e", "#d98c21", "#b3282d", "#3f8f4f", "#6d4c94"
+DARK = {  # the same on a dark page
+    INK: "#e6ebee", GREY: "#98a4ab", BLUE: "#5ab0d0", ORANGE: "#e5a84f", RED: "#ef7b76", GREEN: "#6fc27f", VIOLET: "#b79ad6",
+}  # fmt: skip
 LEVELS = (INK, ORANGE, RED)  # the intact state, the paper's 60 % and 40 %
 PHASES = {"oil": "#c98b1f", "foam": "#f0d9a8", "gas": "#cfe0ee"}
 STAND_IN = "stand-in: virtual rig, not the paper's measurement"
@@ -31,10 +36,25 @@ RC: Any = {  # matplotlib has a type of its own for the keys
 }
 
 
+MAKE: ContextVar[Callable[..., Figure]] = ContextVar("make", default=Figure)
+
+
+@contextmanager
+def of_pyplot() -> Iterator[None]:
+    """Figures that are made within belong to pyplot, which shows them in notebooks and keeps them until they are closed."""
+    from matplotlib import pyplot
+
+    token = MAKE.set(pyplot.figure)
+    try:
+        yield
+    finally:
+        MAKE.reset(token)
+
+
 def canvas(rows: int = 1, columns: int = 1, size: tuple[float, float] = (10.0, 4.4), **options: Any) -> tuple[Figure, Any]:
     """A figure with `rows` x `columns` axes (always an array of them) of the given size [inch]."""
     with matplotlib.rc_context(RC):
-        figure = Figure(figsize=size, dpi=DPI, layout="constrained")
+        figure = MAKE.get()(figsize=size, dpi=DPI, layout="constrained")
         axes = figure.subplots(rows, columns, squeeze=False, **options)
     return figure, axes
 
@@ -57,9 +77,33 @@ def pair(size: tuple[float, float] = (10.0, 4.4), **options: Any) -> tuple[Figur
     return figure, axes[0]
 
 
+NARROW = 4.3  # [inch] width of a picture for a screen of 400 pixels: its type stays legible
+
+
+def grid(
+    count: int, panel: tuple[float, float], narrow: bool = False, most: int = 3, least: float = 0.0, **options: Any
+) -> tuple[Figure, Any]:
+    """A figure of `count` panels of a size [inch], `most` in a row, or one where narrow; axes (rows, columns).
+
+    `least` is the width [inch] that a legend needs. Panels that are left over are hidden.
+    """
+    columns = 1 if narrow else min(most, count)
+    rows = -(-count // columns)
+    width, legend = (NARROW, 0.9) if narrow else (max(panel[0] * columns, least), 0.5)
+    figure, axes = canvas(rows, columns, (width, panel[1] * rows + legend), **options)
+    for ax in axes.flat[count:]:
+        ax.set_visible(False)
+    return figure, axes
+
+
 def title(ax: Axes, text: str) -> None:
     """A panel's title."""
     ax.set_title(text, loc="left", fontsize=10.5)
+
+
+def small_title(ax: Axes, text: str) -> None:
+    """A panel's title in small type, where there are many."""
+    ax.set_title(text, loc="left", fontsize=9)
 
 
 def plain(text: str) -> str:
@@ -81,6 +125,8 @@ def legend_above(figure: Figure, *axes: Axes, columns: int = 6) -> None:
     for ax in axes:
         handles, labels = ax.get_legend_handles_labels()
         unique |= {text: handle for text, handle in zip(labels, handles, strict=True) if text not in unique}
+    if figure.get_figwidth() <= NARROW:
+        columns = 1 if max(map(len, unique), default=0) > 20 else 2  # letters that fit beside each other
     figure.legend(list(unique.values()), list(unique), loc="outside upper left", ncols=min(columns, len(unique)), fontsize=9,
                   frameon=False)  # fmt: skip
 

@@ -20,13 +20,16 @@ function bounds(arrays, floor = Infinity) {
 }
 
 class Chart {
-  constructor(host, xLabel, yLabel) {
+  // `whole`: the axis counts, so that its ticks are whole numbers.
+  constructor(host, xLabel, yLabel, whole = false) {
     this.host = host;
     this.ranges = { x: [0, 1], y: [0, 1] };
     this.still = [];
     this.live = null; // what `to` draws
     this.wanted = -1; // the sample up to which
-    const axis = (label, size) => ({
+    const axis = (label, size, counts) => ({
+      space: 30, // [px] between ticks, as little as their numbers need
+      ...(counts && { incrs: [1, 2, 5, 10, 20, 50] }),
       label,
       labelSize: 20,
       labelGap: 2,
@@ -41,7 +44,7 @@ class Chart {
     const options = {
       ...this.size(),
       scales: { x: { time: false, range: () => this.ranges.x }, y: { range: () => this.ranges.y } },
-      axes: [axis(xLabel, 26), axis(yLabel, 54)],
+      axes: [axis(xLabel, 26, whole), axis(yLabel, 54)],
       series: [{}, { show: false }],
       legend: { show: false },
       cursor: { show: false },
@@ -74,7 +77,7 @@ class Chart {
     if (width !== this.plot.width || height !== this.plot.height) this.plot.setSize({ width, height });
   }
 
-  // `still`: curves {x, y, colour, dash}; `live`: {x, y, marks} or {work, marks}, drawn by `to`.
+  // `still`: curves {x, y, colour, dash, alpha}; `live`: {x, y, marks} or {work, marks}, drawn by `to`.
   show(ranges, still, live) {
     Object.assign(this, { ranges, still, live, wanted: -1 });
     this.refresh();
@@ -109,7 +112,7 @@ class Chart {
     ctx.beginPath();
     ctx.rect(left, top, width, height);
     ctx.clip();
-    for (const { x, y, colour, dash } of this.still) {
+    for (const { x, y, colour, dash, alpha } of this.still) {
       ctx.beginPath();
       let gap = true; // a value that is no number breaks a curve
       for (let i = 0; i < x.length; i++) {
@@ -119,6 +122,7 @@ class Chart {
         else ctx.lineTo(...at);
         gap &&= !Number.isFinite(at[1]);
       }
+      ctx.globalAlpha = alpha ?? 1;
       ctx.strokeStyle = css(colour);
       ctx.lineWidth = 1.6 * window.devicePixelRatio;
       ctx.setLineDash((dash ?? []).map((length) => length * window.devicePixelRatio));

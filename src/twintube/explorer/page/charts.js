@@ -13,11 +13,11 @@ function loopOf(record, marks, drive) {
 
 class Charts {
   constructor(host) {
-    const chart = (id, x, y) => new Chart(host.querySelector(`#${id} .plot`), x, y);
-    this.loopS = chart("chart-s", "stroke s [mm], rebound positive", "force F [N]");
-    this.loopV = chart("chart-v", "velocity v [m/s], rebound positive", "force F [N]");
-    this.work = chart("chart-work", "oscillation", "work [J]");
-    this.degradation = chart("chart-k", "time t [s]", "k_degr [1]");
+    const chart = (id, x, y, whole) => new Chart(host.querySelector(`#${id} .plot`), x, y, whole);
+    this.loopS = chart("chart-s", "stroke s [mm], rebound +", "force F [N]");
+    this.loopV = chart("chart-v", "velocity v [m/s], rebound +", "force F [N]");
+    this.work = chart("chart-work", "oscillation", "work [J]", true);
+    this.degradation = chart("chart-k", "time t [s]", "fluid force over intact [1]");
     this.load = chart("chart-load", "time t [s]", "wheel load [N]");
     this.loadHost = host.querySelector("#chart-load");
   }
@@ -32,17 +32,17 @@ class Charts {
     const drive = Boolean(excitation.drive);
     const { worn, intact, factor } = records;
     const others = [[intact, "--intact"], ...(factor ? [[factor, "--factor", FACTOR_DASH]] : [])];
-    const loops = others.map(([record, colour, dash]) => ({ ...loopOf(record, marks, drive), colour, dash }));
+    const alpha = drive ? FADED : 1; // the loops of a drive cover each other
+    const loops = others.map(([record, colour, dash]) => ({ ...loopOf(record, marks, drive), colour, dash, alpha }));
     const stroke = scaled(worn.stroke, 1e3).subarray(0, worn.done);
     const velocity = worn.velocity.subarray(0, worn.done);
     const forces = bounds([worn.force, ...loops.map((loop) => loop.F)]);
     const curve =
       (x) =>
-      ({ F, colour, dash, [x]: values }) => ({ x: values, y: F, colour, dash });
-    // A drive's loops cover each other: there the intact one is left out.
+      ({ F, colour, dash, alpha, [x]: values }) => ({ x: values, y: F, colour, dash, alpha });
     this.loopS.show(
       { x: bounds([stroke, ...loops.map((loop) => loop.s)]), y: forces },
-      drive ? [] : loops.map(curve("s")),
+      loops.map(curve("s")),
       {
         x: stroke,
         y: worn.force,
@@ -51,7 +51,7 @@ class Charts {
     );
     this.loopV.show(
       { x: bounds([velocity, ...loops.map((loop) => loop.v)]), y: forces },
-      drive ? [] : loops.map(curve("v")),
+      loops.map(curve("v")),
       {
         x: velocity,
         y: worn.force,

@@ -10,7 +10,7 @@ class Controls {
     );
     this.filled(
       fields.gas,
-      Object.keys(content.ways).map((name) => [name, name]),
+      Object.keys(content.ways).map((name) => [name, name.replaceAll("_", " ")]),
     );
     this.filled(
       fields.road,

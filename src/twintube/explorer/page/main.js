@@ -50,7 +50,7 @@ function at(t, said = true) {
     `s = ${(1e3 * worn.stroke[i]).toFixed(1)} mm`,
     `v = ${worn.velocity[i].toFixed(3)} m/s`,
     `F = ${worn.force[i].toFixed(0)} N`,
-    `k_degr = ${worn.k_degr[i].toFixed(2)}`,
+    `fluid force ${percent(worn.k_degr[i])} of intact`,
   ];
   find("moment").textContent = moment.map((text) => text.replaceAll(" ", NO_BREAK)).join(", ");
 }
@@ -173,7 +173,7 @@ function step(direction) {
 }
 
 const controls = new Controls(find("controls"), content, (values) => {
-  Object.assign(state.values, values);
+  Object.assign(state.values, values, { tour: 0 });
   update();
 });
 const tour = new Tour(
@@ -189,7 +189,8 @@ const tour = new Tour(
 
 function restored() {
   state.read(location.hash);
-  const { time, slow } = state.values;
+  const { time, slow, tour } = state.values;
+  if (tour) Object.assign(state.values, Tour.state(tour));
   find("slow").value = slow;
   update();
   at(time ?? result.end);

@@ -101,7 +101,7 @@ class Tour {
     return { ...WORN, ...TOUR[step - 1].state };
   }
 
-  // The figures of a step, which stay those of its own state when the reader changes something.
+  // The figures of a step, whose state is its own: a change by the reader ends the tour.
   figures(step) {
     if (!this.said.has(step)) {
       const other = (changes) => this.compute({ ...Tour.state(step), ...changes });
@@ -123,6 +123,6 @@ class Tour {
     for (const [name, value] of Object.entries(parts))
       this.host.querySelector(`#tour-${name}`).textContent = value;
     this.host.querySelector("#tour-back").disabled = step === 1;
-    this.host.querySelector("#tour-on").textContent = step === TOUR.length ? "Begin again" : "Next finding";
+    this.host.querySelector("#tour-on").textContent = step === TOUR.length ? "Begin again" : "Next";
   }
 }

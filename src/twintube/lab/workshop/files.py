@@ -1,4 +1,4 @@
-"""Records and manifest as loggers and people write them (formats: docs/user_guide.md of twintube)."""
+"""Records and manifest as loggers and people write them (formats: docs/measured_data.md of twintube)."""
 
 import json
 from collections.abc import Callable

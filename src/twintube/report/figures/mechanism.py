@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from twintube.core.kernel.forces import foam_factor
 from twintube.dampers import Damper
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
-from twintube.engine.simulate import Simulation
+from twintube.engine.simulation import Simulation
 from twintube.report import notes, style
 from twintube.report.context import Context, loop
 from twintube.report.statement import Plot, Statement

@@ -9,7 +9,8 @@ from twintube.claims.claim import FRONT, MODEL_ERROR
 from twintube.core.kernel import prepare
 from twintube.core.variables import Derived, blank
 from twintube.dampers import Damper
-from twintube.engine.simulate import Simulation, simulate, work_between
+from twintube.engine.simulate import simulate, work_between
+from twintube.engine.simulation import Simulation
 from twintube.identification import Harmonic
 from twintube.report import fitted, notes, style
 from twintube.report.context import Context
