@@ -24,9 +24,9 @@ LOG = logging.getLogger(__name__)
 def spelled(parameter: Any) -> str:
     """How an argument or option is written."""
     if parameter.param_type_name == "argument":
-        return str(parameter.name).upper()
+        return str(parameter.metavar)
     names = ", ".join((*parameter.opts, *parameter.secondary_opts))
-    return names if parameter.is_flag else f"{names} VALUE"
+    return names if parameter.is_flag else f"{names} {parameter.metavar}"
 
 
 def default(parameter: Any) -> str:
@@ -45,7 +45,7 @@ class CommandOptions(SphinxDirective):
 
     def section(self, name: str, command: Any) -> nodes.section:
         """One command."""
-        section = nodes.section("", nodes.title(name, name), ids=[f"command-{name}"], names=[name])
+        section = nodes.section("", nodes.title(name, name), ids=[f"command-{name.replace(' ', '-')}"], names=[name])
         section += nodes.paragraph("", " ".join((command.help or "").split()))
         items = nodes.definition_list(classes=["options"])
         for parameter in command.params:

@@ -13,13 +13,13 @@ import fmpy
 import matplotlib.pyplot as plt
 import numpy as np
 
-from twintube import build_fmu, load
+from twintube import build_fmu
 
 # %%
 # The build translates nothing and downloads nothing: C sources and compiler come with the package. Here it
 # compiles for the present platform only; by default it does for all.
 folder = Path(tempfile.mkdtemp())
-fmu = build_fmu(load("SA8"), folder, platforms=[fmpy.platform])
+fmu = build_fmu("SA8", folder, platforms=[fmpy.platform])
 
 # %%
 # Inputs are stroke and velocity at the start of a communication step. Six slow oscillations come first: a degraded

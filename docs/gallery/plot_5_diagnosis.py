@@ -19,18 +19,19 @@ folder = Path(tempfile.mkdtemp())
 write(folder)  # as `twintube example my_example` does
 
 answer = diagnose(folder)
-print(answer.sentence)
-for name, probability in list(answer.probabilities.items())[:3]:
-    print(f"{probability:5.0%}  {name}")
+print(answer.verdict, [hypothesis.name for hypothesis in answer.named])
+for hypothesis in answer.changes.hypotheses[:3]:
+    print(f"{hypothesis.probability:5.0%}  {hypothesis.name}")
 
 # %%
-# The error of every record, before and after; squares are held-out records.
+# Every record predicted from all others: the error without the named cause and with it, and the noise.
 figure, axes = plt.subplots(figsize=(9, 4))
-for i, result in enumerate(answer.records):
-    marker = "s" if result.split == "heldout" else "o"
-    axes.plot(i, result.rms(result.base), marker, color="0.5", label="base model" if i == 0 else None)
-    axes.plot(i, result.rms(result.extended), marker, color="tab:red", label="with the named cause" if i == 0 else None)
-    axes.hlines(result.noise, i - 0.3, i + 0.3, color="tab:blue", label="noise" if i == 0 else None)
-axes.set_xticks(range(len(answer.records)), [Path(r.record.name).stem.replace("_", "\n") for r in answer.records])
+at = range(len(answer.held_out))
+axes.plot(at, [left.without for left in answer.held_out], "o", color="0.5", label="model as given")
+axes.plot(at, [left.with_cause for left in answer.held_out], "s", color="tab:red", label="with the named cause")
+axes.hlines(
+    [left.noise for left in answer.held_out], [i - 0.3 for i in at], [i + 0.3 for i in at], color="tab:blue", label="noise"
+)
+axes.set_xticks(at, [left.record.replace("_", "\n") for left in answer.held_out])
 axes.set(ylabel="force error, RMS [N]", ylim=(0, None))
 figure.legend(loc="outside upper center", ncols=3)

@@ -25,7 +25,7 @@ for state, label, colour in ((INTACT, "intact", "0.35"), (Condition(0.5, 0), "50
     run = on_plate(state.applied(damper), corner, motion)
     shaken.plot(run.time, 100 * run.wheel_load / static_load(corner), color=colour, label=label, lw=0.5)
 shaken.set(xlabel="time on the plate [s]", ylabel="wheel load over static load [%]")
-for line in shaken.legend(loc="upper left", bbox_to_anchor=(0.2, 1.0)).get_lines():
+for line in shaken.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2).get_lines():
     line.set_linewidth(2)
 
 levels = np.array([1.0, 0.8, 0.6, 0.5, 0.4, 0.3])
@@ -35,7 +35,7 @@ verdicts.plot(100 * levels, [entry.figure for entry in entries], "o-", color="ta
 verdicts.plot(100 * levels, [entry.scalar_figure for entry in entries], "s:", color="tab:blue", label="scalar factor")
 verdicts.axhline(METHODS["eusama"].limit, color="0.35", lw=1, ls="--", label="limit")
 verdicts.set(xlabel="oil [%]", ylabel="EUSAMA [%]")
-verdicts.legend()
+verdicts.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
 
 # %%
 # The bench sees nothing before the force collapses on it, see :doc:`/inspection`. Limits differ between sources;
