@@ -63,7 +63,7 @@ def plate_of(entries: Sequence[Entry]) -> Tired:
 def course(damper: Damper, corner: Car, entries: Sequence[Entry], narrow: bool = False) -> Figure:
     """Velocity of the damper over the time on the plate, before and after the rest."""
     figure, panels = style.grid(2, (5.5, 3.6), narrow, sharey=True)
-    axes = panels.flat
+    axes = list(panels.flat)
     plate = plate_of(entries).plate
     failing = [entry for entry in entries if entry.passed is False]
     shown = dict.fromkeys(entry.condition for entry in [entries[0], *failing[:2], entries[-1]])
