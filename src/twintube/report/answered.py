@@ -4,7 +4,7 @@ from pathlib import Path
 
 from twintube.evidence import Answer
 from twintube.files import write_bytes, write_text
-from twintube.report import changes, state
+from twintube.report import changes, loops, state
 from twintube.report.page import html
 
 
@@ -23,7 +23,7 @@ def write_report(answer: Answer, folder: Path) -> None:
         sections = [state.section(answer.states, [state.ASSUMED])]
     else:
         head, name = changes.headline(answer), changes.PICTURE
-        sections = [changes.section(answer)]
+        sections = [loops.section(answer), changes.section(answer)]
         if answer.states:
             sections.append(state.section(answer.states, pictures=[state.drawn(answer.states)]))
     assert head.picture is not None, "both answers are drawn"

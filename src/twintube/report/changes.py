@@ -117,7 +117,8 @@ def headline(answer: Answer) -> Headline:
     badge = "nothing has changed" if answer.compared and answer.verdict == NONE else badge
     step = next_step(answer).removeprefix("Next: ")
     caption = "How likely each answer is (blue: these hold 90 %)"
-    caption += ", and the error of each later record, predicted from all other records." if gained(answer) else "."
+    later = "later " if answer.compared else ""
+    caption += f", and the error of each {later}record, predicted from all other records." if gained(answer) else "."
     drawn = Picture.drawn(lambda narrow: picture(answer, narrow), caption)
     return Headline(sentence(answer), badge, mark, next=step[0].upper() + step[1:], picture=drawn)
 
@@ -149,8 +150,8 @@ def gained(answer: Answer) -> list[HeldOut]:
 def errors(ax: Axes, several: Sequence[HeldOut]) -> None:
     """Error of each record, without and with the cause, over its noise."""
     rows = np.arange(len(several))[::-1]
-    ax.barh(rows, [h.without for h in several], 0.7, color=style.FAINT, label="as before")
-    ax.barh(rows, [h.with_cause or 0.0 for h in several], 0.35, color=style.BLUE, label="with the change")
+    ax.barh(rows, [h.without for h in several], 0.7, color=style.FAINT, label="without")
+    ax.barh(rows, [h.with_cause or 0.0 for h in several], 0.35, color=style.BLUE, label="with the cause")
     ax.plot([h.noise for h in several], rows, "|", color=style.INK, ms=14, mew=2, label="noise")
     ax.set_yticks(rows, [style.plain(h.record) for h in several])
     ax.set_xlabel("force error, RMS [N]")
@@ -161,9 +162,16 @@ def rows_of(answer: Answer) -> list[Table]:
     """Tables: hypotheses, strengths of the named cause, errors of records that were left out."""
     assert answer.changes is not None
     shown = answer.changes.hypotheses[:SHOWN]
-    several = [[title(h, answer.compared), chance(h.probability), f"{h.log_evidence:.1f}"] for h in shown]
+    several = [
+        [
+            title(h, answer.compared),
+            chance(h.probability),
+            f"{h.log_evidence:.1f}" if np.isfinite(h.log_evidence) else "too slight",
+        ]
+        for h in shown
+    ]
     nothing = lower(TITLES[answer.compared][NONE])
-    caption = f"Log evidence: how much better it predicts all records than `{nothing}`, whatever its strength is."
+    caption = f"Log evidence: how much better it predicts all records than '{nothing}', whatever its strength is."
     tables = [Table(("answer", "probability", "log evidence"), several, caption, (1, 2))]
     if answer.cause is not None:
         f = answer.cause
@@ -182,7 +190,7 @@ def rows_of(answer: Answer) -> list[Table]:
             for h in answer.held_out
         ]
         head = ("record left out", "without the cause", "with it", "noise")
-        tables.append(Table(head, left, "Force error (RMS) of each later record, predicted from all others.", (1, 2, 3)))
+        tables.append(Table(head, left, "Force error (RMS) of each record, predicted from all others.", (1, 2, 3)))
     return tables
 
 
