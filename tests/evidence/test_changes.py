@@ -91,6 +91,19 @@ def test_prior_probabilities_sum_to_one() -> None:
     assert sum(priors(["a", "b"], asked).values()) == pytest.approx(1.0)
 
 
+def test_a_turned_sign_beside_a_reference_is_refused(tmp_path: Path) -> None:
+    """Nothing is put right in silence where the bench is not looked at."""
+    right, turned = (
+        replace(small.record(small.run(0.6, small.INTACT), seed=i), name=n, file=f"{n}.csv") for i, n in enumerate("ab")
+    )
+    folder = small.write(
+        [right, replace(turned, force=-turned.force)], tmp_path / "bench", **{right.name: {"reference": True}}
+    )
+    done = CliRunner().invoke(app, ["diagnose", str(folder), "--output", str(tmp_path / "out")])
+    assert done.exit_code == 2
+    assert not (tmp_path / "out" / "diagnosis.json").exists()
+
+
 def test_command(tmp_path: Path) -> None:
     """The page and the JSON; an option that is gone is refused."""
     runs = [small.run(speed) for speed in SPEEDS]

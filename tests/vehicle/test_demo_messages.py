@@ -21,7 +21,7 @@ def test_the_wheel_load_rises_from_the_first_level_that_is_sure_at_every_speed()
     fast = [entry(0.6, (1.2, 1.5)), entry(0.5, (1.2, 2.0)), entry(0.4, (1.5, 2.2)), entry(0.3, (1.5, 2.1))]
     text = messages.over_oil_level(result(slow, fast))
     assert text == ("With 40 % oil and less, SA8 lets the wheel load fluctuate 39 to 193 % more than intact, "
-                    "under every assumption tried")  # fmt: skip
+                    "over the shaded band")  # fmt: skip
     unsure = [entry(0.3, (1.05, 2.0))]
     assert messages.over_oil_level(result(unsure, unsure)).startswith("At no oil level does SA8")
 

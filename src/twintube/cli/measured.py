@@ -161,14 +161,16 @@ def diagnose(
 
         found = evidence.diagnose(dataset, progress)
     mark_folder(output, made_from)
-    write_text(output / "diagnosis.json", json.dumps(as_json(found), indent=1, allow_nan=False) + "\n")
+    *sentences, step = lines(found)
+    content = as_json(found) | {"sentence": " ".join(sentences), "next_step": step.removeprefix("Next: ")}
+    write_text(output / "diagnosis.json", json.dumps(content, indent=1, allow_nan=False) + "\n")
     extended = output / "extended.toml"
     if found.extended is not None:
         write_text(extended, to_toml(found.extended))
     else:
         extended.unlink(missing_ok=True)  # of an earlier run
     write_report(found, output)
-    for line in lines(found):
+    for line in (*sentences, step):
         typer.echo(line)
     files = ["report.html", "diagnosis.json", *([extended.name] if found.extended is not None else [])]
     typer.echo(f"{output}: {', '.join(files)} ({found.seconds:.0f} s)")

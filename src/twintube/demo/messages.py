@@ -22,7 +22,7 @@ def over_oil_level(result: dict[str, Any]) -> str:
     least, most = (percent(share).removeprefix("+") for share in (min(b[0] for b in bands), max(b[1] for b in bands)))
     return (
         f"With {oil(sure[-1][0]['oil_level'])} and less, {name} lets the wheel load fluctuate "
-        f"{least.removesuffix(' %')} to {most} more than intact, under every assumption tried"
+        f"{least.removesuffix(' %')} to {most} more than intact, over the shaded band"
     )
 
 

@@ -32,7 +32,7 @@ def dlc(folder: Path, result: dict[str, Any]) -> Path:
         entries, intact = block["oil_levels"], block["intact"]["dlc"]
         levels = [100 * e["oil_level"] for e in entries]
         low, high = np.transpose([e["bands"]["all_over_intact"] for e in entries]) * intact
-        ax.fill_between(levels, low, high, color=worn(0.6), alpha=0.2, lw=0, label="every assumption tried")
+        ax.fill_between(levels, low, high, color=worn(0.6), alpha=0.2, lw=0, label="band of the assumptions")
         ax.plot(
             levels,
             [e["dlc"] for e in entries],

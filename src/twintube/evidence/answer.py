@@ -14,7 +14,7 @@ from threadpoolctl import threadpool_limits
 
 from twintube.arrays import Array
 from twintube.dampers import Damper
-from twintube.data import LoadedDataset, Record, has_reference
+from twintube.data import LoadedDataset, Record, has_reference, load_dataset
 from twintube.diagnosis.measurement.faults import Fault, read
 from twintube.diagnosis.put_right import Measured, put_right
 from twintube.diagnosis.records.prepare import prepare
@@ -34,12 +34,11 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str], None]
 
+VERDICTS = {NONE: "none", STATE: "state", UNKNOWN: "unexplained", "effect": "cause", "fault": "measurement_fault"}
+
 
 def silent(step: str) -> None:
     """Tell nobody what is being done."""
-
-
-VERDICTS = {NONE: "none", STATE: "state", UNKNOWN: "unexplained", "effect": "cause", "fault": "measurement_fault"}
 
 
 @dataclass(frozen=True)
@@ -239,6 +238,11 @@ def diagnose(path: str | Path, progress: Progress | None = None) -> Answer:
     progress = progress or silent
     progress("reading the records")
     dataset, turned = read(path)
+    if turned is not None and (has_reference(dataset.records) or any(record.unknown for record in dataset.records)):
+        dataset, turned = (
+            load_dataset(path),
+            None,
+        )  # raises: there the bench is not looked at, and nothing put right in silence
     return answer(dataset, progress, turned)
 
 

@@ -8,7 +8,7 @@ from twintube.diagnosis.measurement.faults import Fault
 from twintube.evidence.answer import Answer
 from twintube.evidence.changes import NONE, Hypothesis
 from twintube.evidence.heldout import HeldOut
-from twintube.evidence.mechanisms import Mechanism
+from twintube.evidence.mechanisms import Mechanism, unit_of
 from twintube.evidence.search import Found
 
 HALF = 1.645  # standard deviations of half a 90 % interval
@@ -68,7 +68,7 @@ def cause(m: Mechanism, found: Found) -> dict[str, Any]:
     values = {}
     for s in m.strengths:
         x, half = found.values[s.name], HALF * found.spread[s.name]
-        values[s.name] = {"value": x, "interval": [x - half, x + half]}
+        values[s.name] = {"value": x, "interval": [x - half, x + half], "unit": unit_of(s.name)}
     return {"effect": m.effect, "way": m.way, "parameters": values}
 
 

@@ -117,6 +117,8 @@ def headline(answer: Answer) -> Headline:
     badge = "nothing has changed" if answer.compared and answer.verdict == NONE else badge
     step = next_step(answer).removeprefix("Next: ")
     caption = "How likely each answer is (blue: these hold 90 %)"
+    if answer.unexplained:
+        caption = "How likely each answer would be if one of the catalogue were right (blue: these would hold 90 %)"
     later = "later " if answer.compared else ""
     caption += f", and the error of each {later}record, predicted from all other records." if gained(answer) else "."
     drawn = Picture.drawn(lambda narrow: picture(answer, narrow), caption)
