@@ -43,7 +43,7 @@ static int numbers(const void *record, size_t size)
 static const char *name_of(const struct unit *u, const double *value)
 {
     const size_t offset = (size_t)((const char *)value - (const char *)&u->m);
-    for (fmi2ValueReference i = 0; i < VARIABLES; i++) {
+    for (unsigned i = 0; i < VARIABLES; i++) {
         if (VARIABLE[i].offset == offset)
             return VARIABLE[i].name;
     }
@@ -52,11 +52,11 @@ static const char *name_of(const struct unit *u, const double *value)
 
 /* Follow two inputs, a way and its velocity, from a communication point on which `h` [s] are to follow; a warning, once, where
    they do not belong together. */
-static fmi2Status follow(struct unit *u, struct kernel_Agreement *a, const double *way, const double *velocity, double h)
+static enum status follow(struct unit *u, struct kernel_Agreement *a, const double *way, const double *velocity, double h)
 {
     const char *led;
     if (u->m.warned || !kernel_parted(a, *way, *velocity, h))
-        return fmi2OK;
+        return DONE;
     u->m.warned = 1;
     led = name_of(u, velocity);
     return warn(u, SAY_PARTED, u->m.time, name_of(u, way), a->way_stroke + fabs(a->at_stroke), led, a->way_led + fabs(a->at_led),

@@ -2,6 +2,8 @@
 #ifndef STATE_H
 #define STATE_H
 
+#include "instance.h"
+
 struct header {
     char equations[16];
     char guid[64]; /* of the FMU: its start values, its table of variables and the layout of its memory */
@@ -33,9 +35,9 @@ static int is_flag(int32_t value)
 static int bounded(struct memory *m)
 {
     const size_t waits = offsetof(struct memory, wanted), size = sizeof(struct parameters);
-    for (fmi2ValueReference i = 0; i < VARIABLES; i++) {
+    for (unsigned i = 0; i < VARIABLES; i++) {
         struct variable v = VARIABLE[i];
-        if (v.causality == OUTPUT)
+        if (v.causality == OUTPUT || v.causality == INDEPENDENT)
             continue;
         for (int in_force = 0; in_force < 2; in_force++) {
             const double value = v.kind == INTEGER ? (double)*integer_of(m, &v) : *real_of(m, &v);
@@ -78,47 +80,43 @@ static void restore(struct unit *u, const struct memory *from)
     bind(&u->m.wanted);
 }
 
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
+static enum status get_state(struct unit *u, const char *function, void **state)
 {
-    struct unit *u = c;
-    if (!allowed(u, "fmi2GetFMUstate", EVERYWHERE) || !given(u, "fmi2GetFMUstate", state, state, 1))
-        return fmi2Error;
+    if (!allowed(u, function, EVERYWHERE) || !given(u, function, state, state, 1))
+        return REFUSED;
     if (*state == NULL)
-        *state = reserve(u, sizeof u->m);
+        *state = u->allocate(1, sizeof u->m);
     if (*state == NULL)
-        return refuse(u, "fmi2GetFMUstate: no memory");
+        return refuse(u, "%s: no memory", function);
     memcpy(*state, &u->m, sizeof u->m);
-    return fmi2OK;
+    return DONE;
 }
 
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
+static enum status set_state(struct unit *u, const char *function, const void *state)
 {
-    struct unit *u = c;
-    if (!allowed(u, "fmi2SetFMUstate", EVERYWHERE) || !given(u, "fmi2SetFMUstate", state, state, 1))
-        return fmi2Error;
+    if (!allowed(u, function, EVERYWHERE) || !given(u, function, state, state, 1))
+        return REFUSED;
     restore(u, state);
-    return fmi2OK;
+    return DONE;
 }
 
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
+static enum status free_state(struct unit *u, const char *function, void **state)
 {
-    struct unit *u = c;
-    if (!allowed(u, "fmi2FreeFMUstate", EVERYWHERE))
-        return fmi2Error;
+    if (!allowed(u, function, EVERYWHERE))
+        return REFUSED;
     if (state != NULL && *state != NULL) {
-        drop(u, *state);
+        u->release(*state);
         *state = NULL;
     }
-    return fmi2OK;
+    return DONE;
 }
 
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
+static enum status serialized_size(struct unit *u, const char *function, const void *state, size_t *size)
 {
-    struct unit *u = c;
-    if (!allowed(u, "fmi2SerializedFMUstateSize", EVERYWHERE) || !given(u, "fmi2SerializedFMUstateSize", state, size, 1))
-        return fmi2Error;
+    if (!allowed(u, function, EVERYWHERE) || !given(u, function, state, size, 1))
+        return REFUSED;
     *size = sizeof(struct header) + sizeof(struct memory);
-    return fmi2OK;
+    return DONE;
 }
 
 /* Equal states have equal bytes: without addresses, and without what an effect changes in `d` for the length of a step. */
@@ -135,47 +133,45 @@ static struct memory portable(const void *state)
     return m;
 }
 
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
+static enum status serialize(struct unit *u, const char *function, const void *state, void *bytes, size_t size)
 {
-    struct unit *u = c;
     struct header head;
     struct memory m;
-    if (!allowed(u, "fmi2SerializeFMUstate", EVERYWHERE) || !given(u, "fmi2SerializeFMUstate", state, bytes, 1))
-        return fmi2Error;
+    if (!allowed(u, function, EVERYWHERE) || !given(u, function, state, bytes, 1))
+        return REFUSED;
     if (size < sizeof head + sizeof m)
-        return refuse(u, "fmi2SerializeFMUstate: %u bytes, %u are needed", (unsigned)size, (unsigned)(sizeof head + sizeof m));
+        return refuse(u, "%s: %u bytes, %u are needed", function, (unsigned)size, (unsigned)(sizeof head + sizeof m));
     m = portable(state);
     head = header_of(&m);
     memcpy(bytes, &head, sizeof head);
-    memcpy(bytes + sizeof head, &m, sizeof m);
-    return fmi2OK;
+    memcpy((char *)bytes + sizeof head, &m, sizeof m);
+    return DONE;
 }
 
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
+static enum status deserialize(struct unit *u, const char *function, const void *bytes, size_t size, void **state)
 {
-    static const char NAME[] = "fmi2DeSerializeFMUstate";
-    struct unit *u = c, quiet;
+    struct unit quiet;
     struct header head, right;
     struct memory m;
-    if (!allowed(u, NAME, EVERYWHERE) || !given(u, NAME, bytes, state, 1))
-        return fmi2Error;
+    if (!allowed(u, function, EVERYWHERE) || !given(u, function, bytes, state, 1))
+        return REFUSED;
     if (size < sizeof head + sizeof m)
-        return refuse(u, SAY_NO_STATE, NAME);
+        return refuse(u, SAY_NO_STATE, function);
     memcpy(&head, bytes, sizeof head);
-    memcpy(&m, bytes + sizeof head, sizeof m);
+    memcpy(&m, (const char *)bytes + sizeof head, sizeof m);
     right = header_of(&m);
     if (memcmp(head.equations, right.equations, sizeof head.equations) || memcmp(head.guid, right.guid, sizeof head.guid)
         || head.size != right.size)
-        return refuse(u, SAY_OTHER_STATE, NAME);
+        return refuse(u, SAY_OTHER_STATE, function);
     memset(&quiet, 0, sizeof quiet);
     if (head.sum != right.sum || !credible(&quiet, &m))
-        return refuse(u, SAY_DAMAGED_STATE, NAME);
+        return refuse(u, SAY_DAMAGED_STATE, function);
     if (*state == NULL)
-        *state = reserve(u, sizeof m);
+        *state = u->allocate(1, sizeof m);
     if (*state == NULL)
-        return refuse(u, "%s: no memory", NAME);
+        return refuse(u, "%s: no memory", function);
     memcpy(*state, &m, sizeof m);
-    return fmi2OK;
+    return DONE;
 }
 
 #endif

@@ -80,31 +80,31 @@ static int begin(struct unit *u)
 }
 
 /* Say, once in a run, what a step of `h` [s] does to a wheel in the loop; whether there is one nobody knows here. */
-static fmi2Status timely(struct unit *u, double h)
+static enum status timely(struct unit *u, double h)
 {
     if (u->m.long_step || h <= SAFE_STEP + kernel_time_slack(u->m.time, h))
-        return fmi2OK;
+        return DONE;
     u->m.long_step = 1;
     return warn(u, SAY_LONG_STEP, u->m.time, h, SAFE_STEP);
 }
 
 /* One step of `h` >= 0 [s] while the velocity changes by `rate` [m/s2]; a message, and the state as before, where it is
    refused. */
-static fmi2Status move(struct unit *u, double h, double rate)
+static enum status move(struct unit *u, double h, double rate)
 {
     struct memory *m = &u->m;
     const double z = m->now.stroke, v = m->now.velocity, after = v + rate * h;
     const double end = z + (v + 0.5 * rate * h) * h;
     struct kernel_State before;
     struct kernel_Flow flow;
-    fmi2Status status;
+    enum status status;
 
     if (m->changed && !take_over(u))
-        return fmi2Error;
+        return REFUSED;
     if (!inside(u, "stroke", z, -m->now.limit, m->now.limit, " m")
         || !inside(u, "stroke at the end of the step", end, -m->now.limit, m->now.limit, " m")
         || !inside(u, "velocity at the end of the step", after, LOWEST_VELOCITY, HIGHEST_VELOCITY, " m/s"))
-        return fmi2Error;
+        return REFUSED;
     before = m->now.s;
     flow = m->now.f;
     if (!kernel_advance(&m->in_force.p, &m->now.d, &m->now.s, &m->now.f, end, v, after, h) || !computed(m)) {
@@ -114,7 +114,7 @@ static fmi2Status move(struct unit *u, double h, double rate)
     }
     publish(m);
     status = timely(u, h);
-    return follow(u, &m->now.a, &m->now.stroke, &m->now.velocity, h) == fmi2OK ? status : fmi2Warning;
+    return follow(u, &m->now.a, &m->now.stroke, &m->now.velocity, h) == DONE ? status : WARNED;
 }
 
 #endif

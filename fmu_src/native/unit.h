@@ -1,4 +1,5 @@
-/* One instance of a model: what it remembers, how it is described, how it speaks. No global state. */
+/* One instance of a model: what it remembers, how it is described, how it speaks. No global state, and nothing of one version
+   of FMI. */
 #ifndef UNIT_H
 #define UNIT_H
 
@@ -11,15 +12,15 @@
 
 #include "model.h"
 
-#include "fmi2Functions.h"
 #include "kernel.h"
 #include "messages.h"
 #include "memory.h"
 
 #define STEEPEST 1e6 /* derivatives of inputs, per second */
 
+enum status { DONE, WARNED, DISCARDED, REFUSED }; /* numbered as in FMI 2.0 and 3.0 */
 enum kind { REAL, INTEGER };
-enum causality { INPUT, OUTPUT, FIXED, TUNABLE };
+enum causality { INPUT, OUTPUT, FIXED, TUNABLE, INDEPENDENT };
 enum mode { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED };
 
 /* Everything that changes: an FMU state is a copy of it. */
@@ -41,48 +42,48 @@ struct variable {
     const char *name, *unit; /* the unit as it follows a number: with a space before it, empty where there is none */
     enum kind kind;
     enum causality causality;
+    size_t length; /* values of its value reference: those of this row and the next; 0 where they are of a row before it */
     size_t offset; /* in struct memory; parameters are those of `wanted` */
     double min, max;
 };
 
 struct unit {
     struct memory m;
-    fmi2CallbackLogger log;
-    fmi2CallbackAllocateMemory allocate;
-    fmi2CallbackFreeMemory release;
-    fmi2ComponentEnvironment environment;
+    void (*tell)(const struct unit *u, enum status status, const char *category, char *text);
+    void (*log)(void); /* the importer's, of the type that `tell` knows */
+    void *environment; /* the importer's */
+    void *(*allocate)(size_t n, size_t size);
+    void (*release)(void *memory);
     int says_errors, says_warnings;
     char *name;
 };
 
 #include "variables.h"
 
-#define VARIABLES ((fmi2ValueReference)(sizeof(VARIABLE) / sizeof(VARIABLE[0])))
+#define VARIABLES ((unsigned)(sizeof(VARIABLE) / sizeof(VARIABLE[0])))
 
 static const char LOG_ERROR[] = "logStatusError";
 static const char LOG_WARNING[] = "logStatusWarning";
 
-/* Log a message and return its status. Loggers expand % and #, which an importer's own words may hold. */
-static fmi2Status say(struct unit *u, fmi2Status status, const char *format, ...)
+/* Log a message and return its status. */
+static enum status say(struct unit *u, enum status status, const char *format, ...)
 {
     char text[512];
     va_list arguments;
-    const int wanted = status == fmi2Warning ? u->says_warnings : u->says_errors;
+    const int wanted = status == WARNED ? u->says_warnings : u->says_errors;
     if (u->log && wanted) {
         va_start(arguments, format);
         vsnprintf(text, sizeof text, format, arguments);
         va_end(arguments);
-        for (char *mark = text; (mark = strpbrk(mark, "%#")) != NULL;)
-            *mark = '?';
-        u->log(u->environment, u->name, status, status == fmi2Warning ? LOG_WARNING : LOG_ERROR, text);
+        u->tell(u, status, status == WARNED ? LOG_WARNING : LOG_ERROR, text);
     }
     return status;
 }
 
 /* For `return refuse(...)`; discard is for a question that has no answer here. */
-#define refuse(u, ...) say(u, fmi2Error, __VA_ARGS__)
-#define discard(u, ...) say(u, fmi2Discard, __VA_ARGS__)
-#define warn(u, ...) say(u, fmi2Warning, __VA_ARGS__)
+#define refuse(u, ...) say(u, REFUSED, __VA_ARGS__)
+#define discard(u, ...) say(u, DISCARDED, __VA_ARGS__)
+#define warn(u, ...) say(u, WARNED, __VA_ARGS__)
 
 static void copy_parameters(struct parameters *to, const struct parameters *from)
 {
@@ -105,7 +106,7 @@ static void restart(struct memory *m)
 {
     memset(m, 0, sizeof *m);
     bind(&m->wanted);
-    for (fmi2ValueReference i = 0; i < VARIABLES; i++) {
+    for (unsigned i = 0; i < VARIABLES; i++) {
         if (VARIABLE[i].kind == INTEGER)
             *integer_of(m, &VARIABLE[i]) = (int64_t)START[i];
         else

@@ -1,4 +1,4 @@
-"""Two plain masters of the car's FMU and four damper FMUs, through fmpy."""
+"""Two plain masters of the car's FMU and four damper FMUs of FMI 2.0 or 3.0, through fmpy."""
 
 import shutil
 from collections.abc import Callable, Sequence
@@ -8,6 +8,7 @@ from typing import Any
 import fmpy
 import numpy as np
 from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
 
 from twintube.arrays import Array
 from twintube.vehicle.full.car import WHEELS
@@ -24,12 +25,15 @@ class Unit:
         assert description.coSimulation is not None
         identifier = description.coSimulation.modelIdentifier
         self.references = {v.name: v.valueReference for v in description.modelVariables}
-        self.fmu = FMU2Slave(
+        old = description.fmiVersion == "2.0"
+        self.type = "Real" if old else "Float64"
+        self.fmu = (FMU2Slave if old else FMU3Slave)(
             guid=description.guid, unzipDirectory=self.folder, modelIdentifier=identifier, instanceName=file.stem
         )
         self.fmu.instantiate()
         self.set(start)
-        self.fmu.setupExperiment(startTime=0.0)
+        if old:
+            self.fmu.setupExperiment(startTime=0.0)
         self.fmu.enterInitializationMode()
         self.fmu.exitInitializationMode()
 
@@ -42,10 +46,11 @@ class Unit:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def set(self, values: dict[str, Any]) -> None:
-        self.fmu.setReal([self.references[name] for name in values], [float(value) for value in values.values()])
+        references, numbers = [self.references[name] for name in values], [float(value) for value in values.values()]
+        getattr(self.fmu, f"set{self.type}")(references, numbers)
 
     def get(self, *names: str) -> list[float]:
-        return [float(value) for value in self.fmu.getReal([self.references[name] for name in names])]
+        return [float(value) for value in getattr(self.fmu, f"get{self.type}")([self.references[name] for name in names])]
 
     def step(self, time: float, length: float) -> None:
         self.fmu.doStep(currentCommunicationPoint=time, communicationStepSize=length)

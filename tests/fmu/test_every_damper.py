@@ -12,9 +12,10 @@ from fmpy.validation import validate_fmu
 
 from twintube.core.units import DISPLAY
 from twintube.dampers import load, names
-from twintube.demo.damper_fmu import DamperFmu, FmuError
+from twintube.demo.damper_fmu import DamperFmu
 from twintube.fmu import BuildError, build_fmu
 from twintube.fmu.assemble import validated
+from twintube.fmu.instance import FmuError
 from twintube.fmu.platforms import Kind
 
 # FMI 2.0, section 2.2.7: causality and variability, what `initial` may be, the default first; empty: it must be absent.

@@ -15,8 +15,9 @@ from twintube.core.effects import State
 from twintube.core.model import advance, set_up, start
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import load
-from twintube.demo.damper_fmu import DamperFmu, FmuError
+from twintube.demo.damper_fmu import DamperFmu
 from twintube.engine.simulate import simulate
+from twintube.fmu.instance import FmuError
 
 DEGRADED = {"oil_level": 0.56, "gas_preload": 0}
 

@@ -14,6 +14,7 @@ from fmpy.util import create_zip_archive
 from twintube.dampers import load
 from twintube.demo.damper_fmu import DamperFmu
 from twintube.fmu import binaries, sources
+from twintube.fmu.standards import STANDARDS
 
 # fmpy's copy of the header leaves out the prefix, which is for static linking.
 NO_PREFIX = "#define fmi2FullName(name) name"
@@ -63,7 +64,7 @@ def test_two_dampers_are_linked_into_one_library(tmp_path: Path) -> None:
             (folder / file).write_text(text)
         objects.append(tmp_path / f"{name}.o")
         flags = ("-std=c99", "-O2", "-c", f"-I{tmp_path}")
-        binaries.compiled(folder / sources.COMPILED, target, objects[-1], flags)
+        binaries.compiled(folder / STANDARDS[2].compiled, target, objects[-1], flags)
     binaries.compiled(objects[0], target, tmp_path / "both.so", (*binaries.FLAGS, str(objects[1])))
     linked = ctypes.CDLL(str(tmp_path / "both.so"))
     for name in ("SA7", "SA8"):

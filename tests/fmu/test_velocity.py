@@ -9,8 +9,9 @@ import pytest
 from tests.motions import RIGHT, WRONG, Motion, block, reversal, sine
 from twintube import load
 from twintube.core.variables import blank
-from twintube.demo.damper_fmu import DamperFmu, FmuError, Instance
+from twintube.demo.damper_fmu import DamperFmu
 from twintube.fmu.car import build_car_fmu
+from twintube.fmu.instance import FmuError, Instance
 from twintube.fmu.platforms import Kind
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.full.car import WHEELS

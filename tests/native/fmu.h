@@ -4,6 +4,7 @@
 #ifndef FMU_H
 #define FMU_H
 
+#include "fmi2Functions.h"
 #include "unit.h" /* the table of variables */
 
 #ifndef STATIC

@@ -13,7 +13,8 @@ import pytest
 
 from twintube.dampers import load
 from twintube.fmu.binaries import headers
-from twintube.fmu.sources import COMPILED, sources
+from twintube.fmu.sources import sources
+from twintube.fmu.standards import STANDARDS, Standard
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or platform.machine() != "x86_64", reason="the host is for linux on x86-64"
@@ -45,6 +46,15 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
+def folder3(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The sources of a damper for FMI 3.0."""
+    made = tmp_path_factory.mktemp("sanitized3")
+    for name, text in sources(load("SA8"), "{guid}", STANDARDS[3]).items():
+        (made / name).write_text(text, encoding="utf-8")
+    return made
+
+
+@pytest.fixture(scope="module")
 def compiler(folder: Path) -> str:
     for name in ("gcc", "clang", "cc"):
         if works(name, folder):
@@ -52,10 +62,10 @@ def compiler(folder: Path) -> str:
     pytest.skip("no C compiler with AddressSanitizer and UndefinedBehaviorSanitizer")
 
 
-def program(compiler: str, folder: Path, name: str) -> Path:
+def program(compiler: str, folder: Path, name: str, standard: Standard = STANDARDS[2]) -> Path:
     """A program of this folder, with the sources instead of the library."""
-    command = [compiler, *FLAGS, "-DSTATIC", "-pthread", f"-I{folder}", f"-I{headers()}"]
-    files = [str(HERE / f"{name}.c"), str(folder / COMPILED)]
+    command = [compiler, *FLAGS, "-DSTATIC", "-DFMI3_OVERRIDE_FUNCTION_PREFIX", "-pthread", f"-I{folder}", f"-I{headers()}"]
+    files = [str(HERE / f"{name}.c"), str(folder / standard.compiled)]
     done = subprocess.run([*command, *files, "-o", str(folder / name), "-lm"], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return folder / name
@@ -77,6 +87,11 @@ def fuzz(compiler: str, folder: Path) -> Path:
     return program(compiler, folder, "fuzz")
 
 
+@pytest.fixture(scope="module")
+def fuzz3(compiler: str, folder3: Path) -> Path:
+    return program(compiler, folder3, "fuzz3", STANDARDS[3])
+
+
 @pytest.mark.parametrize("command", ["abuse", "forged", "state 3", "threads 4", "leak"])
 def test_host(host: Path, command: str) -> None:
     run([host, "sources", *command.split()])
@@ -86,5 +101,13 @@ def test_host(host: Path, command: str) -> None:
 def test_random_calls(fuzz: Path, parameters: str) -> None:
     seed = 1 if os.environ.get("CI") else int(time.time())
     counted = run([fuzz, str(SECONDS), str(seed), parameters])
+    calls, steps = (int(part.split()[0]) for part in counted.split(",")[:2])
+    assert calls > steps > 1000
+
+
+@pytest.mark.parametrize("parameters", ["plain", "extended"])
+def test_random_calls_of_fmi_3(fuzz3: Path, parameters: str) -> None:
+    seed = 1 if os.environ.get("CI") else int(time.time())
+    counted = run([fuzz3, str(SECONDS), str(seed), parameters])
     calls, steps = (int(part.split()[0]) for part in counted.split(",")[:2])
     assert calls > steps > 1000

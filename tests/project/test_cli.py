@@ -73,6 +73,7 @@ def test_help_imports_nothing_scientific(option: str) -> None:
         ("paper ", {"calibrate", "claims", "figures", "readings"}),
         ("ride SA8 --road-class ", set("ABCDE")),
         ("fmu --platform l", {"linux64"}),
+        ("fmu --platform x", {"x86_64-linux", "x86_64-windows", "x86_64-darwin"}),
     ],
 )
 def test_the_shell_completes(typed: str, offered: set[str]) -> None:
@@ -86,7 +87,7 @@ def test_the_values_in_the_help_are_those_of_the_library() -> None:
     from twintube import dampers
     from twintube.cli import fmu, options
     from twintube.dampers.freed_gas import WAYS
-    from twintube.fmu.platforms import PLATFORMS, Kind
+    from twintube.fmu.platforms import PLATFORMS, PLATFORMS_3, Fmi, Kind, Ssp
     from twintube.identification import METHODS
     from twintube.inspection import METHODS as INSPECTIONS
     from twintube.rig import signals
@@ -95,7 +96,7 @@ def test_the_values_in_the_help_are_those_of_the_library() -> None:
     from twintube.vehicle.full.study import WORN
 
     assert options.dampers() == dampers.names()
-    assert tuple(PLATFORMS) == options.PLATFORMS
+    assert (tuple(PLATFORMS), tuple(PLATFORMS_3)) == (options.PLATFORMS, options.PLATFORMS_3)
     assert tuple(road.GD_N0) == options.ROADS
     assert tuple(sorted(path.stem for path in cars.FOLDER.glob("*.toml"))) == options.CARS
     assert tuple(WAYS) == options.FREED_GAS
@@ -105,7 +106,8 @@ def test_the_values_in_the_help_are_those_of_the_library() -> None:
     assert tuple(METHODS) == options.SEARCHES
     assert (tuple(signals.STARTS), signals.START) == (options.STARTS, options.START)
     assert options.STEP_MS == 1e3 * ride.DT
-    assert get_type_hints(fmu.fmu, {"Damper": Any})["kind"] == Kind
+    types = get_type_hints(fmu.fmu) | {"ssp": get_type_hints(fmu.ssv)["version"]}
+    assert (types["kind"], types["fmi"], types["ssp"]) == (Kind, Fmi, Ssp)
 
 
 def test_dampers_are_listed_and_shown(tmp_path: Path) -> None:

@@ -14,11 +14,12 @@ from twintube.cli import app
 from twintube.dampers import load
 from twintube.dampers.freed_gas import condition
 from twintube.demo.car_ride import drive_car_with_fmus
-from twintube.demo.damper_fmu import DamperFmu, FmuError
+from twintube.demo.damper_fmu import DamperFmu
 from twintube.demo.four_dampers import ContainerFmu, SingleFmus
 from twintube.engine.simulate import InputError
 from twintube.fmu import BuildError, build_fmu
 from twintube.fmu.container import build_container
+from twintube.fmu.instance import FmuError
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.full.maneuvers import Road
 from twintube.vehicle.full.run import CarRun, FullCar, drive_car, full_car

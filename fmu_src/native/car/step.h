@@ -75,15 +75,15 @@ static int begin(struct unit *u)
 }
 
 /* One step of `h` >= 0 [s]; a message, and the state as before, where it is refused. */
-static fmi2Status move(struct unit *u, double h, double rate)
+static enum status move(struct unit *u, double h, double rate)
 {
     struct memory *m = &u->m;
     struct model *now = &m->now;
     const struct model before = *now;
-    fmi2Status status = fmi2OK;
+    enum status status = DONE;
     (void)rate;
     if (!inside(u, "communication step", h, 0.0, LONGEST_SPAN, " s"))
-        return fmi2Error;
+        return REFUSED;
     kernel_communication_step(&now->c, &now->b, &now->k[0], &now->k[1], &now->k[2], &now->k[3], &now->w[0], &now->w[1],
                               &now->w[2], &now->w[3], &m->in_force.brakes, &now->driver, &now->given[0], &now->given[1],
                               &now->given[2], &now->given[3], &now->t, h);
@@ -92,7 +92,7 @@ static fmi2Status move(struct unit *u, double h, double rate)
         *now = before;
         return refuse(u, SAY_NO_STEP, m->time);
     }
-    for (int i = 0; i < 4 && status == fmi2OK; i++)
+    for (int i = 0; i < 4 && status == DONE; i++)
         status = follow(u, &now->a[i], &now->given[i].road, &now->given[i].road_rate, h);
     return status;
 }

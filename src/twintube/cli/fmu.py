@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from twintube.cli.base import MODEL, app
-from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, PLATFORM
+from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, PLATFORM_OF_VERSION, SSP
 from twintube.cli.outputs import keep_other, refuse_other
 from twintube.files import write_text
 from twintube.words import printable
@@ -28,8 +28,26 @@ def start_state(damper: "Damper", oil_level: float | None, gas_lost: bool) -> "D
     return damper.with_(**changes)
 
 
+def tested(fmu: Path) -> None:
+    """Print how far an FMU is from its reference run; ends with 1 where that is too far. Raises TrialError."""
+    from twintube.fmu.instance import FmuError
+    from twintube.fmu.trial import TOLERANCE, tried
+
+    try:
+        differences = tried(fmu)
+    except FmuError as error:
+        typer.echo(f"{fmu}: {error}")
+        raise typer.Exit(1) from None
+    right = all(each.right for each in differences)
+    verdict = "computes its reference run" if right else f"differs from its reference run by more than {TOLERANCE:g}"
+    typer.echo(f"{fmu}: {verdict}; largest difference: {', '.join(map(str, differences))}")
+    if not right:
+        raise typer.Exit(1)
+
+
 @app.command(rich_help_panel=MODEL, epilog="Example: twintube fmu SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu")
 def fmu(
+    ctx: typer.Context,
     damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
     parameters: PARAMETERS = None,
     oil_level: OIL_LEVEL = None,
@@ -38,14 +56,18 @@ def fmu(
         Literal["native", "python"],
         typer.Option(metavar="native|python", help="Compiled, or Python source that the host's Python runs."),
     ] = "native",
-    platform: PLATFORM = None,
+    fmi: Annotated[Literal[2, 3], typer.Option(metavar="2|3", help="Version of FMI, 2.0 or 3.0.")] = 2,
+    platform: PLATFORM_OF_VERSION = None,
     published: AS_PUBLISHED = False,
     output: Annotated[Path, typer.Option(metavar="FILE|FOLDER", help="An .fmu file, or a folder for it.")] = Path(),
+    test: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Build nothing: run this FMU against its own reference run.")
+    ] = None,
 ) -> None:
-    """Build the FMU of a damper and validate it with fmpy.
+    """Build the FMU of a damper and validate it, or test one.
 
-    Without a damper it is that of SA8. Gas that cavitation frees dissolves again, unless --as-published asks for the paper's
-    equations alone or the parameter set says what freed gas does.
+    Without a damper it is that of SA8; fmpy validates it. Gas that cavitation frees dissolves again, unless --as-published
+    asks for the paper's equations alone or the parameter set says what freed gas does.
 
     The first build for Windows compiles the runtime too and takes a minute or two; later ones take seconds.
     """
@@ -53,11 +75,17 @@ def fmu(
     from twintube.dampers.freed_gas import acting
     from twintube.fmu import BuildError, build_fmu
     from twintube.fmu.archive import start_values
-    from twintube.fmu.assemble import target_file
+    from twintube.fmu.assemble import file_name, target_file
     from twintube.fmu.description import model_name
-    from twintube.fmu.platforms import PLATFORMS
     from twintube.fmu.table import variables
 
+    if test is not None:
+        sources = {name: ctx.get_parameter_source(name) for name in ctx.params if name != "test"}
+        others = [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+        if others:
+            raise BuildError(f"--test {test}: a test builds nothing, leave out {', '.join(others)}")
+        tested(test)
+        return
     began = time.monotonic()
 
     def progress(text: str) -> None:
@@ -68,12 +96,12 @@ def fmu(
     if platform and kind == "python":
         raise BuildError(f"--platform {platform[0]}: only for the native kind; the Python kind runs on linux64 and win64")
     chosen = start_state(load(parameters or damper or "SA8", as_published=published), oil_level, gas_lost)
-    target = target_file(output, model_name(chosen))
+    target = target_file(output, file_name(model_name(chosen), fmi))
     if target != output:
         refuse_other(target, same=start_values(target) == {v.name: v.start for v in variables(chosen)})
-    built = build_fmu(chosen, target, kind, platform or tuple(PLATFORMS), progress)
+    built = build_fmu(chosen, target, kind, platform, progress, fmi)
     typer.echo(
-        f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI 2.0 co-simulation FMU, "
+        f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI {fmi}.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"
         f"freed gas: {acting(chosen)}"
     )
@@ -85,17 +113,18 @@ def ssv(
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = False,
     published: AS_PUBLISHED = False,
+    version: SSP = 1,
     output: Annotated[Path, typer.Option(metavar="FILE", help="SSV file for the parameters.")] = Path("parameters.ssv"),
 ) -> None:
     """Write the parameters of a damper for the FMU's importer.
 
-    The file holds System Structure Parameter Values (SSV) of SSP 1.0.
+    The file holds System Structure Parameter Values (SSV) of SSP.
     """
     from twintube.dampers import load
     from twintube.fmu.ssv import to_ssv
 
     chosen = start_state(load(damper, as_published=published), oil_level, gas_lost)
-    text = to_ssv(chosen)
+    text = to_ssv(chosen, ssp=version)
     keep_other(output, text.encode())
     write_text(output, text)
     typer.echo(f"{output}: parameters of {printable(chosen.name)}, {printable(chosen.title)}")

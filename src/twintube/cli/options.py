@@ -5,13 +5,14 @@ The values are written down here, and compared with the library's by a test: the
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
 import twintube
 
 PLATFORMS = ("linux64", "aarch64-linux", "win64", "darwin64")
+PLATFORMS_3 = ("x86_64-linux", "aarch64-linux", "x86_64-windows", "x86_64-darwin", "aarch64-darwin")  # of FMI 3.0
 ROADS = ("A", "B", "C", "D", "E")
 CARS = ("escort", "passat_b8")
 FREED_GAS = ("stays", "dissolves", "dissolves_fast", "dissolves_slow", "limited", "half_pushes_oil", "pushes_oil")
@@ -60,4 +61,15 @@ AS_PUBLISHED = Annotated[
 ]
 PLATFORM = Annotated[
     list[str] | None, one_of(PLATFORMS, metavar="NAME", help=f"Only this platform; repeatable: {', '.join(PLATFORMS)}.")
+]
+PLATFORM_OF_VERSION = Annotated[
+    list[str] | None,
+    one_of(
+        dict.fromkeys(PLATFORMS + PLATFORMS_3),
+        metavar="NAME",
+        help=f"Only this platform; repeatable: {', '.join(PLATFORMS)}; of FMI 3.0: {', '.join(PLATFORMS_3)}.",
+    ),
+]
+SSP = Annotated[
+    Literal[1, 2], typer.Option("--ssp", metavar="1|2", help="Version of SSP: 1 with FMUs of FMI 2.0, 2 with FMI 3.0.")
 ]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from twintube.cli.base import VEHICLE, app
-from twintube.cli.options import AS_PUBLISHED, CAR, FRONT, PLATFORM, REAR, WORN_AT
+from twintube.cli.options import AS_PUBLISHED, CAR, FRONT, PLATFORM, PLATFORM_OF_VERSION, REAR, SSP, WORN_AT
 from twintube.cli.outputs import named, refuse_other
 
 if TYPE_CHECKING:
@@ -45,15 +45,15 @@ def ssp(
     oil_level: OIL_LEVEL = 1.0,
     speed: Annotated[float, typer.Option(metavar="KM/H", help="Speed at the start.")] = 50.0,
     car_file: CAR = "passat_b8",
-    platform: PLATFORM = None,
+    version: SSP = 1,
+    platform: PLATFORM_OF_VERSION = None,
     published: AS_PUBLISHED = False,
 ) -> None:
-    """Write the whole car as an SSP 1.0 file of five FMUs.
+    """Write the whole car as an SSP file of five FMUs.
 
     It holds the car's FMU, four damper FMUs, connections and parameters. A simulator that knows SSP runs it; road and driver
     are inputs of the car. The dampers are not preconditioned.
     """
-    from twintube.fmu.platforms import PLATFORMS
     from twintube.fmu.ssp import build_ssp, described, members
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.maneuvers import checked_speed
@@ -61,8 +61,8 @@ def ssp(
 
     whole = full_car(load_car(car_file), four(front, rear, worn, oil_level, published))
     if not named():
-        refuse_other(output, same=members(output) == described(whole, checked_speed(speed)))
-    built = build_ssp(whole, checked_speed(speed), output, platform or tuple(PLATFORMS), progress())
+        refuse_other(output, same=members(output) == described(whole, checked_speed(speed), version))
+    built = build_ssp(whole, checked_speed(speed), output, platform, progress(), version)
     typer.echo(
         f"{built}: {whole.name} with {front} and {rear}, {worn} at {oil_level:.0%} oil; {built.stat().st_size // 1024} kB"
     )

@@ -9,7 +9,8 @@ import fmpy
 import numpy as np
 
 from twintube.dampers import Damper, elements
-from twintube.demo.damper_fmu import INPUTS, DamperFmu, FmuError, Instance
+from twintube.demo.damper_fmu import INPUTS, DamperFmu
+from twintube.fmu.instance import FmuError, Instance
 from twintube.vehicle.drive import CONDITIONING_STEP, conditioning
 from twintube.vehicle.full.car import WHEELS
 

@@ -3,7 +3,7 @@
 import os
 import stat
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -34,10 +34,19 @@ def start_values(path: Path, description: str = XML) -> dict[str, float | None]:
     try:
         with zipfile.ZipFile(path) as archive:
             root = ET.fromstring(archive.read(description))
-        starts = {v.get("name", ""): v[0].get("start") for v in root.iterfind("ModelVariables/ScalarVariable")}
-        return {name: None if start is None else float(start) for name, start in starts.items()}
+        return dict(pair for element in root.iterfind("ModelVariables/*") for pair in starts_of(element))
     except (OSError, KeyError, IndexError, ValueError, zipfile.BadZipFile, ET.ParseError):
         return {}
+
+
+def starts_of(element: ET.Element) -> Iterator[tuple[str, float | None]]:
+    """Name and start value of a variable of FMI 2.0 or 3.0, of an array those of its elements."""
+    name = element.get("name", "")
+    start = (element[0] if element.tag == "ScalarVariable" else element).get("start")
+    if element.find("Dimension") is not None and start is not None:
+        yield from ((f"{name}[{i}]", float(value)) for i, value in enumerate(start.split(), start=1))
+    elif element.get("causality") != "independent":
+        yield name, None if start is None else float(start)
 
 
 def write(path: Path, content: Mapping[str, bytes]) -> None:

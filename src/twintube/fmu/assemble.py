@@ -1,4 +1,4 @@
-"""Build the damper as an FMI 2.0 co-simulation FMU: parameter set -> FMU -> validated -> written."""
+"""Build the damper as a co-simulation FMU of FMI 2.0 or 3.0: parameter set -> FMU -> validated -> written."""
 
 from __future__ import annotations
 
@@ -14,11 +14,23 @@ from twintube.core.checks import problems
 from twintube.dampers import Damper, load
 from twintube.errors import UserError
 from twintube.files import replacing
-from twintube.fmu import archive, binaries, description, documentation, licences, python_kind, related, sources, terminals
+from twintube.fmu import (
+    archive,
+    binaries,
+    description,
+    description3,
+    documentation,
+    licences,
+    python_kind,
+    related,
+    sources,
+    terminals,
+)
 from twintube.fmu.description import model_name
 from twintube.fmu.equations import StaleTranslationError
 from twintube.fmu.model import Model
-from twintube.fmu.platforms import PLATFORMS, Kind, PlatformError, known
+from twintube.fmu.platforms import Fmi, Kind, PlatformError, known
+from twintube.fmu.standards import STANDARDS
 
 Progress = Callable[[str], None]
 XML = archive.XML
@@ -35,22 +47,29 @@ def identity(content: dict[str, bytes]) -> str:
     return "{" + str(uuid.uuid5(uuid.NAMESPACE_URL, listed)) + "}"
 
 
-def native_content(model: Model, platforms: Sequence[str], date: str, progress: Progress) -> dict[str, bytes]:
+def native_content(model: Model, platforms: Sequence[str], date: str, progress: Progress, fmi: Fmi = 2) -> dict[str, bytes]:
     """Model description, sources and libraries by their path inside the FMU."""
-    texts = sources.model_sources(model, "")
+    standard = STANDARDS[fmi]
+    texts = sources.model_sources(model, "", standard)
     guid = identity({name: text.encode() for name, text in texts.items()})
-    texts |= {"model.h": sources.identity(model, guid)}
-    libraries = binaries.binaries(texts, model.name, platforms, progress)
-    xml = description.described_model(
-        model, guid, date, sources.capabilities(model), [sources.COMPILED], sources.LOG_CATEGORIES
-    )
-    return {XML: xml} | {f"sources/{name}": text.encode() for name, text in texts.items()} | libraries
+    texts |= {"model.h": sources.identity(model, guid, standard)}
+    content = {f"sources/{name}": text.encode() for name, text in texts.items()}
+    content |= binaries.binaries(texts, model.name, platforms, progress, standard)
+    if fmi == 2:
+        capabilities = sources.capabilities(model)
+        xml = description.described_model(model, guid, date, capabilities, [standard.compiled], sources.LOG_CATEGORIES)
+    else:
+        xml = description3.described_model(model, guid, date, sources.LOG_CATEGORIES)
+        content[description3.BUILD] = description3.build_description(model)
+    return content | {XML: xml}
 
 
-def contents(damper: Damper, kind: Kind, platforms: Sequence[str], date: str, progress: Progress) -> dict[str, bytes]:
+def contents(
+    damper: Damper, kind: Kind, platforms: Sequence[str], date: str, progress: Progress, fmi: Fmi
+) -> dict[str, bytes]:
     """All files of the FMU by their path, the model description first, the others by name."""
     if kind == "native":
-        content = native_content(description.damper_model(damper), platforms, date, progress)
+        content = native_content(description.damper_model(damper), platforms, date, progress, fmi)
     else:
         progress("Python sources")
         content = python_kind.content(damper)
@@ -60,13 +79,14 @@ def contents(damper: Damper, kind: Kind, platforms: Sequence[str], date: str, pr
         )
     progress("reference run, documentation, licences")
     icon = (sources.FOLDER / "model.png").read_bytes()
+    if fmi == 2:
+        content["model.png"] = icon
     content |= {
-        "model.png": icon,
         terminals.FILE: terminals.terminals(),
         terminals.ICON: icon,
-        "documentation/index.html": documentation.page(damper, kind).encode(),
+        "documentation/index.html": documentation.page(damper, kind, fmi).encode(),
     }
-    content |= licences.files(kind, platforms) | related.files(damper)
+    content |= licences.files(kind, platforms, STANDARDS[fmi]) | related.files(damper)
     return in_order(content)
 
 
@@ -82,6 +102,11 @@ def validated(fmu: Path) -> None:
     remarks = validate_fmu(str(fmu))
     if remarks:
         raise BuildError("the FMU is not valid: " + "; ".join(remarks))
+
+
+def file_name(name: str, fmi: Fmi) -> str:
+    """The file name of a model's FMU without its ending: FMUs of two versions of FMI may lie in one folder."""
+    return name if fmi == 2 else f"{name}_fmi{fmi}"
 
 
 def target_file(output: Path | str | None, name: str) -> Path:
@@ -104,23 +129,27 @@ def build_fmu(
     damper: Damper | str | Path,
     output: Path | str | None = None,
     kind: Kind = "native",
-    platforms: Sequence[str] = tuple(PLATFORMS),
+    platforms: Sequence[str] | None = None,
     progress: Callable[[str], None] | None = None,
+    fmi: Fmi = 2,
 ) -> Path:
     """Build and validate the FMU of a damper; `output` is a file or a folder, by default the current one.
 
-    `damper` may be the name or the file of a parameter set. `kind` is "native" or "python". `platforms` are those that a
-    native FMU gets libraries for. `progress` is called with a few words before each step. The environment variable
-    SOURCE_DATE_EPOCH fixes the date; all other bytes follow from damper, kind and platforms. Nothing is left behind if it
-    fails. Raises BuildError, ParameterError, and OSError where the output cannot be written.
+    `damper` may be the name or the file of a parameter set. `kind` is "native" or "python"; only native FMUs are of FMI 3.0.
+    `platforms` are those that a native FMU gets libraries for, by default all of the version `fmi`, 2 or 3. `progress` is
+    called with a few words before each step. The environment variable SOURCE_DATE_EPOCH fixes the date; all other bytes
+    follow from damper, kind, platforms and version. Nothing is left behind if it fails. Raises BuildError, ParameterError,
+    and OSError where the output cannot be written.
     """
     damper, progress = load(damper), progress or (lambda text: None)
-    target = target_file(output, model_name(damper))
+    target = target_file(output, file_name(model_name(damper), fmi))
+    if kind == "python" and fmi != 2:
+        raise BuildError(f"fmi = {fmi}, kind = python: the Python kind is built for FMI 2 only; build the native kind")
     inadmissible = problems(damper.parameters)
     if inadmissible:
         raise BuildError(f"{damper.name}: " + "; ".join(inadmissible))
     try:
-        content = contents(damper, kind, known(platforms), archive.build_date(), progress)
+        content = contents(damper, kind, known(platforms, fmi), archive.build_date(), progress, fmi)
     except REFUSALS as error:
         raise BuildError(str(error)) from error
     written(target, content, progress)

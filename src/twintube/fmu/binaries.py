@@ -14,11 +14,14 @@ from pathlib import Path
 
 from twintube.caches import cache_folder, writable
 from twintube.fmu import library_cache
-from twintube.fmu.platforms import PLATFORMS
-from twintube.fmu.sources import COMPILED
+from twintube.fmu.standards import STANDARDS, Standard
 
 # No fused multiply-add: every platform computes equal operations in equal order.
-FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-shared", "-s")
+# Functions of a shared library have no prefix; fmpy's headers of FMI 2.0 have none in any case.
+FLAGS = (
+    "-std=c99", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-shared", "-s", "-DFMI3_OVERRIDE_FUNCTION_PREFIX"
+)  # fmt: skip
+COMPILED = STANDARDS[2].compiled
 SLOW = 15  # [s] after which a word is due
 LONGEST = 900  # [s] of one compilation: five times what all platforms take one after another, with their runtimes
 CACHES = ("ZIG_GLOBAL_CACHE_DIR", "ZIG_LOCAL_CACHE_DIR")
@@ -37,10 +40,10 @@ def require_compiler() -> None:
 
 
 def headers() -> Path:
-    """The folder with the headers of FMI 2.0: fmpy has them."""
+    """The folder with the headers of FMI 2.0 and 3.0: fmpy has them."""
     spec = find_spec("fmpy")
     if spec is None or spec.origin is None:
-        raise CompilerError("no headers of FMI 2.0: pip install fmpy")
+        raise CompilerError("no headers of FMI: pip install fmpy")
     return Path(spec.origin).parent / "c-code"
 
 
@@ -83,7 +86,7 @@ def key(texts: Mapping[str, str], target: str, file: str, source: str = COMPILED
     """A digest of all that a library depends on: sources, headers, flags, target, name and compiler."""
     parts = [target, file, source, version("ziglang"), *flags, *target_flags(target, flags, file)]
     parts += [part for name in sorted(texts) for part in (name, texts[name])]
-    parts += [path.read_text(encoding="utf-8") for path in sorted(headers().glob("fmi2*.h"))]
+    parts += [path.read_text(encoding="utf-8") for path in sorted(headers().glob("fmi[23]*.h"))]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 
 
@@ -118,7 +121,11 @@ def universal(parts: Mapping[str, bytes]) -> bytes:
 
 
 def binaries(
-    texts: Mapping[str, str], name: str, platforms: Sequence[str], progress: Callable[[str], None] = lambda text: None
+    texts: Mapping[str, str],
+    name: str,
+    platforms: Sequence[str],
+    progress: Callable[[str], None] = lambda text: None,
+    standard: Standard = STANDARDS[2],
 ) -> dict[str, bytes]:
     """The libraries of known platforms by their path inside the FMU; targets are compiled in parallel."""
     require_compiler()
@@ -126,8 +133,9 @@ def binaries(
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         waiting: dict[str, dict[str, Future[bytes]]] = {}
         for platform in platforms:
-            ending, targets = PLATFORMS[platform]
-            waiting[platform] = {t: workers.submit(library, texts, t, f"{name}.{ending}") for t in targets}
+            ending, targets = standard.platforms[platform]
+            file, source = f"{name}.{ending}", standard.compiled
+            waiting[platform] = {t: workers.submit(library, texts, t, file, source) for t in targets}
         try:
             for number, (platform, futures) in enumerate(waiting.items(), start=1):
                 progress(f"library {number} of {len(waiting)}, {platform}")
@@ -137,7 +145,7 @@ def binaries(
                     )
                 parts = {target: future.result() for target, future in futures.items()}
                 whole = universal(parts) if len(parts) > 1 else next(iter(parts.values()))
-                libraries[f"binaries/{platform}/{name}.{PLATFORMS[platform][0]}"] = whole
+                libraries[f"binaries/{platform}/{name}.{standard.platforms[platform][0]}"] = whole
         except BaseException:
             workers.shutdown(cancel_futures=True)
             raise

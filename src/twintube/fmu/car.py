@@ -1,4 +1,4 @@
-"""The car as an FMI 2.0 co-simulation FMU: body, wheels, tyres, brakes and driver; the damper forces are inputs."""
+"""The car as a co-simulation FMU: body, wheels, tyres, brakes and driver; the damper forces are inputs."""
 
 import html
 from collections.abc import Iterator, Sequence
@@ -8,12 +8,13 @@ from typing import Any
 
 from twintube import __version__
 from twintube.fmu import archive, licences
-from twintube.fmu.assemble import REFUSALS, BuildError, Progress, in_order, native_content, target_file, written
+from twintube.fmu.assemble import REFUSALS, BuildError, Progress, file_name, in_order, native_content, target_file, written
 from twintube.fmu.description import EXPERIMENT, PREFIX, identifier
 from twintube.fmu.documentation import STYLE, interval
 from twintube.fmu.equations import CAR
 from twintube.fmu.model import Model
-from twintube.fmu.platforms import PLATFORMS, known
+from twintube.fmu.platforms import Fmi, known
+from twintube.fmu.standards import STANDARDS
 from twintube.fmu.table import Variable, bounds
 from twintube.vehicle.full.brakes import Brakes
 from twintube.vehicle.full.car import WHEELS, Layout, Suspension, Tyre
@@ -99,18 +100,20 @@ def build_car_fmu(
     car: FullCar,
     speed: float,
     output: Path | str | None = None,
-    platforms: Sequence[str] = tuple(PLATFORMS),
+    platforms: Sequence[str] | None = None,
     progress: Progress = lambda text: None,
+    fmi: Fmi = 2,
 ) -> Path:
     """Build and validate the native FMU of a car that starts at a `speed` [m/s].
 
-    `output`, `platforms` and errors as `build_fmu`.
+    `output`, `platforms`, `fmi` and errors as `build_fmu`.
     """
     model = car_model(car, speed)
-    target = target_file(output, model.name)
+    target = target_file(output, file_name(model.name, fmi))
     try:
-        content = native_content(model, known(platforms), archive.build_date(), progress)
-        content |= licences.files("native", platforms) | {"documentation/index.html": page(car, model)}
+        chosen = known(platforms, fmi)
+        content = native_content(model, chosen, archive.build_date(), progress, fmi)
+        content |= licences.files("native", chosen, STANDARDS[fmi]) | {"documentation/index.html": page(car, model)}
     except REFUSALS as error:
         raise BuildError(str(error)) from error
     written(target, in_order(content), progress)

@@ -1,4 +1,4 @@
-"""modelDescription.xml of both kinds of FMU, generated from the table of variables."""
+"""modelDescription.xml of FMI 2.0 for both kinds of FMU, generated from the table of variables."""
 
 import hashlib
 import re
@@ -12,6 +12,7 @@ from twintube.dampers import Damper
 from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, own_values, way_of
 from twintube.fmu.equations import DAMPER
 from twintube.fmu.model import Model
+from twintube.fmu.standards import STANDARDS, Standard
 from twintube.fmu.table import Variable, variables
 
 TITLE = "Twin-tube shock absorber after oil and gas loss (Schramm, Zwosta, Prokop 2025): stroke and velocity in, force out"
@@ -59,30 +60,45 @@ def identifier(prefix: str, text: str) -> str:
 
 def scalar(parent: ET.Element, reference: int, variable: Variable) -> str:
     """Add a variable; returns its unit."""
-    meta = variable.item.metadata
-    attributes = {
-        "name": variable.name,
+    element = ET.SubElement(parent, "ScalarVariable", place_of(variable, variable.name, reference))
+    values = values_of(variable)
+    ET.SubElement(element, "Integer" if variable.integer else "Real", values)
+    return values.get("unit", "")
+
+
+def place_of(variable: Variable, name: str, reference: int) -> dict[str, str]:
+    """Name and role of a variable as attributes."""
+    return {
+        "name": name,
         "valueReference": str(reference),
-        "description": meta["description"],
+        "description": variable.item.metadata["description"],
         "causality": variable.causality,
         "variability": variable.variability,
     }
-    element = ET.SubElement(parent, "ScalarVariable", attributes)
-    kind = ET.SubElement(element, "Integer" if variable.integer else "Real")
+
+
+def values_of(variable: Variable) -> dict[str, str]:
+    """Unit, bounds and start value of a variable as attributes."""
+    meta = variable.item.metadata
+    found: dict[str, str] = {}
     unit: str = meta["unit"] if meta["unit"] in UNITS and not variable.integer else ""
     if unit:
-        kind.set("declaredType", UNITS[unit][0])
-        kind.set("unit", unit)
+        found |= {"declaredType": UNITS[unit][0], "unit": unit}
         if unit in DISPLAY:
-            kind.set("displayUnit", DISPLAY[unit][0])
+            found["displayUnit"] = DISPLAY[unit][0]
     numbers = zip(("min", "max", "nominal", "start"), (*variable.bounds, meta["nominal"], variable.start), strict=True)
     for name, value in numbers:
         if value is not None and not (variable.integer and name == "nominal"):
-            kind.set(name, str(int(value)) if variable.integer else repr(float(value)))
-    return unit
+            found[name] = number(variable, value)
+    return found
 
 
-def define_units(root: ET.Element, used: set[str]) -> None:
+def number(variable: Variable, value: float) -> str:
+    """A value of a variable as text."""
+    return str(int(value)) if variable.integer else repr(float(value))
+
+
+def define_units(root: ET.Element, used: set[str], standard: Standard = STANDARDS[2]) -> None:
     """Fill the definitions of units, with what may be shown instead, and of types."""
     definitions, types = root.find("UnitDefinitions"), root.find("TypeDefinitions")
     assert definitions is not None and types is not None
@@ -91,7 +107,11 @@ def define_units(root: ET.Element, used: set[str]) -> None:
             continue
         unit = ET.SubElement(definitions, "Unit", name=symbol)
         ET.SubElement(unit, "BaseUnit", exponents)
-        real = ET.SubElement(ET.SubElement(types, "SimpleType", name=quantity), "Real", quantity=quantity, unit=symbol)
+        if standard.arrays:
+            real = ET.SubElement(types, f"{standard.types[0]}Type", name=quantity)
+        else:
+            real = ET.SubElement(ET.SubElement(types, "SimpleType", name=quantity), standard.types[0])
+        real.attrib |= {"quantity": quantity, "unit": symbol}
         if symbol in DISPLAY:
             name, factor = DISPLAY[symbol]
             ET.SubElement(unit, "DisplayUnit", name=name, factor=repr(factor))
@@ -117,21 +137,16 @@ def damper_model(damper: Damper) -> Model:
     return Model(model_name(damper), TITLE, tuple(variables(damper)), EXPERIMENT, DAMPER, "", True)
 
 
-def described_model(
-    model: Model, guid: str, date: str, capabilities: Mapping[str, str], sources: Sequence[str], categories: Sequence[str]
-) -> bytes:
-    """The model description; `capabilities` of the kind are added to those of both, `sources` are what is to be compiled."""
-    name = model.name
-    root = ET.Element(
-        "fmiModelDescription", fmiVersion="2.0", modelName=name, guid=guid, description=model.title, author="twintube",
-        version=__version__, license="MIT", generationTool=f"twintube {__version__}", generationDateAndTime=date,
-        variableNamingConvention="structured",
-    )  # fmt: skip
-    unit = ET.SubElement(root, "CoSimulation", {"modelIdentifier": name, **CAPABILITIES, **capabilities})
-    if sources:
-        files = ET.SubElement(unit, "SourceFiles")
-        for file in sources:
-            ET.SubElement(files, "File", name=file)
+def origin(model: Model, date: str) -> dict[str, str]:
+    """What a description says of the model's name and origin, in attributes."""
+    return {
+        "modelName": model.name, "description": model.title, "author": "twintube", "version": __version__, "license": "MIT",
+        "generationTool": f"twintube {__version__}", "generationDateAndTime": date, "variableNamingConvention": "structured",
+    }  # fmt: skip
+
+
+def begin_lists(root: ET.Element, model: Model, categories: Sequence[str]) -> None:
+    """Add what stands before the variables; the units follow from these and come last."""
     ET.SubElement(root, "UnitDefinitions")
     ET.SubElement(root, "TypeDefinitions")
     if categories:
@@ -139,6 +154,19 @@ def described_model(
         for category in categories:
             ET.SubElement(logs, "Category", name=category)
     ET.SubElement(root, "DefaultExperiment", dict(model.experiment))
+
+
+def described_model(
+    model: Model, guid: str, date: str, capabilities: Mapping[str, str], sources: Sequence[str], categories: Sequence[str]
+) -> bytes:
+    """The model description; `capabilities` of the kind are added to those of both, `sources` are what is to be compiled."""
+    root = ET.Element("fmiModelDescription", {"fmiVersion": "2.0", "guid": guid, **origin(model, date)})
+    unit = ET.SubElement(root, "CoSimulation", {"modelIdentifier": model.name, **CAPABILITIES, **capabilities})
+    if sources:
+        files = ET.SubElement(unit, "SourceFiles")
+        for file in sources:
+            ET.SubElement(files, "File", name=file)
+    begin_lists(root, model, categories)
     listed, structure = ET.SubElement(root, "ModelVariables"), ET.SubElement(root, "ModelStructure")
     outputs, initial = ET.SubElement(structure, "Outputs"), ET.SubElement(structure, "InitialUnknowns")
     used = set()

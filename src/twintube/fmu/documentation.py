@@ -11,6 +11,7 @@ from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import OWN, acting
 from twintube.fmu import reference, related
+from twintube.fmu.platforms import Fmi
 from twintube.fmu.table import Variable, variables
 from twintube.words import printable
 
@@ -53,19 +54,37 @@ On Windows python3.dll and the runtime of Microsoft Visual C++ must be on the se
 neither.
 """
 CAUSALITIES = ("input", "output", "parameter")
-KINDS = {
-    "native": """
+NATIVE = """
 <p>Compiled code that needs nothing but the C library of its system, for those of these platforms that <em>binaries</em> has:
-<em>linux64</em> (x86-64, glibc 2.17 or newer), <em>aarch64-linux</em> (ARM, glibc 2.17 or newer), <em>win64</em> (x86-64),
-<em>darwin64</em> (macOS 11 or newer, x86-64 and arm64). The C99 sources are inside; compile <em>fmi2.c</em>.</p>
-<p>With the first derivative of the velocity set as input derivative, the velocity goes evenly within the coming step; it
-holds for one attempt at a step, also a refused one. The stroke's derivative is the velocity and is not needed.</p>
+{platforms}. The C99 sources are inside; compile <em>{source}</em>.</p>
+{motion}
 <p>A refused value or step (stroke beyond the tube, NaN, negative or mistimed step, parameter out of its range) is answered
-by <em>fmi2Error</em>, a log message that names the quantity, its value and the allowed range, and the state as before.</p>
-<p>A serialized state is accepted by an FMU with the same GUID only. Steps of at most 1e-9 s count as rounding: no time
+by <em>{error}</em>, a log message that names the quantity, its value and the allowed range, and the state as before.</p>
+<p>A serialized state is accepted by an FMU with the same {key} only. Steps of at most 1e-9 s count as rounding: no time
 passes for effects.</p>
-""",
-    "python": """
+"""
+WORDS = {
+    2: {
+        "platforms": """<em>linux64</em> (x86-64, glibc 2.17 or newer), <em>aarch64-linux</em> (ARM, glibc 2.17 or newer),
+<em>win64</em> (x86-64), <em>darwin64</em> (macOS 11 or newer, x86-64 and arm64)""",
+        "source": "fmi2.c",
+        "motion": """<p>With the first derivative of the velocity set as input derivative, the velocity goes evenly within
+the coming step; it holds for one attempt at a step, also a refused one. The stroke's derivative is the velocity and is not
+needed.</p>""",
+        "error": "fmi2Error",
+        "key": "GUID",
+    },
+    3: {
+        "platforms": """<em>x86_64-linux</em> and <em>aarch64-linux</em> (glibc 2.17 or newer), <em>x86_64-windows</em>,
+<em>x86_64-darwin</em> and <em>aarch64-darwin</em> (macOS 11 or newer)""",
+        "source": "fmi3.c",
+        "motion": """<p>Each branch of the F-v curve is an array of velocities and one of forces. There is no event mode, no
+intermediate update and no early return. Warnings are logged where the importer has turned logging on.</p>""",
+        "error": "fmi3Error",
+        "key": "instantiation token",
+    },
+}
+PYTHON = """
 <p>A refused value or step (stroke beyond the tube, NaN, negative or mistimed step, parameter out of its range) is logged
 with status Error; the message names the quantity, its value and the allowed range. The coming step is answered by
 <em>fmi2Discard</em>, with the state as before. Every message goes to Python's logger <em>twintube.fmu</em>; the FMI log has
@@ -73,8 +92,7 @@ it where the importer has turned logging on. The GUID is not checked, as pythonf
 <p>This FMU carries its equations as Python source and runs them in the importer's process by Python 3.11 or newer. It needs
 no package. Importers written in Python run it as they are; others must load Python's shared library first, see
 <em>externalDependencies.txt</em>.</p>
-""",
-}
+"""
 
 
 def text(words: str) -> str:
@@ -153,10 +171,11 @@ def table(damper: Damper, causality: str) -> str:
     return "<table><tr>" + "".join(f"<th>{head}</th>" for head in heads) + "</tr>" + "\n".join(rows) + "</table>"
 
 
-def page(damper: Damper, kind: str) -> str:
-    """A self-contained HTML page for a kind of FMU."""
+def page(damper: Damper, kind: str, fmi: Fmi = 2) -> str:
+    """A self-contained HTML page for a kind of FMU and a version of FMI."""
     amplitude = reference.AMPLITUDE * damper.parameters.stroke_max
     name, title = text(damper.name), text(damper.title)
+    about = PYTHON if kind == "python" else NATIVE.format(**WORDS[fmi])
     tables = "".join(f"<h2>{causality.capitalize()}s</h2>{table(damper, causality)}" for causality in CAUSALITIES)
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>twintube {name}</title>'
@@ -164,7 +183,7 @@ def page(damper: Damper, kind: str) -> str:
         f"<style>{STYLE}</style><h1>twintube: {name}</h1><p>{title}. Semi-physical model of "
         "a twin-tube shock absorber after oil and gas loss, after Schramm, Zwosta, Prokop, Vehicles 2025, 7(1), 26, "
         f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}"
-        f"{GAS.format(text(acting(damper)), chosen_by())}{KINDS[kind]}"
+        f"{GAS.format(text(acting(damper)), chosen_by())}{about}"
         f'<figure><img alt="force over stroke and velocity" src="{picture(damper)}"><figcaption>Second half of the '
         f"reference run in {related.FOLDER}: {reference.FREQUENCY:g} Hz, {amplitude * 1e3:.0f} mm, with the start values of "
         f"this FMU.</figcaption></figure>{STROKE}{tables}</html>"

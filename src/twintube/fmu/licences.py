@@ -7,10 +7,11 @@ from pathlib import Path
 
 from twintube.fmu.binaries import headers
 from twintube.fmu.platforms import Kind
+from twintube.fmu.standards import STANDARDS, Standard
 
 FOLDER = "documentation/licenses"
 ABOUT = {
-    "fmi_headers.txt": "the headers of FMI 2.0, which the library is compiled with",
+    "fmi_headers.txt": "the headers of FMI, which the library is compiled with",
     "zig.txt": "Zig's runtime, which its C compiler links where a processor needs it",
     "mingw-w64.txt": "start of the Windows library and some of its mathematical functions, of mingw-w64",
     "pythonfmu.txt": "the library in `binaries` and the package in `resources`, of pythonfmu",
@@ -39,22 +40,22 @@ def of_compiler(path: str) -> str:
     return file.read_text(encoding="utf-8")
 
 
-def of_headers() -> str:
+def of_headers(standard: Standard) -> str:
     """The licence in the comment of FMI's header."""
-    comment = (headers() / "fmi2Functions.h").read_text(encoding="utf-8").split("/*", 1)[-1].split("*/", 1)[0]
+    comment = (headers() / standard.header).read_text(encoding="utf-8").split("/*", 1)[-1].split("*/", 1)[0]
     lines = comment[max(comment.find("Copyright (C)"), 0) :].splitlines()
     return "\n".join(line.strip() for line in lines) + "\n"
 
 
-def files(kind: Kind, platforms: Sequence[str]) -> dict[str, bytes]:
+def files(kind: Kind, platforms: Sequence[str], standard: Standard = STANDARDS[2]) -> dict[str, bytes]:
     """The licence of this package, which names the others, and theirs; raises LicenceError."""
     if kind == "python":
         others = {"pythonfmu.txt": of_package("pythonfmu")}
     else:
-        others = {"fmi_headers.txt": of_headers()}
+        others = {"fmi_headers.txt": of_headers(standard)}
         if platforms:
             others["zig.txt"] = of_compiler("LICENSE")
-        if "win64" in platforms:
+        if any(standard.platforms[platform][0] == "dll" for platform in platforms):
             others["mingw-w64.txt"] = of_compiler("lib/libc/mingw/COPYING")
     about = "".join(f"- {name}: {ABOUT[name]}\n" for name in others)
     note = f"\n{NATIVE if kind == 'native' else ''}Parts of others, with their licences in this folder:\n\n{about}"

@@ -1,4 +1,4 @@
-"""The whole car as an SSP 1.0 file: the car's FMU, four damper FMUs, their connections and parameters."""
+"""The whole car as an SSP 1.0 or 2.0 file: the car's FMU, four damper FMUs, their connections and parameters."""
 
 import tempfile
 import zipfile
@@ -13,8 +13,9 @@ from twintube.fmu.assemble import BuildError, Progress, build_fmu
 from twintube.fmu.car import build_car_fmu, car_model
 from twintube.fmu.description import damper_model, serialized
 from twintube.fmu.model import Model
-from twintube.fmu.platforms import PLATFORMS
-from twintube.fmu.ssv import STANDARD, Given, define_units, parameter_set, to_ssv
+from twintube.fmu.platforms import Ssp
+from twintube.fmu.ssv import STANDARD, define_units, parameter_set, to_ssv
+from twintube.fmu.standards import INSIDE, STANDARDS
 from twintube.vehicle.full.car import WHEELS
 from twintube.vehicle.full.run import FullCar
 
@@ -26,8 +27,11 @@ TO_DAMPER, TO_CAR = ("stroke", "velocity"), ("force",)
 EXCHANGED = (*TO_DAMPER, *TO_CAR)
 
 
-def add_component(elements: ET.Element, name: str, model: Model, wanted: Sequence[str] | None, used: set[str]) -> None:
+def add_component(
+    elements: ET.Element, name: str, model: Model, wanted: Sequence[str] | None, used: set[str], ssp: Ssp
+) -> None:
     """Add an FMU with its parameters and the connectors that are `wanted`, by default all inputs and outputs."""
+    number, _ = STANDARDS[INSIDE[ssp]].types
     component = ET.SubElement(
         elements, "ssd:Component", name=name, type="application/x-fmu-sharedlibrary", source=f"resources/{name}.fmu"
     )
@@ -37,7 +41,7 @@ def add_component(elements: ET.Element, name: str, model: Model, wanted: Sequenc
             continue
         unit = variable.item.metadata["unit"]
         connector = ET.SubElement(connectors, "ssd:Connector", name=variable.name, kind=variable.causality)
-        ET.SubElement(connector, "ssc:Real", {} if unit == "1" else {"unit": unit})
+        ET.SubElement(connector, f"ssc:{number}", {} if unit == "1" else {"unit": unit})
         used.add(unit)
     bindings = ET.SubElement(component, "ssd:ParameterBindings")
     ET.SubElement(bindings, "ssd:ParameterBinding", type="application/x-ssp-parameter-set", source=f"resources/{name}.ssv")
@@ -65,20 +69,20 @@ def annotate(system: ET.Element) -> None:
     ET.SubElement(information, "oms:FixedStepMaster", tolerances, description="oms-ma", stepSize=STEP)
 
 
-def structure(car: FullCar, speed: float) -> bytes:
+def structure(car: FullCar, speed: float, ssp: Ssp) -> bytes:
     """The text of `SystemStructure.ssd`; inputs of driver and road stay open."""
     spaces = {"ssd": f"{STANDARD}Description", "ssc": f"{STANDARD}Common", "oms": OMS}
     root = ET.Element(
         "ssd:SystemStructureDescription", {f"xmlns:{prefix}": space for prefix, space in spaces.items()},
-        name=car_model(car, speed).name, version="1.0", generationTool=f"twintube {__version__}",
+        name=car_model(car, speed).name, version=f"{ssp}.0", generationTool=f"twintube {__version__}",
     )  # fmt: skip
     system = ET.SubElement(root, "ssd:System", name="root")
     elements, connections = ET.SubElement(system, "ssd:Elements"), ET.SubElement(system, "ssd:Connections")
     used: set[str] = set()
     # Inputs of driver and road stay open: ecos refuses connections to the outside of the system.
-    add_component(elements, CAR, car_model(car, speed), None, used)
+    add_component(elements, CAR, car_model(car, speed), None, used, ssp)
     for wheel, damper in zip(WHEELS, car.dampers, strict=True):
-        add_component(elements, wheel, damper_model(damper), EXCHANGED, used)
+        add_component(elements, wheel, damper_model(damper), EXCHANGED, used, ssp)
         connect(connections, wheel)
     annotate(system)
     define_units(ET.SubElement(root, "ssd:Units"), used)
@@ -86,18 +90,17 @@ def structure(car: FullCar, speed: float) -> bytes:
     return serialized(root)
 
 
-def parameters(car: FullCar, speed: float) -> dict[str, bytes]:
+def parameters(car: FullCar, speed: float, ssp: Ssp) -> dict[str, bytes]:
     """The parameter sets by their path; all have the car's name, by which ecos takes them together."""
     model = car_model(car, speed)
-    entries = [Given(v.name, v.item, v.start or 0.0) for v in model.variables if v.causality == "parameter"]
-    texts = {CAR: parameter_set(car.name, model.title, entries)}
-    texts |= {wheel: to_ssv(damper, car.name) for wheel, damper in zip(WHEELS, car.dampers, strict=True)}
+    texts = {CAR: parameter_set(car.name, model.title, model.variables, ssp)}
+    texts |= {wheel: to_ssv(damper, car.name, ssp) for wheel, damper in zip(WHEELS, car.dampers, strict=True)}
     return {f"resources/{name}.ssv": text.encode() for name, text in texts.items()}
 
 
-def described(car: FullCar, speed: float) -> dict[str, bytes]:
+def described(car: FullCar, speed: float, ssp: Ssp = 1) -> dict[str, bytes]:
     """The files by their path that say what is in the SSP: system and parameters."""
-    return {"SystemStructure.ssd": structure(car, speed), **parameters(car, speed)}
+    return {"SystemStructure.ssd": structure(car, speed, ssp), **parameters(car, speed, ssp)}
 
 
 def members(path: Path) -> dict[str, bytes]:
@@ -113,24 +116,27 @@ def build_ssp(
     car: FullCar,
     speed: float,
     output: Path | str,
-    platforms: Sequence[str] = tuple(PLATFORMS),
+    platforms: Sequence[str] | None = None,
     progress: Progress = lambda text: None,
+    ssp: Ssp = 1,
 ) -> Path:
-    """Build the SSP of a car that starts at a `speed` [m/s], with libraries for `platforms`.
+    """Build the SSP of a car that starts at a `speed` [m/s], with libraries for `platforms`, by default all.
+
+    SSP 1.0 holds FMUs of FMI 2.0, SSP 2.0 those of FMI 3.0, whose platforms have other names.
 
     Raises BuildError, and OSError where the output cannot be written.
     """
     target = Path(output)
     if target.is_dir() or target.suffix.lower() != ".ssp":
         raise BuildError(f"output = {target}: must be a file that ends with .ssp")
-    content = described(car, speed)
+    content, fmi = described(car, speed, ssp), INSIDE[ssp]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         progress("the car")
-        units = {CAR: build_car_fmu(car, speed, folder / f"{CAR}.fmu", platforms, progress)}
+        units = {CAR: build_car_fmu(car, speed, folder / f"{CAR}.fmu", platforms, progress, fmi)}
         for wheel, damper in zip(WHEELS, car.dampers, strict=True):
             progress(f"the damper {wheel}")
-            units[wheel] = build_fmu(damper, folder / f"{wheel}.fmu", platforms=platforms, progress=progress)
+            units[wheel] = build_fmu(damper, folder / f"{wheel}.fmu", platforms=platforms, progress=progress, fmi=fmi)
         content |= {f"resources/{key}.fmu": file.read_bytes() for key, file in units.items()}
         archive.write(folder / target.name, content)
         with replacing(target) as part:

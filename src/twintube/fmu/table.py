@@ -1,11 +1,11 @@
 """All variables of a damper's FMU in the order of their value references, the same in both kinds of FMU."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import Field, dataclass, fields
 from typing import Any
 
 from twintube.core.checks import tube_limit
-from twintube.core.variables import Inputs, Outputs, fmi_name
+from twintube.core.variables import Inputs, Outputs, fmi_name, var
 from twintube.dampers import Damper, elements
 
 
@@ -34,6 +34,14 @@ class Variable:
         return bool(self.item.metadata["integer"])
 
 
+@dataclass
+class Independent:
+    """What FMI 3.0 wants as a variable too."""
+
+    time: float = var("", "t", "s", "time: where the last step ended")
+
+
+TIME = Variable("time", "independent", fields(Independent)[0], -1, None, "time", (None, None))
 # The order of the F-v curve's memory in `struct parameters`.
 CURVES = ("v_re", "F_re", "v_co", "F_co")
 
@@ -57,3 +65,18 @@ def variables(damper: Damper) -> Iterator[Variable]:
     for name, item, i, value in elements(damper):
         place = f"wanted.fv[{CURVES.index(item.name)}][{i}]" if item.name in CURVES else f"wanted.p.{item.name}"
         yield Variable(name, "parameter", item, i, value, place, bounds(item))
+
+
+def lengths(variables: Sequence[Variable], arrays: bool) -> list[int]:
+    """The number of values that belong to each value reference; 0 for those of an array that is one variable."""
+    counts = [1] * len(variables)
+    for place, variable in enumerate(variables):
+        if arrays and variable.index > 0:
+            counts[place] = 0
+            counts[place - variable.index] += 1
+    return counts
+
+
+def array_name(parts: Sequence[Variable]) -> str:
+    """The name of an array of these elements, or of the single variable."""
+    return parts[0].name if len(parts) == 1 else parts[0].name.removesuffix("[1]")
