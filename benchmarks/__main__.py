@@ -9,14 +9,18 @@ from typing import Annotated, Any
 
 import typer
 
+from benchmarks.calibration import DRAWS, bench_calibration
 from benchmarks.car import bench_car
 from benchmarks.dead_length import bench_dead_length
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
+from benchmarks.driving import bench_driving
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.identify import SEEDS, bench_identify
+from benchmarks.importers import as_table, bench_importers
 from benchmarks.inspect import bench_inspect
 from benchmarks.kernel import bench_kernel
 from benchmarks.oil_leak_page import bench_oil_leak
+from benchmarks.priors import bench_priors
 from benchmarks.small_strokes import bench_small_strokes
 from benchmarks.steps import bench_steps
 from benchmarks.tiring import bench_rough_road, bench_tiring
@@ -29,7 +33,9 @@ BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "fmu_step": bench_fmu_step,
     "quarter_car": bench_quarter_car,
     "car": bench_car,
+    "importers": bench_importers,
     "inspect": bench_inspect,
+    "driving": bench_driving,
     "steps": bench_steps,
     "small_strokes": bench_small_strokes,
     "dead_length": bench_dead_length,
@@ -40,8 +46,10 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
     "diagnosis": bench_diagnosis,
     "detection": bench_detection,
     "identify": lambda seeds, _: bench_identify(seeds),
+    "calibration": bench_calibration,
+    "priors": lambda _, keep: bench_priors(keep),
 }
-FEW = {"identify": SEEDS}  # seeds by default, where not MANY
+FEW = {"identify": SEEDS, "calibration": DRAWS}  # seeds by default, where not MANY
 MANY = 10
 OTHERS = ("oil_leak",)
 NAMES = ", ".join((*BENCHMARKS, *SEEDED, *OTHERS))
@@ -54,11 +62,14 @@ def main(
     json_file: Annotated[Path | None, typer.Option("--json", help="Write the figures to this file.")] = None,
     seeds: Annotated[
         int | None,
-        typer.Option(min=1, help=f"Datasets of each kind, for those that draw some; {MANY}, for identify {SEEDS}."),
+        typer.Option(
+            min=1,
+            help=f"Datasets of each kind, for those that draw some; {MANY}, for identify {SEEDS}, for calibration {DRAWS}.",
+        ),
     ] = None,
     keep: Annotated[
         Path | None,
-        typer.Option(help="Folder that datasets and answers of diagnosis or detection stay in; those there count again."),
+        typer.Option(help="Folder that datasets, draws and answers stay in; those there count again."),
     ] = None,
     plot: Annotated[Path | None, typer.Option(help="Picture of oil_leak.")] = None,
     tables: Annotated[Path | None, typer.Option(help="Tables of oil_leak in Markdown.")] = None,
@@ -69,7 +80,8 @@ def main(
     Short jobs are run several times, the shortest time counts.
 
     diagnosis and detection answer datasets with hidden causes one after the other, and take hours with 10 seeds. Other
-    datasets: python -m worlds run.
+    datasets: python -m worlds run. calibration draws datasets from the priors of the diagnosis; priors halves and doubles
+    them on nine datasets. Both take about an hour.
     """
     if name not in (*BENCHMARKS, *SEEDED, *OTHERS):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
@@ -86,15 +98,16 @@ def main(
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from error
     typer.echo(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}")
-    if name == "diagnosis":
-        typer.echo(score_tables(figures), nl=False)
-    for key, value in figures.items() if name != "diagnosis" else ():
+    tables_of = {"diagnosis": score_tables, "importers": as_table}
+    if name in tables_of:
+        typer.echo(tables_of[name](figures), nl=False)
+    for key, value in figures.items() if name not in tables_of else ():
         if isinstance(value, float):
             typer.echo(f"{key:32}{value:12.3f}")
         elif isinstance(value, dict):
             typer.echo(f"{key}:")
             for row, cells in value.items():
-                told = ", ".join(f"{what} {n:g}" for what, n in cells.items()) if isinstance(cells, dict) else f"{cells:g}"
+                told = ", ".join(f"{what} {n:.4g}" for what, n in cells.items()) if isinstance(cells, dict) else f"{cells:g}"
                 typer.echo(f"  {row:34}{told}")
     if json_file is not None:
         json_file.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")

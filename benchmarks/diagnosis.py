@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from twintube.lab.blind_trials.hidden import EFFECTS
+from worlds.blind_trials.hidden import EFFECTS
 from worlds.makers import FIRST_TRIAL, TRIALS, Job, jobs, of_trials
 from worlds.run import run
 from worlds.scoring import score

@@ -16,14 +16,16 @@ from twintube.dampers import Damper, load
 from twintube.demo.damper_fmu import DamperFmu
 from twintube.demo.ride import RideCase, ride
 from twintube.fmu import binaries, build_fmu
-from twintube.fmu.platforms import PLATFORMS, Kind
+from twintube.fmu.platforms import PLATFORMS, Fmi, Kind
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track
 
 TRIVIAL = Path(__file__).parent / "trivial.c"
-HOST = Path(__file__).parent.parent / "tests" / "native" / "host.c"
+HOST = Path(__file__).parent / "step_host.c"
 STEPS, PERIODS = 20000, 64
-HOST_STEPS = 2_000_000
+HOST_STEPS, MOST_STEPS = 500_000, 4_000_000  # the latter: a thousand instances of 4000 steps
+VERSIONS: tuple[tuple[Fmi, str], ...] = ((2, fmpy.platform), (3, fmpy.platform_tuple))
+STEP_LENGTHS, INSTANCES = (1e-4, 1e-3, 5e-3), 1000  # [s]
 
 
 def trivial(native: Path, folder: Path) -> Path:
@@ -78,15 +80,31 @@ def by_handle(fmu: Path) -> float:
         return best(lambda: [unit.step(z, v, 1e-3) for z, v in moves()]) / STEPS
 
 
-def by_host(fmu: Path, folder: Path) -> float:
-    """The same in a program of C."""
-    unpacked = Path(fmpy.extract(str(fmu), str(folder / "host_unpacked")))
-    host = folder / "host"
-    flags = ("-std=gnu99", "-O2", f"-I{unpacked / 'sources'}", "-pthread", "-ldl")
-    binaries.compiled(HOST, PLATFORMS[fmpy.platform][1][0], host, flags)
-    library = next((unpacked / "binaries" / fmpy.platform).iterdir())
-    command = [str(host), str(library), "speed", str(HOST_STEPS)]
-    return min(float(subprocess.run(command, check=True, capture_output=True, text=True).stdout) for _ in range(3)) * 1e-9
+def in_c(folder: Path, damper: Damper) -> dict[str, float]:
+    """The same in a program of C, at three steps, of FMI 2.0 and 3.0 and of the trivial library: time of the processor."""
+    target = PLATFORMS[fmpy.platform][1][0]
+    host, bare = folder / "host", folder / "bare.so"
+    binaries.compiled(HOST, target, host, ("-std=gnu99", "-O2", "-ldl"))
+    binaries.compiled(TRIVIAL, target, bare)
+    found: dict[str, float] = {}
+    for fmi, platform in VERSIONS:
+        unit = build_fmu(damper, folder / f"c{fmi}.fmu", platforms=(platform,), fmi=fmi)
+        guid = fmpy.read_model_description(str(unit)).guid
+        library = next((Path(fmpy.extract(str(unit), str(folder / f"c{fmi}"))) / "binaries" / platform).iterdir())
+
+        def run(file: Path, step: float, steps: int, instances: int, guid: str = guid, fmi: Fmi = fmi) -> list[float]:
+            """Time of a step [us] and memory of an instance [kB]."""
+            command = [host, file, guid, fmi, step, steps, instances, 0, 1, 2]
+            done = subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True)
+            return [float(number) * 1e-3 for number in done.stdout.split()]
+
+        for step in STEP_LENGTHS:
+            both = [min(run(file, step, HOST_STEPS, 1)[0] for _ in range(3)) for file in (library, bare)]
+            found |= {f"fmi{fmi}_{step * 1e3:g}_ms_us": both[0], f"fmi{fmi}_{step * 1e3:g}_ms_ratio": both[0] / both[1]}
+        found[f"fmi{fmi}_of_{INSTANCES}_us"], found[f"fmi{fmi}_of_{INSTANCES}_kB_each"] = run(
+            library, 1e-3, MOST_STEPS, INSTANCES
+        )
+    return found
 
 
 def kernel(damper: Damper) -> float:
@@ -98,24 +116,24 @@ def kernel(damper: Damper) -> float:
 
 
 def bench_fmu_step() -> dict[str, float]:
-    """Set, step and get, SA8 at 60 % oil: `us_per_step` and its reference, a trivial C FMU, both through fmpy."""
+    """Set, step and get, SA8 at 60 % oil: `us_per_step` beside a trivial C FMU, both through fmpy; in C, see `in_c`."""
     damper = load("SA8").with_(oil_level=0.6, gas_preload=0)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         native = build_fmu(damper, folder / "native.fmu", platforms=(fmpy.platform,))
         python = build_fmu(damper, folder / "python.fmu", "python")
         bare = trivial(native, folder)
+        inside = in_c(folder, damper)
         found = {
             "us_per_step": by_fmpy(native, folder),
             "reference_us_per_step": by_fmpy(bare, folder),
             "python_kind_us_per_step": by_fmpy(python, folder),
             "buffered_us_per_step": by_handle(native),
             "buffered_reference_us_per_step": by_handle(bare),
-            "c_host_us_per_step": by_host(native, folder),
             "interpreted_kernel_us_per_step": kernel(damper),
         }
     figures = {key: value * 1e6 for key, value in found.items()}
-    return figures | {"ratio": figures["us_per_step"] / figures["reference_us_per_step"]}
+    return figures | {"ratio": figures["us_per_step"] / figures["reference_us_per_step"]} | inside
 
 
 def bench_quarter_car() -> dict[str, float]:

@@ -72,3 +72,21 @@ STUB(fmi2GetRealStatus)
 STUB(fmi2GetIntegerStatus)
 STUB(fmi2GetBooleanStatus)
 STUB(fmi2GetStringStatus)
+
+/* What a host needs of FMI 3.0. */
+#define LIKE_2(name, arguments, ...) \
+    EXPORT int name arguments \
+    { \
+        return __VA_ARGS__; \
+    }
+
+EXPORT void *fmi3InstantiateCoSimulation(void)
+{
+    return calloc(512, sizeof(double));
+}
+
+LIKE_2(fmi3SetFloat64, (void *c, const unsigned vr[], size_t n, const double value[]), fmi2SetReal(c, vr, n, value))
+LIKE_2(fmi3GetFloat64, (void *c, const unsigned vr[], size_t n, double value[]), fmi2GetReal(c, vr, n, value))
+LIKE_2(fmi3DoStep, (void *c, double time, double step), fmi2DoStep(c, time, step, 0))
+LIKE_2(fmi3EnterInitializationMode, (void), 0)
+LIKE_2(fmi3ExitInitializationMode, (void), 0)

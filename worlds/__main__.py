@@ -1,7 +1,6 @@
 """`python -m worlds COMMAND`: bench data with a known truth, a diagnosis of many of them, and what the answers are worth."""
 
 import json
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +8,6 @@ import typer
 
 from twintube.errors import UserError
 from twintube.files import write_text
-from worlds.imperfect import make, write
 from worlds.makers import FIRST_SEED, WORLDS, collected, jobs
 from worlds.run import run as run_jobs
 from worlds.run import write_score
@@ -17,13 +15,6 @@ from worlds.scoring import read_pairs, tables
 from worlds.scoring import score as score_pairs
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
-
-
-class World(StrEnum):
-    """The worlds of `imperfect`."""
-
-    unknown_fill = "unknown_fill"
-    before_after = "before_after"
 
 
 @app.callback()
@@ -35,21 +26,6 @@ def refuse(message: str) -> typer.Exit:
     """Say what is wrong; the exit to raise."""
     typer.echo(f"error: {message}", err=True)
     return typer.Exit(2)
-
-
-@app.command()
-def imperfect(
-    seed: Annotated[int, typer.Option(min=0, help="The same seed makes the same files.")],
-    output: Annotated[Path, typer.Option(help="Folder for dataset/ and truth.json; neither may exist there.")],
-    world: Annotated[
-        World | None, typer.Option(help="By default even seeds are unknown_fill, odd ones before_after.")
-    ] = None,
-) -> None:
-    """A damper that differs from its parameter set, on a bench that is not perfect."""
-    for path in (output / "dataset", output / "truth.json"):
-        if path.exists():
-            raise refuse(f"{path}: exists already")
-    write(make(seed, None if world is None else world.value), output)
 
 
 @app.command(epilog="Example: python -m worlds score run/before_after_*")
@@ -72,6 +48,12 @@ def score(
         write_text(json_file, json.dumps(scored, indent=1) + "\n")
 
 
+def known(world: str) -> None:
+    """Refuse the name of no world."""
+    if world not in WORLDS:
+        raise refuse(f"--world {world}: must be one of {', '.join(WORLDS)}")
+
+
 def span(text: str, world: str) -> tuple[int, int]:
     """First and last seed in `A-B` or `A`."""
     first, _, last = text.partition("-")
@@ -80,6 +62,20 @@ def span(text: str, world: str) -> tuple[int, int]:
     if int(first) < (least := FIRST_SEED.get(world, 0)):
         raise refuse(f"--seeds {text}: the seeds of {world} begin at {least}")
     return int(first), int(last or first)
+
+
+@app.command(epilog="Example: python -m worlds make --world workshop --seed 7 --output one")
+def make(
+    world: Annotated[str, typer.Option(help=f"One of {', '.join(WORLDS)}.")],
+    seed: Annotated[int, typer.Option(min=0, help="The same seed makes the same data.")],
+    output: Annotated[Path, typer.Option(help="Folder for dataset/ and truth.json, which neither may hold.")],
+) -> None:
+    """Make a dataset."""
+    for path in (output / "dataset", output / "truth.json"):
+        if path.exists():
+            raise refuse(f"{path}: exists already")
+    known(world)
+    WORLDS[world](span(str(seed), world)[0], output)
 
 
 @app.command(epilog="Example: python -m worlds run --world before_after --seeds 1-20 --output run --jobs 2")
@@ -96,8 +92,8 @@ def run(
     """Make datasets, have `twintube diagnose` answer them, and score the answers."""
     if (datasets is None) == (world == ""):
         raise refuse("--world, --datasets: give one of them")
-    if world and world not in WORLDS:
-        raise refuse(f"--world {world}: must be one of {', '.join(WORLDS)}")
+    if datasets is None:
+        known(world)
     try:
         wanted = jobs(world, *span(seeds, world)) if datasets is None else collected(datasets)
         pairs = run_jobs(wanted, output, workers=workers, timeout=timeout)

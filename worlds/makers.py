@@ -8,14 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
-from twintube.files import write_text
-from twintube.lab import challenge, workshop
-from twintube.lab.blind_trials import trials
-from worlds.adapters import of_collection, of_generator, of_trial
+from worlds import challenge, workshop
+from worlds.bench.files import told, write_truth
+from worlds.blind_trials import trials
 from worlds.identified import identify_first
-from worlds.imperfect import World, before_after, make, write
+from worlds.imperfect import World, before_after, unknown_fill, write
 from worlds.other_physics import virtual_rig
-from worlds.scoring.truth import TruthError
+from worlds.scoring.truth import TruthError, truth_of
 
 PAIRS: Final = (
     "valve_wear+gas_spring",
@@ -32,17 +31,12 @@ class Job:
     """A dataset to be made: its name, and what makes it in a folder."""
 
     name: str
-    make: Callable[[Path], None]
+    make: Callable[[Path], object]
 
 
-def write_truth(folder: Path, truth: dict[str, Any]) -> None:
-    """Write truth.json, the last file of a dataset that is being made."""
-    write_text(folder / "truth.json", json.dumps(truth, indent=1) + "\n")
-
-
-def imperfect(world: str, seed: int, folder: Path) -> None:
+def made(make_world: Callable[[int], World], seed: int, folder: Path) -> None:
     """A damper that differs from its parameter set."""
-    write(make(seed, world), folder)
+    write(make_world(seed), folder)
 
 
 def identified(world: str, make_world: Callable[[int], World], seed: int, folder: Path) -> None:
@@ -56,23 +50,14 @@ def identified(world: str, make_world: Callable[[int], World], seed: int, folder
     write_truth(folder, truth | {"world": world, "not_identified": failure})
 
 
-def of_challenge(seed: int, folder: Path, cause: str | None = None) -> None:
-    """A seed of the challenge, with a cause of its own or a chosen one."""
-    truth = challenge.write(seed, folder / "dataset", cause)
-    (folder / "dataset.truth.json").unlink()
-    write_truth(folder, of_generator("challenge", truth))
-
-
-def of_workshop(seed: int, folder: Path) -> None:
-    """A seed of the workshop, from 1 on."""
-    write_truth(folder, of_generator("workshop", workshop.write(seed, folder / "dataset")))
-
-
 def of_trials(kind: str, seed: int, strength: float | None, folder: Path) -> None:
     """A blind trial of a kind."""
     trial = trials.trial(kind, seed, strength=strength)
     trials.write(trial, folder / "dataset")
-    write_truth(folder, of_trial(trial))
+    causes = kind.split("+")
+    of = "none" if kind == "none" else "fault" if set(causes) <= set(trials.FAULTS) else "effect"
+    more = {"parameters": trial.truth, "strength": trial.strength}
+    write_truth(folder, told("blind_trials", seed, trial.damper, causes, "outside" if kind in trials.OUTSIDE else of, more))
 
 
 def blind_trials(seed: int, folder: Path) -> None:
@@ -81,13 +66,13 @@ def blind_trials(seed: int, folder: Path) -> None:
     of_trials(TRIALS[place], FIRST_TRIAL + block, None, folder)
 
 
-WORLDS: Final[dict[str, Callable[[int, Path], None]]] = {
-    "unknown_fill": partial(imperfect, "unknown_fill"),
-    "before_after": partial(imperfect, "before_after"),
+WORLDS: Final[dict[str, Callable[[int, Path], object]]] = {
+    "unknown_fill": partial(made, unknown_fill),
+    "before_after": partial(made, before_after),
     "before_after_identified": partial(identified, "before_after_identified", before_after),
     "virtual_rig": partial(identified, "virtual_rig", virtual_rig),
-    "challenge": of_challenge,
-    "workshop": of_workshop,
+    "challenge": challenge.write,
+    "workshop": workshop.write,
     "blind_trials": blind_trials,
 }
 FIRST_SEED: Final = {"workshop": 1}  # of the others 0
@@ -112,9 +97,9 @@ def collected(collection: Path) -> list[Job]:
     except (OSError, ValueError) as error:
         raise TruthError(f"{path}: {error}") from error
     found = []
-    for name, told in table.items():
+    for name, truth in table.items():
         if not (collection / name / "dataset.toml").is_file():
             raise TruthError(f"{path}: {name}: no dataset of that name beside it")
-        truth = told if "kind" in told else of_collection(collection.resolve().name, told)
+        truth_of(truth, f"{path}: {name}")
         found.append(Job(name, partial(copied, collection / name, truth)))
     return found

@@ -10,24 +10,15 @@ from typing import Any, Final
 import numpy as np
 
 from twintube import load
+from twintube.arrays import Array
 from twintube.lab.virtual_rig import VirtualDamper, run, virtual_damper
 from twintube.lab.virtual_rig.dimensions import DIMENSIONS
-from worlds.imperfect.bench import (
-    AMPLITUDES,
-    STROKE_STEP,
-    Bench,
-    Fault,
-    Motion,
-    draw_bench,
-    noise,
-    recorded,
-    seen,
-    sine,
-    triangle,
-)  # fmt: skip
-from worlds.imperfect.causes import CAUSES, RNG, span
-from worlds.imperfect.law import RATE, Array, Law
-from worlds.imperfect.world import IDENTIFYING, STATED_WRONGLY, UNCHANGED, Day, Recording, World, draw_day, over_noise
+from worlds.bench.plan import RNG, Motion, span
+from worlds.imperfect.bench import AMPLITUDES, Fault, draw_bench, sine, triangle
+from worlds.imperfect.causes import CAUSES
+from worlds.imperfect.law import RATE, Law
+from worlds.imperfect.session import Damper, Day, Driven, draw_day, over_noise, session
+from worlds.imperfect.world import IDENTIFYING, STATED_WRONGLY, UNCHANGED, World
 
 STATES: Final = ("oil_lost", "oil_and_gas_lost", "preload_lost")
 CHANNELS: Final = ("gain", "zero", "delay", "stroke", "signs", "unit")
@@ -48,32 +39,22 @@ def with_friction(damper: VirtualDamper, more: float) -> VirtualDamper:
 
 def force(damper: VirtualDamper, z: Array, level: float, preload: bool, room: float, warmer: float) -> Array:
     """Force of the rig [N] (n,) at strokes [m] at RATE, with oil that is `warmer` [K] than the room."""
-    return run(damper, np.arange(len(z)) / RATE, z, level, preload, room + warmer).force
+    return run(damper, np.arange(len(z)) / RATE, np.asarray(z, dtype=np.float64), level, preload, room + warmer).force
 
 
-def session(
-    rng: RNG, healthy: VirtualDamper, damper: VirtualDamper, bench: Bench, day: Day, motions: list[Motion],
-    state: dict[str, Any], fault: Fault, warmer: float, *, reference: bool,
-) -> list[Recording]:  # fmt: skip
-    """Records one after the other on one day; `state` holds oil_level and gas_preload where they are not as delivered."""
+def rig_on(
+    healthy: VirtualDamper, damper: VirtualDamper, day: Day, state: dict[str, Any], fault: Fault, warmer: float
+) -> Damper:
+    """A virtual damper in a session; `state` holds oil_level and gas_preload where they are not as delivered."""
     level, preload = float(state.get("oil_level", 1.0)), bool(state.get("gas_preload", 1))
-    out = []
-    for motion in motions:
-        own = force(damper, motion.z, level, preload, day.room, warmer)
-        read = fault.sign * fault.stroke_gain * motion.z  # what the damper would do at the stroke that is read
-        plain = own if reference else force(healthy, read, 1.0, True, day.room, 0.0)
-        zeros = np.zeros(len(motion.z))
-        stroke, clean = recorded(bench, motion, *seen(bench, fault, motion.z, own, zeros))
-        _, before = recorded(bench, motion, *seen(bench, Fault(), motion.z, plain, zeros))
-        n = len(clean)
-        measured = day.gain * clean + day.zero + float(rng.normal(0.0, 1.5)) + noise(bench, n, rng)
-        stroke = np.round((stroke + bench.stroke_noise * rng.standard_normal(n)) / STROKE_STEP) * STROKE_STEP
-        out.append(Recording(
-            motion.name, motion.measurement, np.arange(n) / bench.rate, stroke, measured, None,
-            round(day.room + warmer, 1), reference, clean, before, motion.period,
-            max(0, motion.steady - motion.first) * bench.rate // RATE,
-        ))  # fmt: skip
-    return out
+    same = damper == healthy and (level, preload, fault, warmer) == (1.0, True, Fault(), 0.0)
+
+    def driven(i: int, motion: Motion) -> Driven:
+        own = force(damper, motion.stroke, level, preload, day.room, warmer)
+        read = fault.sign * fault.stroke_gain * motion.stroke  # what the damper would do at the stroke that is read
+        return Driven(own, own if same else force(healthy, read, 1.0, True, day.room, 0.0), day.room + warmer)
+
+    return driven
 
 
 def virtual_rig(seed: int) -> World:
@@ -84,7 +65,7 @@ def virtual_rig(seed: int) -> World:
     bench = replace(bench, temperature=str(rng.choice(["start", "none"])))  # the rig's oil has no thermocouple
     amplitude = float(rng.choice([a for a in AMPLITUDES[1:] if a <= 0.9 * healthy.half]))
     speeds = [0.05, *sorted(float(v) for v in rng.choice(IDENTIFYING[1:], 4, replace=False))]
-    first = [triangle(bench, 2e-3, amplitude, "_a"), *(sine(bench, v, amplitude, "_a") for v in speeds)]
+    first = [triangle(2e-3, amplitude, "_a"), *(sine(bench, v, amplitude, "_a") for v in speeds)]
     again = sorted(float(v) for v in rng.choice(speeds, int(rng.integers(2, 4)), replace=False))
     later = [sine(bench, v, amplitude, "_b") for v in again]
     key = "" if rng.random() < UNCHANGED else str(rng.choice([*STATES, *CHANNELS, *INSIDE, "hot_run"]))
@@ -101,8 +82,9 @@ def virtual_rig(seed: int) -> World:
     state = drawn if key in STATES else {}
     fault = Fault(**drawn) if key in CHANNELS else Fault()
     days = draw_day(rng), draw_day(rng)
-    before = session(rng, healthy, healthy, bench, days[0], first, {}, Fault(), 0.0, reference=True)
-    after = session(rng, healthy, damper, bench, days[1], later, state, fault, warmer, reference=False)
+    new, used = rig_on(healthy, healthy, days[0], {}, Fault(), 0.0), rig_on(healthy, damper, days[1], state, fault, warmer)
+    before = session(rng, bench, days[0], first, Fault(), new, reference=True)
+    after = session(rng, bench, days[1], later, fault, used, reference=False)
     wrong = bool(rng.random() < STATED_WRONGLY)
     truth = {
         "world": "virtual_rig", "seed": seed, "damper": name, "kind": "none", "causes": ["none"], "also_fits": [],

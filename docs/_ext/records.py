@@ -3,7 +3,7 @@
 import inspect
 import re
 from dataclasses import MISSING, fields, is_dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from numpy.typing import ArrayLike
 from sphinx.application import Sphinx
@@ -26,6 +26,11 @@ def named(text: str) -> str:
     return text
 
 
+def described(metadata: Any) -> str:
+    """`damper force [N]` of a variable of the table."""
+    return f"{metadata['description']} [{metadata['unit']}]" if "description" in metadata else ""
+
+
 def add_fields(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
     """Append the fields of a dataclass to its docstring."""
     if what != "class" or not is_dataclass(obj):
@@ -34,8 +39,13 @@ def add_fields(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines:
     lines += ["", "Fields:", ""]
     for item in fields(obj):
         value = "" if item.default is MISSING else f", default ``{item.default!r}``"
-        comment = item.metadata.get("description") or comments.get(item.name, "")
-        kind = PREFIX.sub("", named(item.type if isinstance(item.type, str) else stringify_annotation(item.type)))
+        comment = described(item.metadata) or comments.get(item.name, "")
+        # Fields of the table of outputs are arrays in a simulation.
+        kind = (
+            "Array"
+            if isinstance(item.type, TypeVar)
+            else PREFIX.sub("", named(item.type if isinstance(item.type, str) else stringify_annotation(item.type)))
+        )
         lines.append(f"* ``{item.name}`` (``{kind}``{value}){': ' + comment if comment else ''}")
     lines.append("")
 

@@ -7,18 +7,15 @@ The diagnosis names it, and predicts the records that it was not fitted to. This
 processor time.
 """
 
-import tempfile
+from importlib.resources import files
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 
 from twintube import diagnose
-from twintube.lab.example import write
 
-folder = Path(tempfile.mkdtemp())
-write(folder)  # as `twintube example my_example` does
-
-answer = diagnose(folder)
+folder = files("twintube.examples") / "bench_SA8"  # what `twintube example my_example` copies
+answer = diagnose(Path(str(folder)))
 print(answer.verdict, [hypothesis.name for hypothesis in answer.named])
 for hypothesis in answer.changes.hypotheses[:3]:
     print(f"{hypothesis.probability:5.0%}  {hypothesis.name}")

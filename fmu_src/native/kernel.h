@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 35a74fb1919e604a, body c4637e5cbffe1cc4; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 66e6b61a9a4f55cf, body f9e88f883aaef11a; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -133,7 +133,6 @@ struct kernel_Derived {
     double Y_Co;
     double Y_Re;
     double cavitation;
-    double displaced;
     int64_t extended;
 };
 
@@ -170,6 +169,7 @@ struct kernel_State {
     double k_mean;
     double W_step;
     double warm;
+    double duration;
     double elapsed;
     double F_held_re;
     double F_held_co;
@@ -178,7 +178,6 @@ struct kernel_State {
     double F_late;
     double closed;
     double closing_side;
-    double closing_time;
     double k_held_re;
     double k_held_co;
     double x_mount;
@@ -239,6 +238,10 @@ struct kernel_Flow {
 struct kernel_Outputs {
     double force;
     double k_degr;
+    double F_fluid;
+    double F_friction;
+    double F_gas;
+    double work;
     double V1_oil;
     double V1_gas;
     double V1_foam;
@@ -248,10 +251,7 @@ struct kernel_Outputs {
     double V3_oil;
     double V3_gas;
     double V3_foam;
-    double force_fluid;
-    double force_friction;
-    double force_gas;
-    double work;
+    double V_cav;
 };
 
 struct kernel_Violation {
@@ -274,6 +274,13 @@ struct kernel_Agreement {
     double doubt;
 };
 
+/* Cavitation shares where the `share` [1] of the gas can be freed; the paper knows no limit, 1. */
+static void kernel_cavitate(struct kernel_Parameters* p, struct kernel_Derived* d, double share)
+{
+    d->Y_Co = share * d->cavitation * p->Y_Co_cav;
+    d->Y_Re = share * d->cavitation * p->Y_Re_cav;
+}
+
 /* Friction and cavitation shares of a damper that holds `oil_level` [1] of its oil. */
 static void kernel_lose(struct kernel_Parameters* p, struct kernel_Derived* d, double oil_level)
 {
@@ -288,8 +295,7 @@ static void kernel_lose(struct kernel_Parameters* p, struct kernel_Derived* d, d
         loss = 1.0 - oil_level;
         d->cavitation = (loss >= p->cavitation_loss ? 1.0 : loss / p->cavitation_loss);
     }
-    d->Y_Co = d->cavitation * p->Y_Co_cav;
-    d->Y_Re = d->cavitation * p->Y_Re_cav;
+    kernel_cavitate(p, d, 1.0);
 }
 
 /* Fill `d` from `p`; to be called again after a parameter has changed. */
@@ -305,7 +311,6 @@ static void kernel_prepare(struct kernel_Parameters* p, struct kernel_Derived* d
     lost = 1.0 - p->gas_preload;
     d->F_0 = p->gas_preload * p->F_0;
     d->c_gas = p->gas_preload * p->c_gas + lost * p->c_gas_lost;
-    d->displaced = 0.0;
     kernel_lose(p, d, p->oil_level);
     /* Eq. 22: W_kPV reaches its target within one step. Reading B adds the leak to the flow; the force stays X_Re. */
     d->W_kPV = (1.0 - p->L_PV) * p->X_Re + p->leak_carries_oil * p->L_PV;
@@ -320,11 +325,7 @@ static void kernel_prepare(struct kernel_Parameters* p, struct kernel_Derived* d
 
 static int64_t kernel_effects_active(struct kernel_Parameters* p)
 {
-    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
-    {
-        return 1;
-    }
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
+    if (p->level_error != 0.0)
     {
         return 1;
     }
@@ -332,19 +333,15 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if (p->exhaustion != 0.0)
-    {
-        return 1;
-    }
     if (p->redissolution_rate != 0.0)
     {
         return 1;
     }
-    if ((p->F_surplus != 0.0) || (p->c_residual != 0.0) || (p->F_residual != 0.0))
+    if ((p->leak_film != 0.0) || (p->cut_area != 0.0))
     {
         return 1;
     }
-    if (p->C_mount != 0.0)
+    if (p->exhaustion != 0.0)
     {
         return 1;
     }
@@ -352,7 +349,11 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if (p->level_error != 0.0)
+    if ((p->F_stop_re != 0.0) || (p->F_stop_co != 0.0))
+    {
+        return 1;
+    }
+    if ((p->F_surplus != 0.0) || (p->c_residual != 0.0) || (p->F_residual != 0.0))
     {
         return 1;
     }
@@ -364,15 +365,7 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
-    if ((p->leak_film != 0.0) || (p->cut_area != 0.0))
-    {
-        return 1;
-    }
     if (p->side_load != 0.0)
-    {
-        return 1;
-    }
-    if ((p->build_up != 0.0) || (p->tau_build != 0.0))
     {
         return 1;
     }
@@ -380,13 +373,19 @@ static int64_t kernel_effects_active(struct kernel_Parameters* p)
     {
         return 1;
     }
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
+    {
+        return 1;
+    }
+    if ((p->build_up != 0.0) || (p->tau_build != 0.0))
+    {
+        return 1;
+    }
+    if (p->C_mount != 0.0)
+    {
+        return 1;
+    }
     return 0;
-}
-
-/* Hand the share to the kernel's flows. */
-static void kernel_oil_displacement_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
-{
-    d->displaced = p->displaced_share;
 }
 
 /* The true level [1]. */
@@ -403,10 +402,6 @@ static void kernel_oil_level_error_derive(struct kernel_Parameters* p, struct ke
 
 static void kernel_effects_derive(struct kernel_Parameters* p, struct kernel_Derived* d)
 {
-    if (p->displaced_share != 0.0)
-    {
-        kernel_oil_displacement_derive(p, d);
-    }
     if (p->level_error != 0.0)
     {
         kernel_oil_level_error_derive(p, d);
@@ -491,6 +486,7 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->k_mean = 1.0;
     s->W_step = 0.0;
     s->warm = 0.0;
+    s->duration = 0.0;
     s->elapsed = 0.0;
     s->F_held_re = 0.0;
     s->F_held_co = 0.0;
@@ -499,7 +495,6 @@ static void kernel_effects_reset(struct kernel_State* s)
     s->F_late = 0.0;
     s->closed = 1.0;
     s->closing_side = 0.0;
-    s->closing_time = 0.0;
     s->k_held_re = 1.0;
     s->k_held_co = 1.0;
     s->x_mount = 0.0;
@@ -657,23 +652,6 @@ static int64_t kernel_effects_parts(struct kernel_Parameters* p, double dt)
         value = int64_t_max(2, value, kernel_mount_compliance_parts(p, dt));
     }
     return value;
-}
-
-/* Remember the time of a step, which says how far the piston goes after a reversal in it. */
-static void kernel_fluid_lag_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
-{
-    s->closing_time = dt;
-}
-
-/* Weaken the cavitation of this step by the gas that is free already. */
-static void kernel_gas_exhaustion_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
-{
-    double oil;
-    double left;
-    oil = s->V1_oil + s->V1_foam_oil + s->V2_oil + s->V2_foam_oil + s->V3_oil + s->V3_foam_oil + s->V_cav;
-    left = (oil > 0.0 ? double_max(2, 0.0, 1.0 - p->exhaustion * s->V_cav / oil) : 0.0);
-    d->Y_Co = left * d->cavitation * p->Y_Co_cav;
-    d->Y_Re = left * d->cavitation * p->Y_Re_cav;
 }
 
 /* Force [N] of one branch of the F-v curve at the speed `v` >= 0 [m/s]; the last segment goes on beyond it. */
@@ -856,13 +834,13 @@ static double kernel_effects_felt(struct kernel_Parameters* p, struct kernel_Sta
     return value;
 }
 
-/* Oil [1] of the column on the side of the force `F` at the stroke `z` [m], in terms of that at stroke 0. */
-static double kernel_fluid_lag_length(struct kernel_Parameters* p, double F, double z)
+/* Oil [1] of the column at the stroke `z` [m], in terms of that at stroke 0. */
+static double kernel_column_length(struct kernel_Parameters* p, double side, double z)
 {
     double out;
     double rod;
     out = p->column_share * z / (0.5 * (p->h_l - p->dead_length));
-    if (F >= 0.0)
+    if (side >= 0.0)
     {
         return 1.0 - out;
     }
@@ -870,9 +848,8 @@ static double kernel_fluid_lag_length(struct kernel_Parameters* p, double F, dou
     return 1.0 + out * rod / (2.0 * p->D_li * p->D_li - rod);
 }
 
-/* Of the oil column on the side of the force `F`: compliance [m/N], stroke of its air [m], force that halves it [N].
-   `z` [m] is the stroke of the piston. */
-static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0001, double* result_2_0001, struct kernel_Parameters* p, double F, double z)
+/* Of the column at the stroke `z` [m]: compliance [m/N], stroke of its air [m], force that halves it [N]. */
+static int64_t kernel_column_of(double* result_0_0001, double* result_1_0001, double* result_2_0001, struct kernel_Parameters* p, double side, double z)
 {
     double rod;
     double bore;
@@ -882,14 +859,14 @@ static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0
     rod = 0.25 * M_PI * p->D_PR * p->D_PR;
     bore = 0.25 * M_PI * p->D_li * p->D_li;
     pressure = 100000.0;
-    length = kernel_fluid_lag_length(p, F, z);
+    length = kernel_column_length(p, side, z);
     air = p->V_air * length;
     if (p->gas_preload > 0)
     {
         pressure += p->F_0 / rod;
         air *= p->air_at_rest + (1.0 - p->air_at_rest) * 100000.0 / pressure;
     }
-    if (F >= 0.0)
+    if (side >= 0.0)
     {
         /* The share of the air that is above the piston, on the annulus. */
         (*result_0_0001) = p->C_fluid * length;
@@ -903,20 +880,26 @@ static int64_t kernel_fluid_lag_column(double* result_0_0001, double* result_1_0
     return 0;
 }
 
-/* Stroke [m] by which the column gives under the force `F` [N], with its sign. */
-static double kernel_fluid_lag_given(struct kernel_Parameters* p, double F, double z)
+/* Stroke [m] by which a column gives under the force `F` [N], with its sign. */
+static double kernel_column_stroke(double C, double way, double F_half, double F)
+{
+    return C * F + way * F / (fabs(F) + F_half);
+}
+
+/* Stroke [m] by which the column on the side of the force `F` [N] gives at the stroke `z` [m], with its sign. */
+static double kernel_column_given(struct kernel_Parameters* p, double F, double z)
 {
     double C;
     double way;
     double F_half;
-    kernel_fluid_lag_column(&C, &way, &F_half, p, F, z);
-    return C * F + way * F / (fabs(F) + F_half);
+    kernel_column_of(&C, &way, &F_half, p, F, z);
+    return kernel_column_stroke(C, way, F_half, F);
 }
 
 /* Speed [m/s] at which the oil gives while its force goes to `F` [N] within `dt` > 0 [s]; for an element in series. */
 static double kernel_fluid_lag_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
 {
-    return (kernel_fluid_lag_given(p, F, s->z) - kernel_fluid_lag_given(p, s->F_held_re - s->F_held_co, s->z)) / dt;
+    return (kernel_column_given(p, F, s->z) - kernel_column_given(p, s->F_held_re - s->F_held_co, s->z)) / dt;
 }
 
 static double kernel_effects_series(struct kernel_Parameters* p, struct kernel_State* s, double F, double dt)
@@ -1143,14 +1126,6 @@ static void kernel_mount_compliance_motion(struct kernel_Parameters* p, struct k
 
 static void kernel_effects_motion(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, double z, double v0, double v1, double dt)
 {
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
-    {
-        kernel_fluid_lag_motion(p, d, s, z, v0, v1, dt);
-    }
-    if (p->exhaustion != 0.0)
-    {
-        kernel_gas_exhaustion_motion(p, d, s, z, v0, v1, dt);
-    }
     if (p->C_mount != 0.0)
     {
         kernel_mount_compliance_motion(p, d, s, z, v0, v1, dt);
@@ -1228,12 +1203,6 @@ static void kernel_gas_redissolution_phases(struct kernel_Parameters* p, struct 
     s->V2_gas -= part * s->V2_gas;
 }
 
-/* Cool down over `dt` [s]. */
-static void kernel_oil_temperature_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
-{
-    s->heat *= exp((-dt) / p->cooling_time);
-}
-
 /* Oil [m3/s] through the cut at a fluid force F [N] in rebound, which the ring of the piston carries. */
 static double kernel_cut_flow(struct kernel_Parameters* p, double F)
 {
@@ -1288,6 +1257,12 @@ static void kernel_seal_leak_phases(struct kernel_Parameters* p, struct kernel_S
     }
 }
 
+/* Cool down over `dt` [s]. */
+static void kernel_oil_temperature_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
+{
+    s->heat *= exp((-dt) / p->cooling_time);
+}
+
 static void kernel_effects_phases(struct kernel_Parameters* p, struct kernel_State* s, double way, double dt)
 {
     if (p->foam_decay_rate != 0.0)
@@ -1298,13 +1273,13 @@ static void kernel_effects_phases(struct kernel_Parameters* p, struct kernel_Sta
     {
         kernel_gas_redissolution_phases(p, s, way, dt);
     }
-    if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
-    {
-        kernel_oil_temperature_phases(p, s, way, dt);
-    }
     if ((p->leak_film != 0.0) || (p->cut_area != 0.0))
     {
         kernel_seal_leak_phases(p, s, way, dt);
+    }
+    if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
+    {
+        kernel_oil_temperature_phases(p, s, way, dt);
     }
     return;
 }
@@ -1336,6 +1311,53 @@ static void kernel_set_forces(struct kernel_Parameters* p, struct kernel_Derived
     s->F_fluid = F_potential * s->k_degr;
 }
 
+/* Bottom valve: V3 gives the flow `supply` [m2], oil, then foam, then gas, to V2 beside the flows that arrive there. */
+static void kernel_refill(struct kernel_Parameters* p, struct kernel_State* s, struct kernel_Flow* f, double foaming, double supply, double oil, double gas, double foam, double foam_oil)
+{
+    double frothed;
+    double drawn;
+    f->V3_oil = 0.0;
+    f->V3_foam = 0.0;
+    f->V3_foam_oil = 0.0;
+    if (s->V3_oil > 0.0)
+    {
+        f->V3_oil = -supply;
+        oil += supply;
+    }
+    else if (s->V3_foam > 0.0)
+    {
+        f->V3_foam = -supply;
+        f->V3_foam_oil = (-supply) * s->V3_foam_oil / s->V3_foam;
+        foam += supply;
+        foam_oil -= f->V3_foam_oil;
+    }
+    else if ((foaming > 0.0) && (p->S_BV > 0.0) && ((s->V2_oil > 0.0) || (oil > 0.0)))
+    {
+        frothed = foaming * p->S_BV * supply;
+        drawn = p->S_BVoil * frothed;
+        if ((s->V2_oil <= 0.0) && (drawn > oil))
+        {
+            frothed *= oil / drawn;
+            drawn = oil;
+        }
+        gas += supply - frothed;
+        oil -= drawn;
+        foam += frothed + drawn;
+        foam_oil += drawn;
+    }
+    else
+    {
+        /* Eq. 30, 32, 33: the foam takes S of the gas flow and S_oil per volume of that gas from V2's oil */
+        /* Eq. 31, 34 */
+        gas += supply;
+    }
+    /* Eq. 7, 9; mixing of foams (Eq. 35) is the sum of the oil they hold */
+    f->V2_oil = oil;
+    f->V2_gas = gas;
+    f->V2_foam = foam;
+    f->V2_foam_oil = foam_oil;
+}
+
 /* Force of a foam holding the volume `oil` in the volume `foam` [m3], relative to that of oil [1]. */
 static double kernel_foam_factor(struct kernel_Parameters* p, double oil, double foam)
 {
@@ -1359,11 +1381,6 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
     double gas;
     double foam;
     double foam_oil;
-    double freed;
-    double displaced;
-    double supply;
-    double frothed;
-    double drawn;
     /* Piston valve: what leaves V1 over the area A_1 (Eq. 6, 8, 11) */
     oil = 0.0;
     gas = 0.0;
@@ -1414,12 +1431,9 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
     f->V1_foam = -foam;
     f->V1_foam_oil = -foam_oil;
     /* What arrives in V2: cavitation frees gas from the oil, and foam beside oil separates. */
-    freed = cavitating * d->Y_Re * oil;
-    /* Beyond the paper: of the oil that gives way to the gas the share d.displaced stays in the reserve and is not lost. */
-    displaced = d->displaced * freed;
-    f->cavitated = freed - displaced;
+    f->cavitated = cavitating * d->Y_Re * oil;
     /* Eq. 40 */
-    gas += freed;
+    gas += f->cavitated;
     /* Eq. 41; with 14 to the letter k would be 1 - Y while cavitating, here the force falls by what follows from the gas */
     oil -= f->cavitated;
     if ((foam > 0.0) && (p->foam_decays > 0) && (s->V1_oil > 0.0))
@@ -1429,48 +1443,8 @@ static void kernel_rebound(struct kernel_Parameters* p, struct kernel_Derived* d
         foam = 0.0;
         foam_oil = 0.0;
     }
-    /* Bottom valve: V3 gives the rod's volume (Eq. 10, 12): oil, then foam, then gas */
-    supply = d->A_rod - displaced;
-    f->V3_oil = 0.0;
-    f->V3_foam = 0.0;
-    f->V3_foam_oil = 0.0;
-    if ((s->V3_oil > 0.0) || (supply < 0.0))
-    {
-        f->V3_oil = -supply;
-        oil += supply;
-    }
-    else if (s->V3_foam > 0.0)
-    {
-        f->V3_foam = -supply;
-        f->V3_foam_oil = (-supply) * s->V3_foam_oil / s->V3_foam;
-        foam += supply;
-        foam_oil -= f->V3_foam_oil;
-    }
-    else if ((foaming > 0.0) && (p->S_BV > 0.0) && ((s->V2_oil > 0.0) || (oil > 0.0)))
-    {
-        frothed = foaming * p->S_BV * supply;
-        drawn = p->S_BVoil * frothed;
-        if ((s->V2_oil <= 0.0) && (drawn > oil))
-        {
-            frothed *= oil / drawn;
-            drawn = oil;
-        }
-        gas += supply - frothed;
-        oil -= drawn;
-        foam += frothed + drawn;
-        foam_oil += drawn;
-    }
-    else
-    {
-        /* Eq. 30, 32, 33: the foam takes S of the gas flow and S_oil per volume of that gas from V2's oil */
-        /* Eq. 31, 34 */
-        gas += supply;
-    }
-    /* Eq. 7, 9; mixing of foams (Eq. 35) is the sum of the oil they hold */
-    f->V2_oil = oil;
-    f->V2_gas = gas;
-    f->V2_foam = foam;
-    f->V2_foam_oil = foam_oil;
+    /* Eq. 10, 12: V3 gives the rod's volume */
+    kernel_refill(p, s, f, foaming, d->A_rod, oil, gas, foam, foam_oil);
 }
 
 /* Share [1] of the time that V1, without gas at the moment, vents gas while V2 is full.
@@ -1551,7 +1525,6 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
         piston = d->A_2 - bottom;
         f->k_degr = 1.0 + venting * (d->k_Co2 - 1.0);
         /* Eq. 40, 41 */
-        /* Beyond the paper: the share d.displaced of that oil goes through the bottom valve instead and is not lost. */
     }
     f->V2_gas = -gas;
     f->V2_oil = 0.0;
@@ -1582,8 +1555,7 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
         f->V3_oil = bottom;
         freed = cavitating * d->Y_Co * piston;
         oil = piston - freed;
-        f->V3_oil += d->displaced * freed;
-        f->cavitated = freed - d->displaced * freed;
+        f->cavitated = freed;
     }
     /* V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13). */
     kept = d->A_1 + freed - piston;
@@ -1619,19 +1591,115 @@ static void kernel_compression(struct kernel_Parameters* p, struct kernel_Derive
     f->V1_gas = kept;
 }
 
+/* Flows and k_degr in the direction of `dz`; `foaming` and `cavitating` are the shares [1] of the step with either. */
+static void kernel_flows(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double dz, double foaming, double cavitating)
+{
+    if (dz > 0.0)
+    {
+        kernel_rebound(p, d, s, f, foaming, cavitating);
+    }
+    else
+    {
+        kernel_compression(p, d, s, f, foaming, cavitating);
+    }
+}
+
 /* k_degr for the direction of `v` [m/s] where the last stroke went the other way or nowhere. */
 static void kernel_settle(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double v)
 {
-    if (v > 0.0)
+    if (v != 0.0)
     {
-        kernel_rebound(p, d, s, f, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
+        kernel_flows(p, d, s, f, v, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
         s->k_degr = f->k_degr;
     }
-    else if (v < 0.0)
+}
+
+/* Foam that does not fit into the reserve loses its gas; the paper has no limit there. */
+static void kernel_squeeze_reserve(struct kernel_Derived* d, struct kernel_State* s)
+{
+    double room;
+    room = d->V_reserve - s->V3_oil;
+    if (s->V3_foam > room)
     {
-        kernel_compression(p, d, s, f, kernel_share_above(v, v, p->v_foam), kernel_share_above(v, v, p->v_cav));
-        s->k_degr = f->k_degr;
+        s->V3_foam = double_max(2, room, s->V3_foam_oil);
     }
+}
+
+/* End a step at the stroke `z` [m], in which k_degr has the integral `acting` [m] over the stroke. */
+static void kernel_arrive(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1, double acting)
+{
+    double dz;
+    double F_1;
+    double F_0;
+    bool rising;
+    double friction;
+    dz = z - s->z;
+    F_1 = kernel_fluid_force(p, v1);
+    if (dz == 0.0)
+    {
+        kernel_settle(p, d, s, f, v1);
+        f->k_mean = s->k_degr;
+        kernel_set_forces(p, d, s, F_1, v1);
+        return;
+    }
+    F_0 = (v0 == v1 ? F_1 : kernel_fluid_force(p, v0));
+    rising = dz > 0.0;
+    if (!rising)
+    {
+        kernel_squeeze_reserve(d, s);
+    }
+    s->z = z;
+    s->F_D = kernel_dahl(p, d, s->F_D, dz);
+    /* The mean over the step: force times stroke is then the work, wherever in the step a phase ran out. */
+    s->k_degr = acting / fabs(dz);
+    f->k_mean = s->k_degr;
+    if (v1 < 0.0 == rising)
+    {
+        kernel_settle(p, d, s, f, v1);
+    }
+    friction = s->F_friction;
+    kernel_set_forces(p, d, s, F_1, v1);
+    s->work += 0.5 * (F_0 + F_1) * ((rising ? acting : -acting)) + 0.5 * (friction + s->F_friction) * dz;
+}
+
+/* Give the share of the oil that gives way to gas to the reserve. */
+static void kernel_oil_displacement_flows(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double dz, double foaming)
+{
+    double freed;
+    double displaced;
+    double oil;
+    double gas;
+    double supply;
+    freed = f->cavitated;
+    if (freed <= 0.0)
+    {
+        return;
+    }
+    displaced = p->displaced_share * freed;
+    f->cavitated = freed - displaced;
+    if (dz < 0.0)
+    {
+        f->V3_oil += displaced;
+        return;
+    }
+    /* Where gas is freed V1 gives oil and no foam. */
+    oil = (-f->V1_oil) - f->cavitated;
+    gas = (-f->V1_gas) + freed;
+    supply = d->A_rod - displaced;
+    kernel_refill(p, s, f, foaming, double_max(2, 0.0, supply), oil + double_min(2, 0.0, supply), gas, 0.0, 0.0);
+    if (supply < 0.0)
+    {
+        f->V3_oil = -supply;
+    }
+}
+
+static void kernel_effects_flows(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double dz, double foaming)
+{
+    if (p->displaced_share != 0.0)
+    {
+        kernel_oil_displacement_flows(p, d, s, f, dz, foaming);
+    }
+    return;
 }
 
 /* The stroke [m], at most `way`, after which a phase of `volume` [m3] changing by `change` [m2] is used up. */
@@ -1688,82 +1756,41 @@ static void kernel_move(struct kernel_State* s, struct kernel_Flow* f, double wa
     s->V_cav += f->cavitated * way;
 }
 
-/* Foam that does not fit into the reserve loses its gas; the paper has no limit there. */
-static void kernel_squeeze_reserve(struct kernel_Derived* d, struct kernel_State* s)
+/* Carry all phases as far as each of them lasts, at most over the stroke `left` [m]; returns the stroke [m]. */
+static double kernel_carry(struct kernel_State* s, struct kernel_Flow* f, double left)
 {
-    double room;
-    room = d->V_reserve - s->V3_oil;
-    if (s->V3_foam > room)
-    {
-        s->V3_foam = double_max(2, room, s->V3_foam_oil);
-    }
+    double way;
+    way = kernel_split_length(s, f, left);
+    kernel_move(s, f, way);
+    return way;
 }
 
-/* Carry `s` to the stroke `z` [m] while the velocity goes evenly from `v0` to `v1` [m/s].
-   Time enters through stroke and velocity only: every process of the paper is tied to the stroke. `k_degr` is the mean
-   over the step, the forces are those at its end with that mean. False when the
-   step could not be finished within `64`, which no admissible parameter set is known to cause. */
-static bool kernel_step(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1)
+/* `kernel.step` with flows that effects change. */
+static bool kernel_changed_step(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1)
 {
     double dz;
-    double F_1;
-    double F_0;
-    bool rising;
     double left;
     double foaming;
     double cavitating;
     double acting;
     int64_t splits;
     double way;
-    double friction;
     dz = z - s->z;
-    F_1 = kernel_fluid_force(p, v1);
-    if (dz == 0.0)
-    {
-        kernel_settle(p, d, s, f, v1);
-        f->k_mean = s->k_degr;
-        kernel_set_forces(p, d, s, F_1, v1);
-        return 1;
-    }
-    F_0 = (v0 == v1 ? F_1 : kernel_fluid_force(p, v0));
-    rising = dz > 0.0;
-    left = (rising ? dz : -dz);
+    left = fabs(dz);
     foaming = kernel_share_above(v0, v1, p->v_foam);
     cavitating = kernel_share_above(v0, v1, p->v_cav);
     acting = 0.0;
     splits = 0;
     while((left > 0.0) && (splits < 64))
     {
-        if (rising)
-        {
-            kernel_rebound(p, d, s, f, foaming, cavitating);
-        }
-        else
-        {
-            kernel_compression(p, d, s, f, foaming, cavitating);
-        }
-        way = kernel_split_length(s, f, left);
-        kernel_move(s, f, way);
+        kernel_flows(p, d, s, f, dz, foaming, cavitating);
+        kernel_effects_flows(p, d, s, f, dz, foaming);
+        way = kernel_carry(s, f, left);
         acting += f->k_degr * way;
         left -= way;
         splits += 1;
     }
-    if (!rising)
-    {
-        kernel_squeeze_reserve(d, s);
-    }
-    s->z = z;
-    s->F_D = kernel_dahl(p, d, s->F_D, dz);
-    /* The mean over the step: force times stroke is then the work, wherever in the step a phase ran out. */
-    s->k_degr = acting / ((rising ? dz : -dz));
-    f->k_mean = s->k_degr;
-    if (v1 < 0.0 == rising)
-    {
-        kernel_settle(p, d, s, f, v1);
-    }
-    friction = s->F_friction;
-    kernel_set_forces(p, d, s, F_1, v1);
-    s->work += 0.5 * (F_0 + F_1) * ((rising ? acting : -acting)) + 0.5 * (friction + s->F_friction) * dz;
+    kernel_arrive(p, d, s, f, z, v0, v1, acting);
     return left <= 0.0;
 }
 
@@ -1805,7 +1832,7 @@ static void kernel_fluid_lag_transition(struct kernel_Parameters* p, struct kern
     }
     if (turned)
     {
-        ended = 0.5 * v * v * s->closing_time / (fabs(v0) + fabs(v)) / p->closing_stroke;
+        ended = 0.5 * v * v * s->duration / (fabs(v0) + fabs(v)) / p->closing_stroke;
     }
     s->closing_side = side;
     s->closed = double_min(2, 1.0, ended);
@@ -2105,7 +2132,7 @@ static void kernel_effects_rebalance(struct kernel_Parameters* p, struct kernel_
 }
 
 /* Speed [m/s] at which the valves of one branch make the force `F` >= 0 [N], and the slope there [N s/m]. */
-static int64_t kernel_fluid_lag_valves(double* result_0_0001, double* result_1, double F, double k, array_double_1d velocities, array_double_1d forces)
+static int64_t kernel_valve_speed(double* result_0_0001, double* result_1, double F, double k, array_double_1d velocities, array_double_1d forces)
 {
     int64_t i;
     double slope;
@@ -2154,9 +2181,31 @@ static double kernel_effects_bypass(struct kernel_Parameters* p, double F)
     return value;
 }
 
+/* As `valve_speed`, with what passes beside the valves. */
+static int64_t kernel_side_valves(double* result_0, double* result_1, struct kernel_Parameters* p, double side, double k, double F)
+{
+    double u;
+    double slope;
+    if (side > 0.0)
+    {
+        kernel_valve_speed(&u, &slope, F, k, p->v_re, p->F_re);
+    }
+    else
+    {
+        kernel_valve_speed(&u, &slope, F, k, p->v_co, p->F_co);
+    }
+    if (k >= 1e-12)
+    {
+        u += side * kernel_effects_bypass(p, side * F / k);
+    }
+    (*result_0) = u;
+    (*result_1) = slope;
+    return 0;
+}
+
 /* The speed u >= 0 [m/s] at the valves of one branch of the F-v curve with u + given(F(u)) / dt = w >= 0.
-   `C`, `way` and `F_half` are those of `fluid_lag_column`, `k` the degradation of the branch. */
-static double kernel_fluid_lag_inverse(double C, double way, double F_half, double w, double k, array_double_1d velocities, array_double_1d forces, double dt)
+   `C`, `way` and `F_half` are those of `column_of`, `k` the degradation of the branch. */
+static double kernel_column_speed(double C, double way, double F_half, double w, double k, array_double_1d velocities, array_double_1d forces, double dt)
 {
     int64_t i;
     double u;
@@ -2191,8 +2240,27 @@ static double kernel_fluid_lag_inverse(double C, double way, double F_half, doub
     return double_max(2, 0.0, w - (C + way / (found + F_half)) * found / dt);
 }
 
-/* As `fluid_lag_inverse`, with what passes beside the valves: secants for its speed between bounds that close in. */
-static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double C, double way, double F_half, double w, double k, double side, array_double_1d velocities, array_double_1d forces, double dt)
+/* As `column_speed` with the F-v curve of the side. */
+static double kernel_side_speed(struct kernel_Parameters* p, double side, double C, double way, double F_half, double w, double k, double dt)
+{
+    double result;
+    if (side > 0.0)
+    {
+        result = kernel_column_speed(C, way, F_half, w, k, p->v_re, p->F_re, dt);
+        return result;
+    }
+    result = kernel_column_speed(C, way, F_half, w, k, p->v_co, p->F_co, dt);
+    return result;
+}
+
+/* Force [N] of the intact valves at the speed `u` >= 0 [m/s]. */
+static double kernel_side_force(struct kernel_Parameters* p, double side, double u)
+{
+    return side * kernel_fluid_force(p, side * u);
+}
+
+/* As `side_speed`, with what passes beside the valves: secants for its speed between bounds that close in. */
+static double kernel_leaking_speed(struct kernel_Parameters* p, double side, double C, double way, double F_half, double w, double k, double dt)
 {
     double low;
     double high;
@@ -2202,9 +2270,9 @@ static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double C, do
     int64_t n;
     double r;
     double u;
-    u = kernel_fluid_lag_inverse(C, way, F_half, w, k, velocities, forces, dt);
+    u = kernel_side_speed(p, side, C, way, F_half, w, k, dt);
     low = 0.0;
-    high = side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
+    high = side * kernel_effects_bypass(p, side * kernel_side_force(p, side, u));
     if (high <= 0.0)
     {
         return u;
@@ -2212,15 +2280,15 @@ static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double C, do
     /* The faster the leak, the less force is left that drives it: `past` less what that force makes of it rises. */
     r_low = -high;
     past = double_min(2, high, w);
-    u = kernel_fluid_lag_inverse(C, way, F_half, w - past, k, velocities, forces, dt);
-    r_high = past - side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
+    u = kernel_side_speed(p, side, C, way, F_half, w - past, k, dt);
+    r_high = past - side * kernel_effects_bypass(p, side * kernel_side_force(p, side, u));
     high = past;
     n = 0;
     while((n < 40) && (high - low > 1e-09))
     {
         past = double_min(2, double_max(2, low - r_low * (high - low) / (r_high - r_low), low + 0.05 * (high - low)), high - 0.05 * (high - low));
-        u = kernel_fluid_lag_inverse(C, way, F_half, w - past, k, velocities, forces, dt);
-        r = past - side * kernel_effects_bypass(p, side * kernel_branch(u, velocities, forces));
+        u = kernel_side_speed(p, side, C, way, F_half, w - past, k, dt);
+        r = past - side * kernel_effects_bypass(p, side * kernel_side_force(p, side, u));
         if (r < 0.0)
         {
             low = past;
@@ -2237,7 +2305,7 @@ static double kernel_fluid_lag_leaking(struct kernel_Parameters* p, double C, do
 }
 
 /* Elastic energy [J] of a column under the force `F` >= 0 [N]. */
-static double kernel_fluid_lag_stored(double C, double way, double F_half, double F)
+static double kernel_column_energy(double C, double way, double F_half, double F)
 {
     return 0.5 * C * F * F + way * F_half * (log(1.0 + F / F_half) - F / (F + F_half));
 }
@@ -2246,7 +2314,7 @@ static double kernel_fluid_lag_stored(double C, double way, double F_half, doubl
    The part takes `dt` [s] and ends at the stroke `z` [m] after a way of `dz` [m]; `v0` and `v1` [m/s] are the speeds in the
    column's direction, `k` [1] the degradation of its branch. A column without force is pressed in the share `free` [1] of
    the part. Returns that share for the other column. */
-static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_State* s, double side, double k, double free, double v0, double v1, double z, double dz, array_double_1d velocities, array_double_1d forces, double dt)
+static double kernel_column_press(struct kernel_Parameters* p, struct kernel_State* s, double side, double k, double free, double v0, double v1, double z, double dz, double dt)
 {
     double held;
     double turn;
@@ -2292,14 +2360,10 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     {
         return 1.0;
     }
-    kernel_fluid_lag_column(&C, &way, &F_half, p, side, z);
-    kernel_fluid_lag_valves(&u, &slope, held, k, velocities, forces);
-    if (k >= 1e-12)
-    {
-        u += side * kernel_effects_bypass(p, side * held / k);
-    }
+    kernel_column_of(&C, &way, &F_half, p, side, z);
+    kernel_side_valves(&u, &slope, p, side, k, held);
     given = C + way * F_half / ((held + F_half) * (held + F_half));
-    before = C * held + way * held / (held + F_half);
+    before = kernel_column_stroke(C, way, F_half, held);
     share = 1.0;
     F = 0.0;
     n = 0;
@@ -2309,24 +2373,24 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
         settling = given * slope;
         share = (settling > 0.0 ? kernel_end_weight(pressed / settling) : 1.0);
         w = v1 + (before / pressed + (1.0 - share) * (begun - u)) / share;
-        end = (w > 0.0 ? kernel_fluid_lag_leaking(p, C, way, F_half, w, k, side, velocities, forces, share * pressed) : 0.0);
-        F = k * kernel_branch(end, velocities, forces);
+        end = (w > 0.0 ? kernel_leaking_speed(p, side, C, way, F_half, w, k, share * pressed) : 0.0);
+        F = k * kernel_side_force(p, side, end);
         given = C + way * F_half / ((held + F_half) * (F + F_half));
         n += 1;
     }
-    after = C * F + way * F / (F + F_half);
+    after = kernel_column_stroke(C, way, F_half, F);
     travelled = 0.5 * (begun + v1) * pressed;
     through = double_max(2, 0.0, travelled + before - after) / dt;
     /* A stiff column lets the steps of k_degr through, a soft one does not. */
     even = 0.5 * (held + F) * pressed / dt;
-    stiff = k * kernel_branch(through, velocities, forces) * kernel_effects_scale_valve(p, side * through);
+    stiff = k * kernel_side_force(p, side, through) * kernel_effects_scale_valve(p, side * through);
     mean = even + (2.0 * share - 1.0) * (stiff - even);
     s->F_mean += side * mean;
     s->W_step += mean * through * dt;
     if ((held > 0.0) && (p->column_share > 0.0))
     {
-        shorter = kernel_fluid_lag_length(p, side, z - dz) / kernel_fluid_lag_length(p, side, z) - 1.0;
-        s->W_step += shorter * kernel_fluid_lag_stored(C, way, F_half, held);
+        shorter = kernel_column_length(p, side, z - dz) / kernel_column_length(p, side, z) - 1.0;
+        s->W_step += shorter * kernel_column_energy(C, way, F_half, held);
     }
     if (side > 0.0)
     {
@@ -2352,7 +2416,7 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     {
         return 1.0;
     }
-    bound = C * bound + way * bound / (bound + F_half);
+    bound = kernel_column_stroke(C, way, F_half, bound);
     if (F <= 0.0)
     {
         after = double_min(2, 0.0, before + travelled);
@@ -2360,15 +2424,7 @@ static double kernel_fluid_lag_press(struct kernel_Parameters* p, struct kernel_
     return (before > after ? double_min(2, 1.0, double_max(2, 0.0, (bound - after) / (before - after))) : 0.0);
 }
 
-/* Force [N] behind late valves after `dt` > 0 [s] in which that of the columns went evenly to `F`, with a `mean` [N]. */
-static double kernel_fluid_lag_follow(struct kernel_Parameters* p, struct kernel_State* s, double mean, double F, double dt)
-{
-    double late;
-    late = 2.0 * (F - mean) * p->tau_fluid / dt;
-    return F - late + (s->F_late - 2.0 * mean + F + late) * exp((-dt) / p->tau_fluid);
-}
-
-/* Carry the columns and the late valves over a part of a step, as `fluid_lag_press`, speeds with their sign.
+/* Carry the columns and the late valves over a part of a step, as `column_press`, speeds with their sign.
    `F_mean` and `W_step` of the state are those of the part then. */
 static void kernel_fluid_lag_part(struct kernel_Parameters* p, struct kernel_State* s, double k_re, double k_co, double v0, double v1, double z, double dz, double dt)
 {
@@ -2376,25 +2432,28 @@ static void kernel_fluid_lag_part(struct kernel_Parameters* p, struct kernel_Sta
     double Dummy_0000;
     double Dummy_0001;
     double mean;
+    double late;
     s->F_mean = 0.0;
     s->W_step = 0.0;
     /* The column that the piston leaves comes first. */
     if (v1 >= 0.0)
     {
-        free = kernel_fluid_lag_press(p, s, -1.0, k_co, 1.0, -v0, -v1, z, dz, p->v_co, p->F_co, dt);
-        Dummy_0000 = kernel_fluid_lag_press(p, s, 1.0, k_re, free, v0, v1, z, dz, p->v_re, p->F_re, dt);
+        free = kernel_column_press(p, s, -1.0, k_co, 1.0, -v0, -v1, z, dz, dt);
+        Dummy_0000 = kernel_column_press(p, s, 1.0, k_re, free, v0, v1, z, dz, dt);
     }
     else
     {
-        free = kernel_fluid_lag_press(p, s, 1.0, k_re, 1.0, v0, v1, z, dz, p->v_re, p->F_re, dt);
-        Dummy_0001 = kernel_fluid_lag_press(p, s, -1.0, k_co, free, -v0, -v1, z, dz, p->v_co, p->F_co, dt);
+        free = kernel_column_press(p, s, 1.0, k_re, 1.0, v0, v1, z, dz, dt);
+        Dummy_0001 = kernel_column_press(p, s, -1.0, k_co, free, -v0, -v1, z, dz, dt);
     }
     s->F_fluid = s->F_held_re - s->F_held_co;
     s->F_valve = s->F_fluid;
     if (p->tau_fluid > 0.0)
     {
+        /* The columns' force goes evenly, with this mean, to its end. */
         mean = s->F_mean;
-        s->F_fluid = kernel_fluid_lag_follow(p, s, mean, s->F_fluid, dt);
+        late = 2.0 * (s->F_fluid - mean) * p->tau_fluid / dt;
+        s->F_fluid = s->F_fluid - late + (s->F_late - 2.0 * mean + s->F_fluid + late) * exp((-dt) / p->tau_fluid);
         s->F_mean += (s->F_late - s->F_fluid) * p->tau_fluid / dt;
         s->W_step += (s->F_mean - mean) * dz;
         s->F_late = s->F_fluid;
@@ -2510,6 +2569,17 @@ static void kernel_effects_force(struct kernel_Parameters* p, struct kernel_Stat
     return;
 }
 
+/* Take up the step's work, less what of it has already gone. */
+static void kernel_oil_temperature_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
+{
+    double share;
+    double kept;
+    share = dt / p->cooling_time;
+    kept = (share > 1e-09 ? (1.0 - exp(-share)) / share : 1.0);
+    /* Where stroke and velocity of a record do not agree, a step can do negative work. */
+    s->heat = double_max(2, 0.0, s->heat + s->W_step * kept);
+}
+
 /* Remember k_degr, and the force where it is not that of the columns: at the start, or with an element in series. */
 static void kernel_fluid_lag_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
 {
@@ -2526,28 +2596,36 @@ static void kernel_fluid_lag_finish(struct kernel_Parameters* p, struct kernel_S
     }
 }
 
-/* Take up the step's work, less what of it has already gone. */
-static void kernel_oil_temperature_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
-{
-    double share;
-    double kept;
-    share = dt / p->cooling_time;
-    kept = (share > 1e-09 ? (1.0 - exp(-share)) / share : 1.0);
-    /* Where stroke and velocity of a record do not agree, a step can do negative work. */
-    s->heat = double_max(2, 0.0, s->heat + s->W_step * kept);
-}
-
 static void kernel_effects_finish(struct kernel_Parameters* p, struct kernel_State* s, double dt)
 {
-    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
-    {
-        kernel_fluid_lag_finish(p, s, dt);
-    }
     if ((p->fade_heat != 0.0) || (p->fade_kelvin != 0.0) || (p->friction_kelvin != 0.0))
     {
         kernel_oil_temperature_finish(p, s, dt);
     }
+    if ((p->C_fluid != 0.0) || (p->C_fluid_co != 0.0) || (p->V_air != 0.0) || (p->tau_fluid != 0.0) || (p->closing_stroke != 0.0))
+    {
+        kernel_fluid_lag_finish(p, s, dt);
+    }
     return;
+}
+
+/* Share [1] of the cavitation that the gas already free leaves. */
+static double kernel_gas_exhaustion_scale_cavitation(struct kernel_Parameters* p, struct kernel_State* s)
+{
+    double oil;
+    oil = s->V1_oil + s->V1_foam_oil + s->V2_oil + s->V2_foam_oil + s->V3_oil + s->V3_foam_oil + s->V_cav;
+    return (oil > 0.0 ? double_max(2, 0.0, 1.0 - p->exhaustion * s->V_cav / oil) : 0.0);
+}
+
+static double kernel_effects_scale_cavitation(struct kernel_Parameters* p, struct kernel_State* s)
+{
+    double value;
+    value = 1.0;
+    if (p->exhaustion != 0.0)
+    {
+        value *= kernel_gas_exhaustion_scale_cavitation(p, s);
+    }
+    return value;
 }
 
 /* The kernel's step with the effects around it. */
@@ -2567,6 +2645,7 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     {
         dt = 0.0;
     }
+    s->duration = dt;
     work = s->work;
     friction = s->F_friction;
     gas = s->F_gas;
@@ -2575,9 +2654,10 @@ static bool kernel_extended_part(struct kernel_Parameters* p, struct kernel_Deri
     s->goal_v1 = v1;
     kernel_effects_motion(p, d, s, z, v0, v1, dt);
     dz = s->goal_z - s->z;
+    kernel_cavitate(p, d, kernel_effects_scale_cavitation(p, s));
     kernel_effects_phases(p, s, fabs(dz), dt);
     s->k_degr = s->k_flow;
-    done = kernel_step(p, d, s, f, s->goal_z, s->goal_v0, s->goal_v1);
+    done = kernel_changed_step(p, d, s, f, s->goal_z, s->goal_v0, s->goal_v1);
     s->k_flow = s->k_degr;
     v = s->goal_v1;
     kernel_effects_transition(p, s, f, v, dz);
@@ -2640,6 +2720,37 @@ static bool kernel_extended_step(struct kernel_Parameters* p, struct kernel_Deri
     return kernel_extended_part(p, d, s, f, z, before, v1, dt / n);
 }
 
+/* Carry `s` to the stroke `z` [m] while the velocity goes evenly from `v0` to `v1` [m/s].
+   Time enters through stroke and velocity only: every process of the paper is tied to the stroke. `k_degr` is the mean
+   over the step, the forces are those at its end with that mean. False when the
+   step could not be finished within `64`, which no admissible parameter set is known to cause. */
+static bool kernel_step(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1)
+{
+    double dz;
+    double left;
+    double foaming;
+    double cavitating;
+    double acting;
+    int64_t splits;
+    double way;
+    dz = z - s->z;
+    left = fabs(dz);
+    foaming = kernel_share_above(v0, v1, p->v_foam);
+    cavitating = kernel_share_above(v0, v1, p->v_cav);
+    acting = 0.0;
+    splits = 0;
+    while((left > 0.0) && (splits < 64))
+    {
+        kernel_flows(p, d, s, f, dz, foaming, cavitating);
+        way = kernel_carry(s, f, left);
+        acting += f->k_degr * way;
+        left -= way;
+        splits += 1;
+    }
+    kernel_arrive(p, d, s, f, z, v0, v1, acting);
+    return left <= 0.0;
+}
+
 /* Carry `s` to the stroke `z` [m] in the time `dt` [s] >= 0, the velocity going evenly from `v0` to `v1` [m/s].
    As `kernel.step`, whose result it returns; `dt` acts through effects that need time and is else ignored. */
 static bool kernel_advance(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1, double dt)
@@ -2663,11 +2774,14 @@ static double kernel_reserve_gas(struct kernel_Derived* d, struct kernel_State* 
     return double_max(2, 0.0, d->V_reserve - s->V3_oil - s->V3_foam);
 }
 
-/* Fill `o` after a step. */
 static void kernel_publish(struct kernel_Derived* d, struct kernel_State* s, struct kernel_Outputs* o)
 {
     o->force = kernel_total_force(s);
     o->k_degr = s->k_degr;
+    o->F_fluid = s->F_fluid;
+    o->F_friction = s->F_friction;
+    o->F_gas = s->F_gas;
+    o->work = s->work;
     o->V1_oil = s->V1_oil;
     o->V1_gas = s->V1_gas;
     o->V1_foam = s->V1_foam;
@@ -2677,10 +2791,7 @@ static void kernel_publish(struct kernel_Derived* d, struct kernel_State* s, str
     o->V3_oil = s->V3_oil;
     o->V3_gas = kernel_reserve_gas(d, s);
     o->V3_foam = s->V3_foam;
-    o->force_fluid = s->F_fluid;
-    o->force_friction = s->F_friction;
-    o->force_gas = s->F_gas;
-    o->work = s->work;
+    o->V_cav = s->V_cav;
 }
 
 /* Keep what a message needs. */

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 from twintube.core import effects, hooks
+from twintube.core.hook_table import HOOKS
 from twintube.files import write_text
 
 STUB = Path(effects.__file__).with_suffix(".pyi")
@@ -41,9 +42,9 @@ def stub() -> str:
         *states,
         "",
     ]
-    for hook, (typed, result, _) in hooks.HOOKS.items():
-        arguments = re.sub(r"\b(Parameters|State)\b", lambda match: BASES[match[1]], typed)
-        lines.append(f"def effects_{hook}({arguments}) -> {result}: ...")
+    for hook, what in HOOKS.items():
+        arguments = re.sub(r"\b(Parameters|State)\b", lambda match: BASES[match[1]], what.arguments)
+        lines.append(f"def effects_{hook}({arguments}) -> {what.result}: ...")
     lines += [
         "def effects_active(p: variables.Parameters) -> int: ...",
         "def effects_remember(p: variables.Parameters) -> int: ...",
@@ -72,11 +73,11 @@ def hook_types() -> str:
     for name, effect in sorted(effects.EFFECTS.items()):
         text = hooks.sources()[name]
         own = {"Parameters": f"{name}.Parameters", "State": f"{name}.State" if effect.states else "Frame"}
-        for hook, (typed, result, _) in hooks.HOOKS.items():
+        for hook, what in HOOKS.items():
             if f"\ndef {name}_{hook}(" in text:
-                kinds = [part.split(": ")[1] for part in typed.split(", ")]
+                kinds = [part.split(": ")[1] for part in what.arguments.split(", ")]
                 arguments = ", ".join(own.get(kind, kind) for kind in kinds)
-                lines.append(f"    {name}_{hook}: Callable[[{arguments}], {result}] = {name}.{name}_{hook}")
+                lines.append(f"    {name}_{hook}: Callable[[{arguments}], {what.result}] = {name}.{name}_{hook}")
     return "\n".join(lines) + "\n"
 
 

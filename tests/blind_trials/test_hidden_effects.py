@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from twintube.dampers import load
-from twintube.lab.blind_trials.damper import march, tube
-from twintube.lab.blind_trials.excitation import VELOCITIES, harmonic, recovery
-from twintube.lab.blind_trials.hidden import DRAWS, EFFECTS, KINDS, secret
-from twintube.lab.blind_trials.model import COLUMNS, FOAMED, FORCE, FREED, K_DEGR, LOST, OIL, PLACE, WARM
-from twintube.lab.blind_trials.quantities import Hidden
+from worlds.blind_trials.damper import march, tube
+from worlds.blind_trials.excitation import VELOCITIES, harmonic, recovery
+from worlds.blind_trials.hidden import DRAWS, EFFECTS, KINDS, secret
+from worlds.blind_trials.model import COLUMNS, FOAMED, FORCE, FREED, K_DEGR, LOST, OIL, PLACE, WARM
+from worlds.blind_trials.quantities import Hidden
 
 P = load("SA8", as_published=True).parameters
 

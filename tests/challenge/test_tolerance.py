@@ -1,19 +1,20 @@
 """What a bench leaves open hides what looks like it, and nothing else."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 
 from twintube.arrays import Array
-from twintube.lab.challenge.catalogue import CAUSES
-from twintube.lab.challenge.changes import effects, rms
-from twintube.lab.challenge.generate import attempt, beyond_bench, runs_of, with_hidden
-from twintube.lab.challenge.oil import level_everywhere
-from twintube.lab.challenge.plan import Bench, bench_for
-from twintube.lab.challenge.run import Run, Step, begun, copied, finished, marched
-from twintube.lab.challenge.sensors import force_late
-from twintube.lab.challenge.tolerance import FILL, GAIN, SHIFTS, ZERO, Tolerances, beyond, late_samples, tolerances
+from worlds.bench import faults
+from worlds.bench.plan import rms
+from worlds.challenge.catalogue import CAUSES
+from worlds.challenge.generate import attempt, beyond_bench, runs_of, with_hidden
+from worlds.challenge.oil import level_wrong
+from worlds.challenge.plan import Bench, bench_for
+from worlds.challenge.tolerance import FILL, GAIN, SHIFTS, ZERO, Tolerances, beyond, effects, late_samples, tolerances
+from worlds.model.run import Run, Step, begun, copied, finished
 
 TIME = np.linspace(0.0, 1.0, 500)
 FORCES = [1000.0 * np.sin(2 * np.pi * f * TIME) for f in (3.0, 5.0)]
@@ -75,7 +76,7 @@ def campaign() -> tuple[Bench, list[Run]]:
         if len(bench.records) <= 6:
             break
     bench = replace(bench, largest=2000.0)
-    return bench, [finished(marched(run), []) for run in runs_of(bench, 3.0)]
+    return bench, [finished(run) for run in runs_of(bench, 3.0)]
 
 
 def test_a_fill_is_hidden_up_to_its_tolerance() -> None:
@@ -83,7 +84,7 @@ def test_a_fill_is_hidden_up_to_its_tolerance() -> None:
     open_ = tolerances(plain, bench)
     left = []
     for fill in (FILL, 30 * FILL):
-        step = Step("setup", level_everywhere, fill, {"sign": -1.0})
+        step = Step("setup", partial(level_wrong, x=fill, c={"sign": -1.0}))
         runs = [finished(begun(run.record, run.motion, bench.damper), [step]) for run in plain]
         changes = effects(runs, plain, bench)
         left.append(rms(beyond(changes, open_)) / rms(changes))
@@ -93,8 +94,9 @@ def test_a_fill_is_hidden_up_to_its_tolerance() -> None:
 def test_of_two_causes_the_lesser_decides() -> None:
     rng = np.random.default_rng(5)
     single = attempt([CAUSES["side_load_friction"].formulations[0]], None, rng)
-    weak = replace(single.steps[0], strength=1e-6 * single.steps[0].strength)
-    both = replace(single, steps=[*single.steps, weak], runs=with_hidden(single.plain, [*single.steps, weak], single.bench))
+    weak = replace(single.causes[0], strength=1e-6 * single.causes[0].strength)
+    runs = with_hidden(single.plain, [single.causes[0].step, weak.step], single.bench)
+    both = replace(single, causes=[*single.causes, weak], runs=runs)
     assert beyond_bench(single) > 0.0
     assert beyond_bench(both) < 1e-3 * beyond_bench(single)
 
@@ -102,6 +104,10 @@ def test_of_two_causes_the_lesser_decides() -> None:
 @pytest.mark.parametrize("samples", [0.2, 1.7])
 def test_a_delay_is_read_in_samples_of_the_bench(samples: float) -> None:
     bench, plain = campaign()
-    delayed = [finished(copied(run), [Step("sensors", force_late, samples / bench.fs, {})]) for run in plain]
-    assert late_samples(delayed, plain, bench) == pytest.approx(samples, rel=0.05)
+    delayed = [
+        finished(copied(run), [Step("sensors", partial(faults.late, force=samples / bench.recorder.fs))]) for run in plain
+    ]
+    assert late_samples(delayed, plain, bench) == pytest.approx(
+        samples, rel=0.1
+    )  # a force that turns within the delay changes less
     assert late_samples(plain, plain, bench) == 0.0, "nothing is late"

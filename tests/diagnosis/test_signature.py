@@ -8,7 +8,7 @@ from scipy.signal import lsim
 from twintube.data import Record
 from twintube.diagnosis.measurement.line import peaks, unrepeated
 from twintube.diagnosis.measurement.signature import signatures
-from twintube.lab.blind_trials.trials import dataset, trial
+from worlds.blind_trials.trials import dataset, trial
 
 AMPLITUDE = 0.045
 VELOCITIES = (0.1, 0.2, 0.4, 0.7, 1.1, 1.5)

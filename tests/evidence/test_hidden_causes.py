@@ -12,7 +12,13 @@ from twintube import diagnose
 from twintube.arrays import Array
 from twintube.dampers import load
 from twintube.data import LoadedDataset
+from twintube.diagnosis.put_right import put_right
+from twintube.diagnosis.records.prepare import prepare
 from twintube.evidence import answer
+from twintube.evidence.answer import bench_of
+from twintube.evidence.base import Base
+from twintube.evidence.bench import Bench
+from twintube.evidence.changes import mechanisms
 from twintube.evidence.contract import as_json
 from twintube.report.answered import lines, write_report
 
@@ -61,6 +67,34 @@ def test_nothing_is_named_where_nothing_is_hidden() -> None:
     found = answer(LoadedDataset("Small", load("SA8", as_published=True), small.records(speeds=SPEEDS), []))
     assert found.verdict == "none"
     assert found.extended is None
+
+
+def test_a_delay_that_suits_no_cause_is_not_held_against_one() -> None:
+    """A stop makes the force look late; with the cause beside it, the same delay is not there."""
+    damper = load("SA8", as_published=True)
+    stopped = damper.with_(F_stop_co=300.0, onset_co=0.037)
+    runs = [small.run(speed, damper=stopped) for speed in (0.3, 1.0)]
+    records = [small.record(r, seed=i) for i, r in enumerate(runs)]
+    measured = put_right(LoadedDataset("Small", damper, records, []), None, lambda step: None)
+    assert measured.problem.usual["channel_delay"] > 1e-3
+    bench = bench_of(measured)
+    (stop,) = (m for m in mechanisms(bench) if m.way == "compression")
+    found = Base(bench, np.ones(len(bench.z), dtype=bool)).search().found(stop)
+    assert found.values["F_stop_co"] == pytest.approx(300.0, rel=0.05)
+
+
+def test_a_cause_far_larger_than_expected_is_found() -> None:
+    """A clock that is wrong by five of its standard deviations: at the end of a record the force is half a stroke late."""
+    damper = load("SA8", as_published=True)
+    runs = [small.run(speed, turns=30) for speed in (0.6, 1.0)]
+    late = [np.interp(0.995 * r.time, r.time, r.force) for r in runs]
+    records = [small.record(r, force, seed=i) for i, (r, force) in enumerate(zip(runs, late, strict=True))]
+    bench = Bench(damper, prepare(LoadedDataset("Small", damper, records, [])))
+    (clock,) = (m for m in mechanisms(bench) if m.way == "clock_error")
+    search = Base(bench, np.ones(len(bench.z), dtype=bool)).search()
+    found = search.found(clock)
+    assert found.log_z > search.none.log_z + 100.0
+    assert found.values["clock_error"] == pytest.approx(0.005, rel=0.02)
 
 
 def test_a_wrong_unit_is_put_right_and_told(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from twintube.dampers import load
 from twintube.dampers.gas_spring import P_ATM, gas_factors
 from twintube.data.condition import is_intact
 from twintube.engine import compiled
+from twintube.engine.loops import Means, Records
 from twintube.fitting.intervals import impulse, means
 from twintube.fitting.least_squares import STEP, bounded, derivatives, pulls, sandwich
 from twintube.fitting.parameters import DEGRADATION, FASTER, ranges
@@ -105,10 +106,9 @@ def test_a_record_does_not_depend_on_what_stands_before_it() -> None:
             compiled.as_row(record)[0] for record in (damper.parameters, blank(Derived), blank(effects.State), blank(Flow))
         ]
         rows[3]["k_degr"] = left
-        force, point, work = np.empty(41), np.empty(41), np.empty(41)
-        compiled.module().run_means(
-            *rows, states, time, stroke, velocity, np.zeros(41), starts, 4, samples, force, point, work
-        )
-        forces.append(np.concatenate([force, point, work]))
+        found = Means(*np.empty((3, 41)))
+        records = Records(states, starts, time, stroke, velocity, np.zeros(41), samples, parts=4)
+        compiled.module().run_means(*rows, records, found)
+        forces.append(np.concatenate(found))
     assert np.isfinite(forces[0]).all()
     assert np.array_equal(*forces)

@@ -17,8 +17,8 @@ from twintube.fmu import BuildError, assemble, build_fmu
 from twintube.fmu.description import model_name
 
 CONTRACT = (
-    "stroke velocity force k_degr V1.oil V1.gas V1.foam V2.oil V2.gas V2.foam V3.oil V3.gas V3.foam force_fluid "
-    "force_friction force_gas work oil_level gas_preload geometry.D_li degradation.X_Re"
+    "stroke velocity force k_degr force_fluid force_friction force_gas work V1.oil V1.gas V1.foam V2.oil V2.gas V2.foam "
+    "V3.oil V3.gas V3.foam V_cav oil_level gas_preload geometry.D_li degradation.X_Re"
 ).split()
 
 

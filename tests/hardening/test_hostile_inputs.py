@@ -57,7 +57,7 @@ def answers(case: Hostile, folder: Path, status: int, stderr: str, stdout: str) 
     assert "Traceback" not in stderr + stdout
     lines = stderr.rstrip("\n").splitlines()
     assert lines[-1].lower().startswith("error: "), stderr[-2000:]
-    assert len(lines) == 1 or lines[0].startswith("Usage: ") or lines[1].startswith("error: "), stderr[:2000]
+    assert len(lines) == 1 or lines[1].startswith("error: "), stderr[:2000]
     assert case.message in stderr + stdout, (stderr[-2000:], stdout[-2000:])
     assert not CONTROL.search(stderr + stdout)
     assert sorted(path.name for path in folder.iterdir()) == sorted(case.files)

@@ -118,15 +118,30 @@ def test_many_crashes_are_not_all_tried(tmp_path: Path, monkeypatch: pytest.Monk
     assert messages[4] == "not read, because 2 files before it are damaged"
 
 
-def test_a_reader_that_takes_too_long_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def slow_reader(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str) -> str:
     script = tmp_path / "slow.py"
-    script.write_text("import time\ntime.sleep(300)\n")
+    script.write_text(f"import sys\nsys.path.insert(0, {str(binary.SCRIPT.parent)!r})\n{code}\n")
     monkeypatch.setattr(binary, "SCRIPT", script)
-    monkeypatch.setattr(binary, "SECONDS", 0.5)
     mat(time=np.arange(5))(tmp_path / "a.mat")
     fill(tmp_path, ["a.mat"])
     (finding,) = check_dataset(tmp_path).errors
-    assert finding.message.startswith("the file is damaged: reading took more than ")
+    return finding.message
+
+
+def test_a_reader_that_waits_is_ended_and_the_machine_may_be_the_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(binary, "BUSY", 0.02)
+    message = slow_reader(tmp_path, monkeypatch, "import time; time.sleep(300)")
+    assert message.startswith("reading took more than ")
+    assert message.endswith(" s: the file is damaged, or the machine is too busy")
+
+
+@posix
+def test_the_time_of_a_reader_is_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(binary, "SECONDS", 1.0)
+    message = slow_reader(tmp_path, monkeypatch, "from read_binary import limit\nlimit(int(sys.argv[2]))\nwhile True: pass")
+    assert message == "the file is damaged: reading took more than 1 s of processor time"
 
 
 def test_one_child_reads_all_binary_records_of_a_dataset(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

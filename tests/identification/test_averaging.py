@@ -14,7 +14,7 @@ from twintube.fitting.averaging import averaged, averaged_means, averaging, peri
 from twintube.identification import Harmonic
 from twintube.identification.sines import identify_sines
 from twintube.identification.validation import validate_harmonic
-from twintube.lab.blind_trials.trials import dataset, trial
+from worlds.blind_trials.trials import dataset, trial
 
 SMALL = 0.02  # [m] amplitude
 

@@ -65,6 +65,19 @@ a, b = (simulate(d, block.stroke, block.velocity, block.time) for d in (plain, d
 fast = (np.abs(b.stroke) < 2e-3) & (np.abs(b.velocity) > 0.1)
 np.testing.assert_allclose(b.columns["F_fluid"][fast] / a.columns["F_fluid"][fast], 0.5, atol=0.01)
 """
+RENAMED = """
+from twintube import harmonic_block, load, simulate
+from twintube.core.effects import EFFECTS, active
+
+values = {i.name: 0.1 * i.metadata["upper"] for effect in EFFECTS.values() for i in effect.parameters
+          if i.metadata["role"] == "strength" and i.name != "groove_share"}
+damper = load("SA8", as_published=True).with_(oil_level=0.6, gas_preload=0, **values)
+block = harmonic_block(1.572, dt=4e-3)
+parts = (block.stroke[-400:], block.velocity[-400:], block.time[-400:])
+result = simulate(damper, *parts, interpreted=True)
+print(" ".join(active(damper.parameters)))
+print("".join(values.tobytes().hex() for values in result.columns.values()))
+"""
 
 
 def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -113,6 +126,36 @@ def test_the_generated_parts_know_it(copy: Path) -> None:
     assert "| `bypass_groove.groove_share` |" in table.stdout, table.stderr
 
 
+def test_the_name_of_a_file_changes_no_result(copy: Path) -> None:
+    """All effects at once; that of fluid_lag comes after others in the alphabet then, but not in the model."""
+    before = run(copy, "-c", RENAMED)
+    folder = copy / "twintube" / "core" / "effects"
+    text = (folder / "fluid_lag.py").read_text(encoding="utf-8")
+    (folder / "fluid_lag.py").unlink()
+    (folder / "zz_lag.py").write_text(text.replace("fluid_lag", "zz_lag"), encoding="utf-8")
+    try:
+        after = run(copy, "-c", RENAMED)
+    finally:
+        (folder / "zz_lag.py").unlink()
+        (folder / "fluid_lag.py").write_text(text, encoding="utf-8")
+    assert (before.returncode, after.returncode) == (0, 0), before.stderr + after.stderr
+    (names, bits), (other_names, other_bits) = before.stdout.splitlines(), after.stdout.splitlines()
+    assert "fluid_lag" in names and other_names.split()[-1] == "zz_lag"
+    assert bits == other_bits
+
+
+def test_two_effects_of_one_order_are_refused(copy: Path) -> None:
+    folder = copy / "twintube" / "core" / "effects"
+    text = (folder / "end_stop.py").read_text(encoding="utf-8")
+    (folder / "end_stop.py").write_text(re.sub(r"^ORDER = .*", "ORDER = 20", text, flags=re.M), encoding="utf-8")
+    try:
+        done = run(copy, "-c", "import twintube.core.effects")
+    finally:
+        (folder / "end_stop.py").write_text(text, encoding="utf-8")
+    assert done.returncode != 0
+    assert "both have ORDER = 20" in done.stderr.splitlines()[-1]
+
+
 def test_an_unknown_unit_is_an_error(copy: Path) -> None:
     ((path, text),) = BLOCK.findall(PAGE)
     other = copy / "twintube" / path
@@ -138,6 +181,7 @@ def test_the_translation_takes_it(copy: Path) -> None:
 
 
 def test_every_hook_and_role_of_the_page_exists() -> None:
+    from twintube.core.hook_table import HOOKS, page
     from twintube.core.hooks import NEEDED, ROLES
 
     section = PAGE[PAGE.index("## Add an effect") :]
@@ -145,3 +189,5 @@ def test_every_hook_and_role_of_the_page_exists() -> None:
         assert name in section
     for role in ROLES:
         assert f"`{role}`" in section
+    assert all(f"| `{hook}` |" in section for hook in HOOKS)
+    assert page(PAGE) == PAGE, "python docs/_ext/hook_table.py"

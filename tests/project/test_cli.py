@@ -57,6 +57,22 @@ def test_a_command_that_moved_says_where(old: str, new: str) -> None:
     assert f"'twintube {old}' is 'twintube paper {new}' now" in run.stderr
 
 
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["nonsense"], "error: No such command 'nonsense'; see "),
+        (["--nope"], "error: No such option: --nope; see "),
+        (["rig"], "error: Missing argument 'DAMPER'; see "),
+        (["fmu", "--kind", "x"], "error: Invalid value for '--kind': 'x' is not one of 'native', 'python'; see "),
+    ],
+)
+def test_a_wrong_command_line_is_answered_in_one_line(arguments: list[str], message: str) -> None:
+    run = RUNNER.invoke(app, arguments)
+    assert run.exit_code == 2
+    assert run.stderr.startswith(message)
+    assert run.stderr.count("\n") == 1
+
+
 @pytest.mark.parametrize("option", ["--version", "--help"])
 def test_help_imports_nothing_scientific(option: str) -> None:
     script = f"import sys\nfrom twintube.cli import app\napp(['{option}'], standalone_mode=False)\nprint(*sys.modules)"
@@ -87,6 +103,7 @@ def test_the_values_in_the_help_are_those_of_the_library() -> None:
     from twintube import dampers
     from twintube.cli import fmu, options
     from twintube.dampers.freed_gas import WAYS
+    from twintube.fmu import container
     from twintube.fmu.platforms import PLATFORMS, PLATFORMS_3, Fmi, Kind, Ssp
     from twintube.identification import METHODS
     from twintube.inspection import METHODS as INSPECTIONS
@@ -97,6 +114,7 @@ def test_the_values_in_the_help_are_those_of_the_library() -> None:
 
     assert options.dampers() == dampers.names()
     assert (tuple(PLATFORMS), tuple(PLATFORMS_3)) == (options.PLATFORMS, options.PLATFORMS_3)
+    assert container.PLATFORMS == options.CONTAINED
     assert tuple(road.GD_N0) == options.ROADS
     assert tuple(sorted(path.stem for path in cars.FOLDER.glob("*.toml"))) == options.CARS
     assert tuple(WAYS) == options.FREED_GAS

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from twintube.cli import app
 from twintube.cli.dataset import EXAMPLE
 from twintube.data import check_dataset, load_dataset
-from twintube.lab import example
+from worlds import example
 
 STORED = Path(__file__).parents[2] / "src" / "twintube" / "examples" / EXAMPLE
 RUNNER = CliRunner()

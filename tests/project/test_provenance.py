@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 MUTATIONS = {
     "kernel/forces.py": ("1.0", "1.0625"),
     "kernel/rebound.py": ("d.Y_Re * oil", "0.75 * d.Y_Re * oil"),
-    "kernel/step.py": ("f.k_degr * way", "0.75 * f.k_degr * way"),
+    "kernel/step.py": ("acting / abs(dz)", "0.75 * acting / abs(dz)"),
     "effects/oil_temperature.py": ("-p.fade_heat", "-1.0625 * p.fade_heat"),
     "model.py": ("0.5 *", "0.5625 *"),
 }

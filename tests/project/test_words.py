@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-ROLES = ["fmu_engineer", "bench_technician", "inspection_developer", "researcher", "ci"]
+ROLES = ["fmu_engineer", "bench_technician", "inspection_developer", "researcher", "fleet_engineer", "ci"]
 FIRST = [ROOT / "README.md", *(DOCS / f"{name}.md" for name in [*ROLES, "faq", "index"])]
 
 

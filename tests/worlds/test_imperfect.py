@@ -15,8 +15,9 @@ from worlds.__main__ import app
 from worlds.imperfect.bench import Fault, draw_bench, sine
 from worlds.imperfect.causes import CAUSES
 from worlds.imperfect.law import RATE, State, force, inside
+from worlds.imperfect.session import change
 from worlds.imperfect.specimen import specimen
-from worlds.imperfect.world import before_after, change, unknown_fill
+from worlds.imperfect.world import before_after, unknown_fill
 
 KEYS = {
     "world", "seed", "kind", "causes", "parameters", "oil_level", "gas_preload", "off_percent", "effect_over_noise", "damper",
@@ -36,7 +37,9 @@ def stated(folder: Path, level: float, preload: bool) -> None:
 def test_a_seed_makes_the_same_files_which_the_product_reads(tmp_path: Path) -> None:
     written = []
     for run in ("first", "second"):
-        done = CliRunner().invoke(app, ["imperfect", "--seed", str(SHORT), "--output", str(tmp_path / run)])
+        done = CliRunner().invoke(
+            app, ["make", "--world", "unknown_fill", "--seed", str(SHORT), "--output", str(tmp_path / run)]
+        )
         assert done.exit_code == 0, done.output
         files = sorted(path for path in (tmp_path / run).rglob("*") if path.is_file())
         written.append({path.relative_to(tmp_path / run): path.read_bytes() for path in files})
@@ -53,7 +56,7 @@ def test_a_seed_makes_the_same_files_which_the_product_reads(tmp_path: Path) -> 
 
 def test_no_folder_is_written_over(tmp_path: Path) -> None:
     (tmp_path / "truth.json").write_text("{}", encoding="utf-8")
-    done = CliRunner().invoke(app, ["imperfect", "--seed", str(SHORT), "--output", str(tmp_path)])
+    done = CliRunner().invoke(app, ["make", "--world", "unknown_fill", "--seed", str(SHORT), "--output", str(tmp_path)])
     assert done.exit_code == 2
     assert "exists already" in done.output
     assert not (tmp_path / "dataset").exists()
@@ -74,7 +77,7 @@ def test_a_specimen_is_2_to_6_percent_off_its_parameter_set(name: str) -> None:
 
 def test_hot_oil_is_thinner_and_a_loose_nut_leaves_a_gap() -> None:
     law, _ = specimen(np.random.default_rng(5), "SA8", as_published=False)
-    z = sine(draw_bench(np.random.default_rng(0)), 0.524, 0.025).z
+    z = sine(draw_bench(np.random.default_rng(0)), 0.524, 0.025).motion.stroke
     kernel = inside(law, State(), z)
     cold, hot = (force(law, State(), z, np.full(len(z), warm), kernel) for warm in (25.0, 65.0))
     assert 0.85 < hot.max() / cold.max() < 0.97

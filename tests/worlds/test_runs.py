@@ -13,10 +13,9 @@ from typer.testing import CliRunner
 
 import worlds.run
 from twintube.data import load_dataset
-from twintube.lab.blind_trials.trials import Trial
 from worlds.__main__ import app
-from worlds.adapters import of_collection, of_generator, of_trial
-from worlds.makers import WORLDS, Job, copied, jobs, write_truth
+from worlds.bench.files import told, write_truth
+from worlds.makers import WORLDS, Job, copied, jobs
 from worlds.run import RunError, run, sources, work
 from worlds.scoring import read_pairs, read_truths
 from worlds.scoring.truth import truth_of
@@ -44,49 +43,17 @@ def test_every_world_writes_a_truth_of_the_same_form(world: str, tmp_path: Path)
     [
         (["none"], "none", ("none", {"none"}, {"none"})),
         (["valve_wear"], "effect", ("effect", {"valve_wear"}, {"valve_wear"})),
-        (["recalibrate"], "recalibrate", ("effect", {"recalibrate"}, {"recalibrate"})),
         (["oil_level_error"], "effect", ("state", {"oil_level_error"}, {"oil_level_error", "state"})),
         (["clock_error"], "fault", ("fault", {"clock_error"}, {"clock_error"})),
-        (["clamp_inertia"], "fault", ("fault", {"clamp_inertia"}, {"clamp_inertia"})),
         (["backlash"], "outside", ("outside", {"unknown"}, {"unknown"})),
-        (["end_stop", "valve_wear"], "pair", ("effect", {"end_stop", "valve_wear"}, {"end_stop", "valve_wear"})),
+        (["end_stop", "valve_wear"], "effect", ("effect", {"end_stop", "valve_wear"}, {"end_stop", "valve_wear"})),
     ],
 )
-def test_truths_of_generators_in_the_common_form(
-    causes: list[str], kind: str, wanted: tuple[str, set[str], set[str]]
-) -> None:
-    told = {"seed": 3, "damper": "SA1", "kind": kind, "causes": causes, "effect_over_noise": 0.4, "late_samples": 2.0}
-    truth = truth_of(of_generator("challenge", told), "here")
+def test_truths_in_the_common_form(causes: list[str], kind: str, wanted: tuple[str, set[str], set[str]]) -> None:
+    more = {"effect_over_noise": 0.4, "late_samples": 2.0}
+    truth = truth_of(told("challenge", 3, "SA1", causes, kind, more), "here")
     assert (truth.kind, truth.wanted, truth.names) == wanted
     assert (truth.effect_over_noise, truth.late_samples) == (0.4, 2.0)
-
-
-@pytest.mark.parametrize(
-    ("name", "kind", "wanted"),
-    [
-        ("none@500", "none", "none"),
-        ("none_cut", "none", "none"),
-        ("sensor_saturation", "outside", "unknown"),
-        ("stroke_gain", "fault", "stroke_gain"),
-        ("fluid_lag", "effect", "fluid_lag"),
-    ],
-)
-def test_truths_of_the_collection_in_the_common_form(name: str, kind: str, wanted: str) -> None:
-    truth = truth_of(of_collection("foreign", {"cause": name, "effect_over_noise": 0.2}), "here")
-    assert (truth.world, truth.kind, truth.wanted) == ("foreign", kind, {wanted})
-
-
-@pytest.mark.parametrize(
-    ("hidden", "kind", "wanted"),
-    [
-        ("mains_hum", "outside", {"unknown"}),
-        ("none", "none", {"none"}),
-        ("valve_wear+gas_spring", "effect", {"valve_wear", "gas_spring"}),
-    ],
-)
-def test_truths_of_blind_trials_in_the_common_form(hidden: str, kind: str, wanted: set[str]) -> None:
-    truth = truth_of(of_trial(Trial(hidden, 100, 0.5, {"x": 1.0}, "SA8", [])), "here")
-    assert (truth.world, truth.seed, truth.damper, truth.kind, truth.wanted) == ("blind_trials", 100, "SA8", kind, wanted)
 
 
 def stub(folder: Path, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -96,7 +63,7 @@ def stub(folder: Path, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(worlds.run, "PROGRAM", [sys.executable, str(path)])
 
 
-ANSWER = {"verdict": "none", "probabilities": {"none": 1.0}, "seconds": 1.0}
+ANSWER = {"verdict": "none", "hypotheses": [{"name": "none", "probability": 1.0}], "seconds": 1.0}
 ENDS = {
     "answered": f"out.mkdir(); (out / 'diagnosis.json').write_text('''{json.dumps(ANSWER)}''')",
     "refused": "print('working\\rerror: oil_level = 3'); sys.exit(2)",
@@ -146,7 +113,7 @@ def collection(folder: Path) -> list[str]:
     """A folder with a dataset that nobody can read, and the arguments to run over it."""
     (folder / "datasets" / "broken").mkdir(parents=True)
     (folder / "datasets" / "broken" / "dataset.toml").write_text('title = "no records"\n')
-    truth = {"broken": {"cause": "unit_error", "effect_over_noise": 5.0}}
+    truth = {"broken": told("w", 1, "SA1", ["unit_error"], "fault", {"effect_over_noise": 5.0})}
     (folder / "datasets" / "truth.json").write_text(json.dumps(truth))
     return ["run", "--datasets", str(folder / "datasets"), "--output", str(folder / "out")]
 

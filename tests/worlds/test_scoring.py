@@ -125,19 +125,6 @@ def test_scores_of_probabilities() -> None:
     assert truth_probability(both) == pytest.approx(0.7)
 
 
-def test_the_first_form_is_read_too() -> None:
-    old = {
-        "verdict": "cause", "causes": [{"effect": "oil_temperature"}], "alternatives": [],
-        "probabilities": {"oil_temperature": 0.7, "end_stop": 0.25, "none": 0.05}, "seconds": 7.0,
-    }  # fmt: skip
-    found = pair(HEAT, old)
-    assert right_alone(found)
-    assert found.answer.credible == ("oil_temperature", "end_stop")
-    unsure = pair(HEAT, old | {"verdict": "ambiguous", "alternatives": [{"effect": "fluid_lag"}]})
-    assert unsure.answer.named == {"oil_temperature", "fluid_lag"}
-    assert not right_alone(unsure)
-
-
 def test_marks_of_a_fill() -> None:
     good, bad = pair(FILL, filled(0.62, 0.57, 0.66, 0.9)), pair(FILL, filled(0.9, 0.8, 1.0, 0.2))
     assert (preload_right(good), level_inside(good), level_narrow(good)) == (True, True, True)

@@ -1,12 +1,20 @@
 """The bench: what the operator drives, and what load cell, stroke sensor and recorder make of it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-from scipy.signal import butter, iirpeak, lfilter
+from scipy.signal import iirpeak, lfilter
 
-from worlds.imperfect.law import RATE, Array, Law, curve
+from twintube.arrays import Array
+from worlds.bench import faults
+from worlds.bench.motions import Piece, joined, swing
+from worlds.bench.motions import road as road_of
+from worlds.bench.motions import triangle as triangle_of
+from worlds.bench.plan import RNG, Channels, Motion, Record
+from worlds.bench.sampler import Recorder, channels, coloured
+from worlds.bench.valves import curve
+from worlds.imperfect.law import RATE, Law
 
 SPEEDS: Final = (0.025, 0.05, 0.1, 0.131, 0.262, 0.393, 0.524, 0.786, 1.048, 1.572)  # [m/s], VDA style
 AMPLITUDES: Final = (0.02, 0.025, 0.03, 0.04, 0.045, 0.05)  # [m]
@@ -21,15 +29,12 @@ STROKE_STEP: Final = 2e-6  # [m], resolution of a magnetostrictive sensor
 
 
 @dataclass(frozen=True)
-class Motion:
+class Test:
     """What one record is to contain."""
 
     measurement: str
     name: str
-    z: Array  # (n,) [m] at RATE, with what is driven before the recording
-    first: int  # sample at which the recording begins
-    period: float = 0.0  # [s] of a cycle, 0 where there is none
-    steady: int = 0  # sample from which cycles are equal
+    motion: Motion  # at RATE, with what is driven before the recording
 
 
 @dataclass(frozen=True)
@@ -68,7 +73,7 @@ class Bench:
         return float(np.hypot(self.noise, self.hum / np.sqrt(2)))
 
 
-def draw_bench(rng: np.random.Generator) -> Bench:
+def draw_bench(rng: RNG) -> Bench:
     """Load cells of 10 to 25 kN and class 0.1 to 0.5, hydraulic and crank benches of 5 to 30 kN/mm."""
     return Bench(
         rate=int(rng.choice([200, 250, 500, 1000, 2000], p=[0.1, 0.15, 0.35, 0.3, 0.1])),
@@ -81,78 +86,60 @@ def draw_bench(rng: np.random.Generator) -> Bench:
     )  # fmt: skip
 
 
-def settled(amplitude: float) -> Array:
-    """Slow oscillations that begin softly and end in the middle, on the way into rebound."""
-    omega = V_SETTLING / amplitude
-    t = np.arange(0.0, SETTLING * 2 * np.pi / omega, 1.0 / RATE)
-    return amplitude * np.sin(omega * t) * np.clip(t / 1.0, 0.0, 1.0)
+def settled(amplitude: float) -> Piece:
+    """Slow oscillations that begin softly and end in the middle."""
+    return swing(V_SETTLING, amplitude, SETTLING, 1.0 / RATE, 1.0)
 
 
-def sine(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Motion:
+def sine(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Test:
     """A sine after slow oscillations, taken up within a second; 5 to 8 s of it where fast, five cycles where slow."""
     amplitude = max(amplitude, round(speed / (2 * np.pi * FASTEST), 3))
     before, period = settled(amplitude), 2 * np.pi * amplitude / speed
     lasts = float(np.clip(5 * period, 5.0 if speed > 0.8 else 8.0, 22.0))
-    omega = np.concatenate([np.linspace(V_SETTLING, speed, RATE), np.full(round(lasts * RATE), speed)]) / amplitude
-    z = np.concatenate([before, amplitude * np.sin(np.cumsum(omega) / RATE)])
-    slow = round(2 * np.pi * amplitude / V_SETTLING * RATE) if bench.slow_lead else 0
-    steady = len(before) + RATE
-    return Motion("harmonic", f"sine{tag}_{1000 * speed:04.0f}", z, len(before) - slow if slow else steady, period, steady)
+    t, z, v = (part[:-RATE] for part in swing(speed, amplitude, (lasts + 1.0) / period, 1.0 / RATE, 1.0))
+    steady = len(before[0]) - 1 + RATE
+    slow = round(2 * np.pi * amplitude / V_SETTLING * RATE)
+    motion = replace(joined([before, (t, z, v)]), first=len(before[0]) - slow if bench.slow_lead else steady)
+    return Test("harmonic", f"sine{tag}_{1000 * speed:04.0f}", replace(motion, period=period, steady=steady))
 
 
-def triangle(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Motion:
+def triangle(speed: float, amplitude: float, tag: str = "") -> Test:
     """Nearly two cycles of a slow triangle, of at most LONGEST; a controller leaves its corners round over 0.1 s."""
     amplitude = min(amplitude, round(LONGEST / 1.75 * speed / 4, 3))
-    before, period = settled(amplitude), 4 * amplitude / speed
-    t = np.arange(0.0, min(1.75 * period, LONGEST), 1.0 / RATE)
-    ramp = amplitude * 2 / np.pi * np.arcsin(np.sin(2 * np.pi * t / period))
-    corner = np.hanning(RATE // 10)
-    z = np.convolve(np.concatenate([before, ramp, np.full(RATE // 20, ramp[-1])]), corner / corner.sum(), "same")
-    return Motion("quasi-static", f"slow{tag}_{1000 * speed:03.0f}", z[: len(before) + len(t)], len(before))
+    motion = joined([settled(amplitude), triangle_of(speed, amplitude, 7, 1.0 / RATE, 0.1)], 1)
+    return Test("quasi-static", f"slow{tag}_{1000 * speed:03.0f}", motion)
 
 
-def road(bench: Bench, amplitude: float, rng: np.random.Generator, tag: str = "") -> Motion:
-    """A drive: body near 1.3 Hz, wheel near 11 Hz, coloured noise in between, as a damper stroke."""
-    before, n = settled(amplitude), round(rng.uniform(15.0, LONGEST) * RATE)
-    f = np.fft.rfftfreq(n, 1.0 / RATE)[1:]
-    shape = 1.0 / np.hypot(1 - (f / 1.3) ** 2, 0.5 * f / 1.3) + 0.06 / np.hypot(1 - (f / 11.0) ** 2, 0.3 * f / 11.0)
-    spectrum = shape * (f > 0.3) * (f < 25.0) * np.exp(2j * np.pi * rng.random(len(f))) / np.sqrt(f)
-    z = np.fft.irfft(np.concatenate([[0.0], spectrum]), n)
-    z *= amplitude * rng.uniform(0.6, 1.0) / np.abs(z).max() * np.clip(np.arange(n) / RATE, 0.0, 1.0)
-    return Motion("stochastic", f"road{tag}", np.concatenate([before, z]), len(before))
+def road(amplitude: float, rng: RNG, tag: str = "") -> Test:
+    """A drive."""
+    drive = road_of(rng, np.inf, amplitude * rng.uniform(0.6, 1.0), rng.uniform(15.0, LONGEST), 1.0 / RATE)
+    return Test("stochastic", f"road{tag}", joined([settled(amplitude), drive], 1))
 
 
 def warmed(law: Law, bench: Bench, motion: Motion, start: float, room: float) -> Array:
     """Temperature of the oil [degC] (n,): the damper's own work heats it, the room cools it."""
-    v = np.gradient(motion.z) * RATE
+    v = np.gradient(motion.stroke) * RATE
     heating = lfilter([1.0 / RATE], [1.0, -np.exp(-1.0 / (RATE * COOLING))], curve(law.damper, v) * v / bench.heat)
     return np.asarray(room + (start - room) * np.exp(-np.arange(len(v)) / (RATE * COOLING)) + heating)
 
 
-def noise(bench: Bench, n: int, rng: np.random.Generator) -> Array:
+def noise(bench: Bench, n: int, rng: RNG) -> Array:
     """Half of the power white, half below the corner; hum with its third harmonic."""
-    memory = np.exp(-2 * np.pi * bench.corner / bench.rate)
-    slow = lfilter([np.sqrt(1 - memory**2)], [1.0, -memory], rng.standard_normal(n))
+    slow = coloured(rng, n, float(np.exp(-2 * np.pi * bench.corner / bench.rate)))
     phase = 2 * np.pi * (50.0 * np.arange(n) / bench.rate + rng.random())
     hum = bench.hum * (np.sin(phase) * np.sqrt(0.9) + np.sin(3 * phase) * np.sqrt(0.1))
     return np.asarray(bench.noise * np.sqrt(0.5) * (slow + rng.standard_normal(n)) + hum)
 
 
-def seen(bench: Bench, fault: Fault, z: Array, force: Array, contact: Array) -> tuple[Array, Array]:
-    """Stroke and force as the amplifiers give them, at RATE; without noise, zero and gain of the day."""
+def recorded(bench: Bench, fault: Fault, motion: Motion, force: Array, contact: Array | float = 0.0) -> list[Array]:
+    """Times, stroke and force (m,) that the recorder has of forces (n,) at RATE; without noise, zero and gain of the day."""
     share, frequency, damping = fault.ringing
     if share > 0.0:
         force = force + share * lfilter(*iirpeak(frequency, 1.0 / (2 * damping), RATE), force)
-    force = force + contact
-    at = np.arange(len(z)) - (bench.delay + fault.delay) * RATE
-    force = fault.sign * (fault.gain * np.interp(at, np.arange(len(z)), force) + fault.zero) / fault.unit
-    return fault.sign * fault.stroke_gain * z, force
-
-
-def recorded(bench: Bench, motion: Motion, stroke: Array, force: Array) -> tuple[Array, Array]:
-    """Both channels behind the recorder's filter, as samples (m,) at its rate."""
-    if bench.rate < RATE:
-        b, a = butter(2, 0.4 * bench.rate, fs=RATE)
-        stroke = lfilter(b, a, stroke - stroke[0]) + stroke[0]
-        force = lfilter(b, a, force - force[0]) + force[0]
-    return stroke[motion.first :: RATE // bench.rate], force[motion.first :: RATE // bench.rate]
+    nothing = Record("", 0, "", 1.0, True, 0.0, 0.0)
+    c = Channels(record=nothing, motion=motion, stroke=motion.stroke, force=force + contact)
+    faults.late(c, force=bench.delay + fault.delay)
+    gain = fault.sign / fault.unit
+    faults.scaled(c, gain * fault.gain, gain * fault.zero, fault.sign * fault.stroke_gain)
+    kind = "filtered" if bench.rate < RATE else "point"
+    return channels(c.time, c.start, [(c.stroke, kind, None), (c.force, kind, None)], Recorder(bench.rate, kind))

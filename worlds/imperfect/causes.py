@@ -7,11 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
-import numpy as np
-
+from worlds.bench.plan import RNG, sign, span
 from worlds.imperfect.law import Law
 
-RNG = np.random.Generator
 Fields = dict[str, Any]  # of State or Fault
 
 
@@ -28,19 +26,9 @@ class Cause:
     also: tuple[str, ...] = ()  # other names for the same in a reader's catalogue
 
 
-def span(rng: RNG, low: float, high: float) -> float:
-    """Evenly over the logarithm."""
-    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
-
-
 def evenly(rng: RNG, low: float, high: float) -> float:
     """Evenly between the two."""
     return float(rng.uniform(low, high))
-
-
-def sign(rng: RNG) -> float:
-    """Either sign."""
-    return float(rng.choice([-1.0, 1.0]))
 
 
 def either(rng: RNG, change: float) -> tuple[float, float]:

@@ -6,12 +6,11 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import bilinear, lfilter
 
 from twintube import Damper, simulate
-
-Array = NDArray[np.float64]
+from twintube.arrays import Array
+from worlds.bench.valves import curve, since_reversal
 
 RATE: Final = 2000  # [Hz] of everything before the recorder: 1 ms of lag is two samples, kept apart by interpolation
 V_KNEE: Final = 0.2  # [m/s] where the valves of car dampers blow off, 0.1 to 0.3
@@ -78,13 +77,6 @@ class Law:
     nominal: bool = field(default=False)  # the parameter set's own law
 
 
-def curve(damper: Damper, v: Array) -> Array:
-    """The F-v curve of the parameter set."""
-    p = damper.parameters
-    rebound = np.interp(v, (0.0, *p.v_re), (0.0, *p.F_re))
-    return np.asarray(np.where(v >= 0.0, rebound, -np.interp(-v, (0.0, *p.v_co), (0.0, *p.F_co))))
-
-
 def by_direction(v: Array, rebound: float, compression: float) -> Array:
     """One value in rebound, the other in compression."""
     return np.asarray(np.where(v >= 0.0, rebound, compression))
@@ -125,13 +117,6 @@ def over_travel(values: Array, z: Array, length: float) -> Array:
     rate = 1.0 - np.exp(-1e-4 / length)
     smooth = lfilter([rate], [1.0, rate - 1.0], np.interp(grid, travel, values) - values[0]) + values[0]
     return np.asarray(np.interp(travel, grid, smooth))
-
-
-def since_reversal(z: Array, v: Array) -> Array:
-    """Travel [m] since the motion last turned."""
-    travel = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
-    turned = np.concatenate([[False], np.diff(np.sign(v)) != 0])
-    return travel - np.maximum.accumulate(np.where(turned, travel, 0.0))
 
 
 @dataclass(frozen=True)

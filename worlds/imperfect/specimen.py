@@ -7,7 +7,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from twintube import load
-from worlds.imperfect.law import POSITIVE, RATE, T_PARAMETERS, TRAITS, Array, Inside, Law, State, force, inside
+from twintube.arrays import Array
+from worlds.imperfect.law import POSITIVE, RATE, T_PARAMETERS, TRAITS, Inside, Law, State, force, inside
 
 OFF: Final = (0.02, 0.06)  # RMS over peak, root of the mean square over the speeds below
 MOST_SCALE: Final = 1.8  # of the traits as drawn

@@ -1,7 +1,7 @@
 """What answers to datasets with a known truth are worth: one form of truth, one of answers, one set of figures.
 
 truth    what is hidden in a dataset: truth.json, the same from every world
-answer   what a diagnosis says: diagnosis.json of the present and of the first form, or why there is none
+answer   what a diagnosis says: diagnosis.json, or why there is none
 pairs    the truth and the answer of each dataset in some folders
 marks    one answer against its truth
 figures  all of them: shares and scores with 95 % intervals

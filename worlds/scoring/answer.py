@@ -1,4 +1,4 @@
-"""What a diagnosis says about a dataset, of either form of diagnosis.json; or why there is no answer."""
+"""What a diagnosis says about a dataset, or why there is no answer."""
 
 import json
 import math
@@ -80,10 +80,7 @@ def fill_of(entry: Mapping[str, Any]) -> Fill:
 def answer_of(content: Mapping[str, Any]) -> Answer:
     """The answer in the entries of diagnosis.json; raises KeyError, TypeError or ValueError where it is none."""
     verdict = str(content["verdict"])
-    if "hypotheses" in content:
-        probabilities = {str(item["name"]): float(item["probability"]) for item in content["hypotheses"]}
-    else:
-        probabilities = {str(name): float(p) for name, p in content.get("probabilities", {}).items()}
+    probabilities = {str(item["name"]): float(item["probability"]) for item in content["hypotheses"]}
     if not all(0.0 <= p <= 1.0 for p in probabilities.values()):  # NaN is not, either
         raise ValueError("a probability is not between 0 and 1")
     credible = tuple(content.get("credible_set") or smallest_set(probabilities))
@@ -93,8 +90,7 @@ def answer_of(content: Mapping[str, Any]) -> Answer:
     elif verdict in ONE_NAME:
         named = [ONE_NAME[verdict]]
     elif verdict == "ambiguous":
-        others = [item["effect"] for item in content.get("alternatives", [])]  # of the first form
-        named = [*causes, *others] if others else list(credible)
+        named = list(credible)
     else:
         raise ValueError(f"verdict {verdict!r}")
     seconds = content.get("seconds")

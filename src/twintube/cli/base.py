@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from contextvars import ContextVar
 from pathlib import Path
 from typing import Annotated, Any
@@ -34,6 +34,7 @@ MOVED = {
 }
 # The context of the running command; Typer has it in a module of its own, which was click's in former versions.
 RUNNING: ContextVar[Any] = ContextVar("running")
+USAGE_ERROR: Any = typer.BadParameter.__bases__[0]  # click's UsageError, which Typer does not pass on
 OUTPUTS = ("output", "json_file", "plot")  # parameters of commands that name what is written
 
 
@@ -55,6 +56,18 @@ def answering() -> Iterator[None]:
         raise typer.Exit(2) from None
     except UserError as error:
         typer.echo(printable(f"error: {error}"), err=True)
+        raise typer.Exit(2) from None
+
+
+@contextmanager
+def parsing() -> Iterator[None]:
+    """A name or a value that the command line does not know is bad input like any other: one line, not click's four."""
+    try:
+        yield
+    except USAGE_ERROR as error:
+        place = f"; see {error.ctx.command_path} -h" if error.ctx else ""
+        text = " ".join(error.format_message().split()).rstrip(".").replace("Value error, ", "")
+        typer.echo(printable(f"error: {text}{place}"), err=True)
         raise typer.Exit(2) from None
 
 
@@ -90,6 +103,11 @@ def check_place(path: Path) -> None:
 class Command(TyperCommand):
     """A command that looks at the place of its output before it computes, and answers bad input with one line."""
 
+    def make_context(self, *arguments: Any, **options: Any) -> Any:
+        """Read the command line."""
+        with parsing():
+            return super().make_context(*arguments, **options)
+
     def invoke(self, ctx: Any) -> Any:
         """Run it."""
         RUNNING.set(ctx)
@@ -117,6 +135,11 @@ class Command(TyperCommand):
 class Group(TyperGroup):
     """Commands in groups, each sorted, with the whole first line of their help."""
 
+    def make_context(self, info_name: str | None, args: list[str], *more: Any, **options: Any) -> Any:
+        """Read the command line; without arguments click answers with the help."""
+        with parsing() if args else nullcontext():
+            return super().make_context(info_name, args, *more, **options)
+
     def list_commands(self, ctx: Any) -> list[str]:
         """The names in the order of the alphabet."""
         return sorted(self.commands)
@@ -133,9 +156,10 @@ class Group(TyperGroup):
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """As Typer does, and say where a command went that had another name."""
-        if args[0] in MOVED and args[0] not in self.commands:
-            ctx.fail(f"'twintube {args[0]}' is 'twintube {MOVED[args[0]]}' now")
-        return super().resolve_command(ctx, args)
+        with parsing():
+            if args[0] in MOVED and args[0] not in self.commands:
+                ctx.fail(f"'twintube {args[0]}' is 'twintube {MOVED[args[0]]}' now")
+            return super().resolve_command(ctx, args)
 
 
 def first_line(command: Any) -> str:

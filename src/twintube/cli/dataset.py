@@ -13,6 +13,7 @@ from twintube.errors import InputError
 from twintube.extras import extra_of
 
 EXAMPLE = "bench_SA8"
+DRIVE_EXAMPLE = "drive"  # `twintube drive --speed 80 --road-class C --minutes 0.5`, worn: rear left, 40 % oil, no gas
 
 
 @app.command(
@@ -76,6 +77,9 @@ def example(
     folder: Annotated[
         Path, typer.Argument(metavar="FOLDER", help="To copy the example into; it must not exist or be empty.")
     ],
+    drive: Annotated[
+        bool, typer.Option("--drive", help="Signals of a driving car in place of it: 30 s good, 30 s worn, for the monitor.")
+    ] = False,
 ) -> None:
     """Copy a dataset of seven records to try things on.
 
@@ -85,9 +89,13 @@ def example(
 
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise InputError(f"{folder} is there already and not an empty folder; nothing is overwritten")
-    with as_file(files("twintube.examples") / EXAMPLE) as stored:
+    with as_file(files("twintube.examples") / (DRIVE_EXAMPLE if drive else EXAMPLE)) as stored:
         paths = sorted(stored.iterdir())
         for path in paths:
             write_bytes(folder / path.name, path.read_bytes())
+    if drive:
+        typer.echo(f"{folder}: {' and '.join(path.name for path in paths)}")
+        typer.echo(f"Next: twintube monitor {folder}/worn.parquet --reference {folder}/good.parquet")
+        return
     typer.echo(f"{folder}: dataset.toml and {len(paths) - 1} records")
     typer.echo(f"Next: twintube diagnose {folder}")

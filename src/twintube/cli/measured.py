@@ -1,6 +1,7 @@
 """Commands about measured data and larger computations: check, identify, diagnose, study."""
 
 import json
+import os
 import shutil
 from pathlib import Path
 from typing import Annotated
@@ -40,7 +41,10 @@ def check(
 def study(
     definition: Annotated[
         str,
-        typer.Argument(metavar="STUDY", help="variants (Figure 33), oil_levels (Figure 34), or a study file in TOML."),
+        typer.Argument(
+            metavar="STUDY",
+            help="variants (Figure 33), oil_levels (Figure 34), driving (signals of random cars), or a study file in TOML.",
+        ),
     ],
     output: Annotated[Path, typer.Option(metavar="FILE", help="Parquet file for the result.")] = Path("study.parquet"),
     processes: PROCESSES = None,
@@ -50,13 +54,36 @@ def study(
             metavar="ADDRESS", help="Dask scheduler that computes instead, e.g. tcp://10.0.0.1:8786 (extra cluster)."
         ),
     ] = None,
+    drives: Annotated[int, typer.Option(metavar="N", help="Of driving: number of drives, ten of each car.")] = 1000,
+    minutes: Annotated[float, typer.Option(metavar="MIN", help="Of driving: length of a drive.")] = 5.0,
+    seed: Annotated[int, typer.Option(metavar="N", help="Of driving: seed of all that is drawn.")] = 1,
+    scalar: Annotated[
+        bool, typer.Option("--scalar", help="Of driving: worn dampers as scalar factors, too, on the same roads.")
+    ] = False,
+    signals: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Of driving: write the signals of every drive to this folder.")
+    ] = None,
 ) -> None:
-    """Compute a grid of cases into a Parquet file.
+    """Compute cases or random drives into a Parquet file.
 
-    A case is a damper, a signal, parameters, an oil level and a variant of the model.
+    A case is a damper, a signal, parameters, an oil level and a variant of the model. The rows of driving are minutes, with
+    the features of their signals; started again it goes on where it was interrupted.
     """
     from twintube import studies
 
+    if definition == "driving":
+        from twintube.driving.study import Plan, run, summary
+
+        plan = Plan(drives, minutes, seed, scalar, None if signals is None else str(signals.resolve()))
+        if not named():
+            refuse_other(output, same=studies.definition_of(output) == plan.text)
+        count = (os.cpu_count() or 1) if processes is None else processes
+        counts = run(plan, output, processes=count, cluster=cluster)
+        typer.echo(summary(plan, output, counts))
+        return
+    for name in ("drives", "minutes", "seed", "scalar", "signals"):
+        if named(name):
+            raise InputError(f"--{name}: only with the study driving, not with {definition}")
     loaded = studies.load(definition)
     if not named():
         refuse_other(output, same=studies.definition_of(output) == loaded.text)
@@ -129,7 +156,7 @@ def identify(
     for sentence in figures["judgement"]:
         typer.echo(sentence)
     typer.echo(f"Next: {figures['next_step']}.")
-    typer.echo(f"{output}: identified.toml, identification.json, report.html")
+    typer.echo(f"{output}: identified.toml, identification.json, fv_table.csv, report.html")
 
 
 @app.command(rich_help_panel=BENCH, epilog="Example: twintube diagnose my_dataset --output diagnosis")

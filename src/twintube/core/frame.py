@@ -35,6 +35,7 @@ class Frame(State):
     W_step: float = var("frame", "W", "J", "work dissipated in the step", default=0.0)
     warm: float = var("frame", "", "K", "measured temperature beyond that of the parameter set, set from outside; 0 unknown",
                       default=0.0)  # fmt: skip
+    duration: float = var("frame", "", "s", "duration of the step", default=0.0)
     elapsed: float = var("frame", "t", "s", "time since the start", default=0.0)
 
 

@@ -1,72 +1,28 @@
 """From the effects' files to records and functions: what `core/effects/__init__.py` executes.
 
-A file `<effect>.py` in the folder `effects` has the constants TITLE, CAUSE, ABSENCE, DECIDES and NEEDS_TIME, the records
-`Parameters` and (optional) `State`, whose own fields join the table of variables, and functions called `<effect>_<hook>` in
-the kernel's subset of Python. Every parameter says its role (ROLES); an effect acts if one of its strengths is not 0.
+A file `<effect>.py` in the folder `effects` has the constants TITLE, CAUSE, ABSENCE, DECIDES, NEEDS_TIME and ORDER, the
+records `Parameters` and (optional) `State`, whose own fields join the table of variables, and functions called
+`<effect>_<hook>` in the kernel's subset of Python. Every parameter says its role (ROLES); an effect acts if one of its
+strengths is not 0. A file `_<name>.py` has functions that an effect is made of.
 
-    hook            signature                         result
-    derive          (p, d)                            changes of `d` after kernel.prepare
-    level           (p, level) -> level               the true oil level [1] at the start
-    parts           (p, dt) -> number                 of parts that a step is divided into, the largest counts
-    motion          (p, d, s, z, v0, v1, dt)          s.goal_z, s.goal_v0, s.goal_v1: what the piston sees
-    phases          (p, s, way, dt)                   changes of the phases, before kernel.step
-    transition      (p, s, f, v, dz)                  s.k_degr, f.k_degr, f.k_mean after kernel.step
-    scale_fluid     (p, s, v) -> factor               of the fluid force in the direction of v
-    scale_valve     (p, u) -> factor                  of the intact fluid force at the speed u at the valves
-    bypass          (p, F) -> speed [m/s]             past the valves at their intact force F, as scale_valve says
-    scale_friction  (p, s, z, v) -> factor            of the friction force at the stroke z and the velocity v
-    elastic         (p, s, z) -> force [N]            added to the gas force, no work
-    rub             (p, z, v) -> force [N]            added to the friction, with the sign of v
-    series          (p, s, F, dt) -> speed [m/s]      taken up in series with the valves at the fluid force F
-    rebalance       (p, d, s, v, dt)                  s.goal_v1 after the step has changed s.k_re or s.k_co
-    felt            (p, s, F, dt) -> force [N]        after the step, if the fluid force at the valves is F
-    force           (p, s, v, dz, dt)                 s.F_fluid, s.F_valve, s.F_mean, s.W_step of a force with memory
-    finish          (p, s, dt)                        what follows from forces and work
-    lost            (p, duration, way, square)        oil [m3] that a record takes along, for those after it; not in a step
+Effects act in the order of their constants ORDER, whatever their files are called. The hooks are in `hook_table.py`.
 """
 
 import ast
 import re
 from collections.abc import Callable
 from dataclasses import Field, dataclass, field, fields, make_dataclass
+from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from twintube.core import variables
 from twintube.core.frame import Frame
+from twintube.core.hook_table import HOOKS, JOINED
 
 FOLDER = Path(__file__).parent / "effects"
-# Arguments of a hook and their types, its result, and how the results of several effects are joined.
-HOOKS = {
-    "derive": ("p: Parameters, d: Derived", "None", "call"),
-    "level": ("p: Parameters, value: float", "float", "chain"),
-    "parts": ("p: Parameters, dt: float", "int", "most"),
-    "motion": ("p: Parameters, d: Derived, s: State, z: float, v0: float, v1: float, dt: float", "None", "call"),
-    "phases": ("p: Parameters, s: State, way: float, dt: float", "None", "call"),
-    "transition": ("p: Parameters, s: State, f: Flow, v: float, dz: float", "None", "call"),
-    "scale_fluid": ("p: Parameters, s: State, v: float", "float", "product"),
-    "scale_valve": ("p: Parameters, u: float", "float", "product"),
-    "bypass": ("p: Parameters, F: float", "float", "sum"),
-    "scale_friction": ("p: Parameters, s: State, z: float, v: float", "float", "product"),
-    "elastic": ("p: Parameters, s: State, z: float", "float", "sum"),
-    "rub": ("p: Parameters, z: float, v: float", "float", "sum"),
-    "series": ("p: Parameters, s: State, F: float, dt: float", "float", "sum"),
-    "rebalance": ("p: Parameters, d: Derived, s: State, v: float, dt: float", "None", "call"),
-    "felt": ("p: Parameters, s: State, value: float, dt: float", "float", "chain"),
-    "force": ("p: Parameters, s: State, v: float, dz: float, dt: float", "None", "call"),
-    "finish": ("p: Parameters, s: State, dt: float", "None", "call"),
-    "lost": ("p: Parameters, level: float, z: float, duration: float, way: float, square: float", "float", "sum"),
-}
-FIRST = {"call": "", "chain": "", "sum": "    value = 0.0\n", "product": "    value = 1.0\n", "most": "    value = 1\n"}
-LINE = {
-    "call": "{}",
-    "chain": "value = {}",
-    "sum": "value += {}",
-    "product": "value *= {}",
-    "most": "value = max(value, {})",
-}
-NEEDED = ("TITLE", "CAUSE", "ABSENCE", "DECIDES", "NEEDS_TIME", "Parameters")
+NEEDED = ("TITLE", "CAUSE", "ABSENCE", "DECIDES", "NEEDS_TIME", "ORDER", "Parameters")
 # What a parameter of an effect is, for those who search its value.
 ROLES = {
     "strength": "0 where the effect is absent",
@@ -105,6 +61,11 @@ def sources() -> dict[str, str]:
     return {path.stem: path.read_text(encoding="utf-8") for path in sorted(FOLDER.glob("[a-z]*.py"))}
 
 
+def helpers() -> dict[str, str]:
+    """The text of every file `_<name>.py`, with functions that an effect is made of, by `_<name>`."""
+    return {path.stem: path.read_text(encoding="utf-8") for path in sorted(FOLDER.glob("_[a-z]*.py"))}
+
+
 def strengths(text: str) -> tuple[str, ...]:
     """The names of the strengths in a file, read without importing it: effects call the functions generated from it."""
     names = []
@@ -118,6 +79,26 @@ def strengths(text: str) -> tuple[str, ...]:
     return tuple(names)
 
 
+def order(text: str) -> int:
+    """The constant ORDER of a file, read without importing it; raises ImportError where it is missing."""
+    for node in ast.parse(text).body:
+        match node:
+            case ast.Assign(targets=[ast.Name(id="ORDER")], value=ast.Constant(value=int() as value)):
+                return value
+    raise ImportError("an effect without a whole number ORDER")
+
+
+def in_order() -> dict[str, str]:
+    """The texts of `sources` in the order in which the effects act; raises ImportError where two have the same."""
+    texts = sources()
+    orders = {name: order(text) for name, text in texts.items()}
+    names = sorted(texts, key=lambda name: orders[name])
+    for first, second in pairwise(names):
+        if orders[first] == orders[second]:
+            raise ImportError(f"effects/{first}.py and effects/{second}.py both have ORDER = {orders[first]}")
+    return {name: texts[name] for name in names}
+
+
 def names_of(arguments: str) -> str:
     """`p, d` of `p: Parameters, d: Derived`."""
     return ", ".join(part.split(":")[0] for part in arguments.split(", "))
@@ -125,7 +106,7 @@ def names_of(arguments: str) -> str:
 
 def dispatch_source() -> str:
     """The text of the functions `effects_<hook>`, and of two that say whether any effect acts, or has a force of its own."""
-    texts = sources()
+    texts = in_order()
     guard = {name: " or ".join(f"p.{item} != 0.0" for item in strengths(text)) for name, text in texts.items()}
     parts = [
         "def effects_active(p):\n"
@@ -138,13 +119,13 @@ def dispatch_source() -> str:
         + "".join(f"    if {condition}:\n        return 1\n" for condition in memory)
         + "    return 0\n"
     )
-    for hook, (typed, _, kind) in HOOKS.items():
-        arguments, body = names_of(typed), FIRST[kind]
+    for hook, what in HOOKS.items():
+        arguments = names_of(what.arguments)
+        body, line, _ = JOINED[what.joined]
         for name, text in texts.items():
             if re.search(rf"^def {name}_{hook}\(", text, re.MULTILINE):
-                line = LINE[kind].format(f"{name}_{hook}({arguments})")
-                body += f"    if {guard[name]}:\n        {line}\n"
-        body += "    return\n" if kind == "call" else "    return value\n"
+                body += f"    if {guard[name]}:\n        {line.format(f'{name}_{hook}({arguments})')}\n"
+        body += "    return\n" if what.joined == "call" else "    return value\n"
         parts.append(f"def effects_{hook}({arguments}):\n{body}")
     return "\n\n".join(parts)
 

@@ -7,6 +7,7 @@ import math
 import sys
 from dataclasses import asdict, fields
 from operator import attrgetter
+from types import SimpleNamespace
 from typing import Any
 
 from twintube.core import messages
@@ -16,8 +17,8 @@ from twintube.core.consistency import SAFE_STEP, possible, time_slack
 from twintube.core.effects import Parameters, State
 from twintube.core.frame import stroke_limit
 from twintube.core.model import advance, set_up, start
-from twintube.core.outputs import publish
-from twintube.core.variables import Derived, Flow, Inputs, Outputs, blank
+from twintube.core.publishing import NAMES, publish
+from twintube.core.variables import Derived, Flow, Inputs, blank
 from twintube.core.variables import State as PaperState
 
 LARGEST = sys.float_info.max
@@ -55,7 +56,7 @@ class Instance:
         self.d: Derived = blank(Derived)
         self.s: State = blank(State)
         self.f: Flow = blank(Flow)
-        self.o = Outputs(*(0.0 for _ in fields(Outputs)))
+        self.o = SimpleNamespace(**dict.fromkeys(NAMES, 0.0))
         self.limit = 0.0  # [m] largest stroke to each side
         self.held: tuple[float, ...] = ()  # `s` after the last step, for a step that has to be taken back
         self.changed = False  # `wanted` differs from `p`

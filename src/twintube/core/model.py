@@ -10,6 +10,7 @@ from twintube.core.effects import (
     effects_derive,
     effects_elastic,
     effects_finish,
+    effects_flows,
     effects_force,
     effects_level,
     effects_motion,
@@ -18,12 +19,16 @@ from twintube.core.effects import (
     effects_rebalance,
     effects_reset,
     effects_rub,
+    effects_scale_cavitation,
     effects_scale_fluid,
     effects_scale_friction,
     effects_scale_valve,
     effects_transition,
 )
 from twintube.core.kernel import fill, fluid_force, pour, prepare, step
+from twintube.core.kernel.forces import share_above
+from twintube.core.kernel.prepare import cavitate
+from twintube.core.kernel.step import MAX_SPLITS, arrive, carry, flows
 from twintube.core.variables import Derived, Flow
 
 # A step that is not longer [s] is the rounding of communication points: no time passes for the effects, whose rates over it
@@ -88,6 +93,7 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     """The kernel's step with the effects around it."""
     if dt <= SHORTEST:
         dt = 0.0
+    s.duration = dt
     work = s.work
     friction = s.F_friction
     gas = s.F_gas
@@ -96,9 +102,10 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     s.goal_v1 = v1
     effects_motion(p, d, s, z, v0, v1, dt)
     dz = s.goal_z - s.z
+    cavitate(p, d, effects_scale_cavitation(p, s))
     effects_phases(p, s, abs(dz), dt)
     s.k_degr = s.k_flow
-    done = step(p, d, s, f, s.goal_z, s.goal_v0, s.goal_v1)
+    done = changed_step(p, d, s, f, s.goal_z, s.goal_v0, s.goal_v1)
     s.k_flow = s.k_degr
     v = s.goal_v1
     effects_transition(p, s, f, v, dz)
@@ -128,3 +135,22 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     s.elapsed += dt
     effects_finish(p, s, dt)
     return done
+
+
+def changed_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float) -> bool:
+    """`kernel.step` with flows that effects change."""
+    dz = z - s.z
+    left = abs(dz)
+    foaming = share_above(v0, v1, p.v_foam)
+    cavitating = share_above(v0, v1, p.v_cav)
+    acting = 0.0
+    splits = 0
+    while left > 0.0 and splits < MAX_SPLITS:
+        flows(p, d, s, f, dz, foaming, cavitating)
+        effects_flows(p, d, s, f, dz, foaming)
+        way = carry(s, f, left)
+        acting += f.k_degr * way
+        left -= way
+        splits += 1
+    arrive(p, d, s, f, z, v0, v1, acting)
+    return left <= 0.0

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from twintube.core import effects, hooks
+from twintube.core.publishing import publishing_source
 
 FOLDER = Path(__file__).parent
 KERNEL = (
@@ -26,12 +27,12 @@ def text_of(name: str) -> str:
 
 def kernel_texts() -> list[str]:
     """The paper's equations, the force at the valves and the outputs."""
-    return [text_of(name) for name in KERNEL]
+    return [*(text_of(name) for name in KERNEL), publishing_source()]
 
 
 def effect_texts() -> list[str]:
     """The effects' files, and the functions that this package generates from them."""
-    return [*hooks.sources().values(), hooks.dispatch_source(), hooks.reset_source(effects.State)]
+    return [*hooks.helpers().values(), *hooks.sources().values(), hooks.dispatch_source(), hooks.reset_source(effects.State)]
 
 
 def model_text() -> str:

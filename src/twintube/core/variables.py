@@ -8,7 +8,7 @@ Standard library only: this file travels inside the Python FMU. All values are S
 """
 
 from dataclasses import Field, dataclass, field, fields
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from twintube.core.units import NOMINAL, UNITS
 
@@ -31,6 +31,8 @@ def var(
     default: float | None = None,
     role: str = "",
     nominal: float | None = None,
+    fmi: str = "",
+    value: str = "",
 ) -> Any:
     """A record's field with its description; `unit` is an FMI base-unit expression, "1" where there is none.
 
@@ -53,16 +55,17 @@ def var(
         "default": default,
         "role": role,
         "nominal": NOMINAL.get(unit, 1.0) if nominal is None else nominal,
+        "fmi": fmi,
+        "value": value,
     }
     return field(metadata=metadata)
 
 
 def fmi_name(item: Field[Any]) -> str:
     """The structured name of a field, as in the FMU: `geometry.D_li`, `V1.oil`, or `oil_level` where it has no group."""
+    name: str = item.metadata["fmi"] or item.name
     group: str = item.metadata["group"]
-    if "." in group:
-        return group
-    return f"{group}.{item.name}" if group else item.name
+    return f"{group}.{name}" if group else name
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,26 +187,47 @@ class Inputs:
     velocity: float = var("", "z_dot", "m/s", "velocity, positive in rebound", lower=-20, upper=20, default=0.0)
 
 
-@dataclass(slots=True)
-class Outputs:
-    """What the surroundings read. Force is positive where the damper is pulled in rebound."""
+T = TypeVar("T")
 
-    force: float = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1")
-    k_degr: float = var("", "k_degr", "1", "fluid force over that of the intact damper, mean of the step",
-                        lower=0, upper=15, source="equations 23-39")
-    V1_oil: float = var("V1.oil", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5")
-    V1_gas: float = var("V1.gas", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5")
-    V1_foam: float = var("V1.foam", "V_1foam", "m3", "foam in the rebound chamber", lower=0, source="equation 5")
-    V2_oil: float = var("V2.oil", "V_2oil", "m3", "oil in the compression chamber", lower=0, source="equation 5")
-    V2_gas: float = var("V2.gas", "V_2gas", "m3", "gas in the compression chamber", lower=0, source="equation 5")
-    V2_foam: float = var("V2.foam", "V_2foam", "m3", "foam in the compression chamber", lower=0, source="equation 5")
-    V3_oil: float = var("V3.oil", "V_3oil", "m3", "oil in the reserve chamber", lower=0, source="equation 5")
-    V3_gas: float = var("V3.gas", "V_3gas", "m3", "gas in the reserve chamber", lower=0, source="the rest of its volume")
-    V3_foam: float = var("V3.foam", "V_3foam", "m3", "foam in the reserve chamber", lower=0, source="equation 5")
-    force_fluid: float = var("", "F_Fl k_degr", "N", "fluid force, degraded", source="equation 1")
-    force_friction: float = var("", "F_Fr", "N", "friction force", source="equation 2", nominal=100.0)
-    force_gas: float = var("", "F_S", "N", "gas force", source="equation 1", nominal=100.0)
-    work: float = var("", "W", "J", "work dissipated since the start, by fluid and friction", source="Section 3.1")
+
+@dataclass(frozen=True)
+class Outputs(Generic[T]):
+    """What the damper gives to its surroundings, the one table of it: numbers at a time, or arrays (n,) over a record.
+
+    `fmi` is the name in the FMU where it differs, `value` the expression of `d` (Derived) and `s` (State) that an output
+    is, from which `core/publishing.py` makes the functions that fill in a record or a row.
+    """
+
+    force: T = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1",
+                   value="total_force(s)")
+    k_degr: T = var("", "k_degr", "1", "fluid force over that of the intact damper, mean of the step", lower=0, upper=15,
+                    source="equations 23-39", value="s.k_degr")
+    F_fluid: T = var("", "F_Fl k_degr", "N", "fluid force, degraded", source="equation 1", fmi="force_fluid",
+                     value="s.F_fluid")
+    F_friction: T = var("", "F_Fr", "N", "friction force", source="equation 2", nominal=100.0, fmi="force_friction",
+                        value="s.F_friction")
+    F_gas: T = var("", "F_S", "N", "gas force", source="equation 1", nominal=100.0, fmi="force_gas", value="s.F_gas")
+    work: T = var("", "W", "J", "work dissipated since the start, by fluid and friction", source="Section 3.1",
+                  value="s.work")
+    V1_oil: T = var("", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5", fmi="V1.oil",
+                    value="s.V1_oil")
+    V1_gas: T = var("", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5", fmi="V1.gas",
+                    value="s.V1_gas")
+    V1_foam: T = var("", "V_1foam", "m3", "foam in the rebound chamber", lower=0, source="equation 5", fmi="V1.foam",
+                     value="s.V1_foam")
+    V2_oil: T = var("", "V_2oil", "m3", "oil in the compression chamber", lower=0, source="equation 5", fmi="V2.oil",
+                    value="s.V2_oil")
+    V2_gas: T = var("", "V_2gas", "m3", "gas in the compression chamber", lower=0, source="equation 5", fmi="V2.gas",
+                    value="s.V2_gas")
+    V2_foam: T = var("", "V_2foam", "m3", "foam in the compression chamber", lower=0, source="equation 5", fmi="V2.foam",
+                     value="s.V2_foam")
+    V3_oil: T = var("", "V_3oil", "m3", "oil in the reserve chamber", lower=0, source="equation 5", fmi="V3.oil",
+                    value="s.V3_oil")
+    V3_gas: T = var("", "V_3gas", "m3", "gas in the reserve chamber", lower=0, source="the rest of its volume",
+                    fmi="V3.gas", value="reserve_gas(d, s)")
+    V3_foam: T = var("", "V_3foam", "m3", "foam in the reserve chamber", lower=0, source="equation 5", fmi="V3.foam",
+                     value="s.V3_foam")
+    V_cav: T = var("", "", "m3", "oil lost to gas by cavitation so far", lower=0, source="equation 41", value="s.V_cav")
 
 
 @dataclass(slots=True)
@@ -225,7 +249,6 @@ class Derived:
     Y_Co: float = var("derived", "Y_Co", "1", "cavitation share in compression in this condition", default=0.0)
     Y_Re: float = var("derived", "Y_Re", "1", "cavitation share in rebound in this condition", default=0.0)
     cavitation: float = var("derived", "", "1", "share of the cavitation that the oil loss brings", default=0.0)
-    displaced: float = var("derived", "", "1", "oil that freed gas pushes into the reserve", default=0.0)
     extended: int = var("derived", "", "1", "1: an effect beyond the paper's model acts", integer=True, default=0)
 
 

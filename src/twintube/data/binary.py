@@ -20,7 +20,8 @@ from twintube.data.read_binary import READERS, is_hdf5
 from twintube.extras import extra_of
 
 SCRIPT = Path(__file__).with_name("read_binary.py")
-SECONDS, BYTES_PER_SECOND = 30.0, 5e6  # that a child may take: to start, and for its files
+SECONDS, BYTES_PER_SECOND = 30.0, 5e6  # of processor time that a child may take: to start, and for its files
+BUSY = 20.0  # times that long by the clock: other work on the machine makes no file damaged
 MOST_DEATHS = 5  # children that may end on a file before the others are not tried any more
 PACKAGES = {
     ".mf4": "asammdf", ".mdf": "asammdf", ".parquet": "pyarrow", ".pq": "pyarrow",
@@ -60,33 +61,36 @@ def read_binary(files: Sequence[tuple[Path, Format]]) -> Iterator[Raw | Unreadab
                 i = waiting.pop(0)
                 yield answer(folder, i, request(files[i][1])["wanted"])
             if waiting:
-                yield UnreadableError(f"the file is damaged: {ended}")
+                yield UnreadableError(ended)
                 waiting.pop(0)
                 deaths += 1
 
 
 def child(folder: Path, files: list[tuple[int, Path, Format]]) -> str:
-    """Let a child read the files into `folder`; how it ended, in words, for the case that it did not read all of them."""
+    """Let a child read the files into `folder`; what to say of the first one without an answer."""
     requests = [(i, str(path.absolute()), request(form)) for i, path, form in files]
     (folder / "requests.json").write_text(json.dumps(requests), encoding="utf-8")
     seconds = SECONDS + sum(path.stat().st_size for _, path, _ in files) / BYTES_PER_SECOND
     with subprocess.Popen(
-        [sys.executable, "-P", str(SCRIPT), str(folder)],
+        [sys.executable, "-P", str(SCRIPT), str(folder), f"{seconds:.0f}"],
         stdin=subprocess.PIPE,  # stays open: the child ends when it closes
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         env=os.environ | ENVIRONMENT,
     ) as process:
         try:
-            code = process.wait(timeout=seconds)
+            code = process.wait(timeout=BUSY * seconds)
         except subprocess.TimeoutExpired:
-            return f"reading took more than {seconds:.0f} s"
+            return f"reading took more than {BUSY * seconds:.0f} s: the file is damaged, or the machine is too busy"
         finally:
             process.kill()
     if code >= 0:
-        return f"its reader ended with status {code}"
+        return f"the file is damaged: its reader ended with status {code}"
     known = code in [-number for number in signal.Signals]
-    return f"its reader ended by {signal.Signals(-code).name if known else f'signal {-code}'}"
+    by = signal.Signals(-code).name if known else f"signal {-code}"
+    if by == "SIGXCPU":
+        return f"the file is damaged: reading took more than {seconds:.0f} s of processor time"
+    return f"the file is damaged: its reader ended by {by}"
 
 
 def request(form: Format) -> dict[str, Any]:

@@ -456,8 +456,8 @@ def read(path: str, request: Request, target: Path) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def limit_memory() -> None:
-    """Limit the address space, where the system can."""
+def limit(seconds: int) -> None:
+    """Limit the address space and the processor time, where the system can."""
     try:
         import resource
     except ImportError:  # Windows
@@ -465,6 +465,8 @@ def limit_memory() -> None:
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     most = MEMORY if hard == resource.RLIM_INFINITY else min(MEMORY, hard)
     resource.setrlimit(resource.RLIMIT_AS, (most, hard))
+    _, hard = resource.getrlimit(resource.RLIMIT_CPU)
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds if hard == resource.RLIM_INFINITY else min(seconds, hard), hard))
     resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
 
 
@@ -476,7 +478,7 @@ def end_with_parent() -> None:
 
 def main() -> None:
     """Answer the requests in their order."""
-    limit_memory()
+    limit(int(sys.argv[2]))
     threading.Thread(target=end_with_parent, daemon=True).start()
     folder = Path(sys.argv[1])
     for number, path, request in json.loads((folder / "requests.json").read_text(encoding="utf-8")):

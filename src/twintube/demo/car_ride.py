@@ -1,4 +1,4 @@
-"""The whole car in process with four damper FMUs, stepped through fmpy as any tool would step them."""
+"""The whole car in process with four damper FMUs, stepped by their addresses as a tool in C steps them."""
 
 import numpy as np
 
@@ -25,17 +25,13 @@ def drive_car_with_fmus(
     ks, ws = together(car.wheels), together(wheels)
     if preconditioned:
         precondition_four(dampers)
-    ws["damper"] = ws["before"] = dampers.forces()
-    before = np.array(dampers.works())
-    out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
-    work = BODY_COLUMNS + 10 + WHEEL_COLUMNS * np.arange(len(WHEELS))
-    ground, sides = np.array(road, dtype=float), np.array(grips, dtype=float)
-    for n, (steer, wanted, held) in enumerate(np.asarray(inputs, dtype=float).tolist()):
-        module.write_body(b, out[n])
-        if not module.road_step(c, b, ks, ws, h, ground, spacing, sides, steer, wanted, held, dt):
-            raise InputError(f"time {n * dt:g} s: the road of {(road.shape[1] - 1) * spacing:g} m ends")
-        module.write_step(b, ws, out[n], steer, dt)
-        out[n, work] = dampers.works()
-        ws["before"] = ws["damper"]
-        ws["damper"] = dampers.step(ws["stroke"].tolist(), ws["velocity"].tolist(), dt)
-    return as_run(out, dt, before)
+    before = dampers.works()
+    out, refused = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS))), np.zeros(1, np.int64)
+    done = module.run_car_with_units(
+        *dampers.functions, dampers.calls, dampers.moved, dampers.found, dampers.now, dampers.parts(dt), c, b, ks, ws, h,
+        np.array(road, dtype=float), spacing, np.array(grips, dtype=float), np.array(inputs, dtype=float), dt, out, refused,
+    )  # fmt: skip
+    dampers.check(refused[0])
+    if done < len(inputs):
+        raise InputError(f"time {done * dt:g} s: the road of {(road.shape[1] - 1) * spacing:g} m ends")
+    return as_run(out, 0, dt, before)

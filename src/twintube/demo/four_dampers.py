@@ -1,83 +1,134 @@
-"""The four dampers of a car as FMUs: four instances, or one container FMU that holds them."""
+"""The four dampers of a car as FMUs of FMI 2.0: four instances, or one container FMU that holds them.
 
+The compiled loops call the FMUs' functions by address, without an object of Python in between.
+"""
+
+import warnings
 from collections.abc import Sequence
+from ctypes import c_void_p, cast
 from itertools import pairwise
 from pathlib import Path
-from typing import Protocol
+from types import TracebackType
+from typing import Any, Self
 
 import fmpy
+import numba.experimental.function_type  # noqa: F401 numba knows the type of Function from then on
 import numpy as np
+from numba import float64, int32, int64, uintp
+from numba.core.errors import NumbaExperimentalFeatureWarning
+from numba.core.types import WrapperAddressProtocol
 
+from twintube.arrays import Array
 from twintube.dampers import Damper, elements
 from twintube.demo.damper_fmu import INPUTS, DamperFmu
+from twintube.engine import compiled
 from twintube.fmu.instance import FmuError, Instance
 from twintube.vehicle.drive import CONDITIONING_STEP, conditioning
 from twintube.vehicle.full.car import WHEELS
 
+warnings.filterwarnings("ignore", "First-class function type", NumbaExperimentalFeatureWarning)  # numba says so since 2020
 
-class FourDampers(Protocol):
-    """Dampers in the order of WHEELS that do their steps together."""
+FOUND = ("force", "work")
+SIGNATURES = {
+    "SetReal": int32(uintp, uintp, uintp, uintp),
+    "DoStep": int32(uintp, float64, float64, int64),  # the last is an int: the function reads the lower half
+    "GetReal": int32(uintp, uintp, uintp, uintp),
+}
 
-    def step(self, strokes: Sequence[float], velocities: Sequence[float], dt: float) -> Sequence[float]:
-        """Forces (4,) [N] after a step of `dt` [s] from `strokes` (4,) [m] at `velocities` (4,) [m/s]."""
 
-    def forces(self) -> Sequence[float]:
+class Function(WrapperAddressProtocol):
+    """A function of an FMU's library as compiled code takes it."""
+
+    def __init__(self, library: Any, name: str) -> None:
+        self.address = cast(library[f"fmi2{name}"], c_void_p).value or 0
+        self.declared = SIGNATURES[name]
+
+    def __wrapper_address__(self) -> int:
+        """Where the function is."""
+        return self.address
+
+    def signature(self) -> Any:
+        """Its types: pointers as whole numbers."""
+        return self.declared
+
+
+class FourDampers:
+    """Dampers in the order of WHEELS that do their steps together; `instances` have as many of them each."""
+
+    def __init__(self, instances: Sequence[Instance], names: Sequence[str], own_step: float = np.inf) -> None:
+        """`names`: what stands before a variable's name, of the dampers of an instance. `own_step` [s]: its longest step."""
+        self.instances, self.own_step = instances, own_step
+        shape = (len(instances), 2, len(names))
+        self.moved, self.found, self.now = np.zeros(shape), np.zeros(shape), np.zeros(1)
+        self._kept, calls = [], []
+        for unit, moved, found in zip(instances, self.moved, self.found, strict=True):
+            row = [unit.fmu.component]
+            for variables, values in ((INPUTS, moved), (FOUND, found)):
+                buffer = unit.buffer(*(f"{name}{variable}" for variable in variables for name in names))
+                self._kept.append(buffer)  # its references stay where they are
+                row += [cast(buffer[0], c_void_p).value, buffer[1].value, values.ctypes.data]
+            calls.append(row)
+            found[:] = np.reshape(unit.read(buffer), found.shape)
+        self.calls = np.array(calls, np.uintp)
+        self.functions = tuple(tuple(Function(unit.fmu.dll, name) for unit in instances) for name in SIGNATURES)
+
+    def parts(self, dt: float) -> int:
+        """The number of parts that a step of `dt` [s] has: within a longer one the FMU would hold the strokes."""
+        return max(round(dt / self.own_step), 1)
+
+    def check(self, refused: int) -> None:
+        """Raise FmuError with the log of the FMU that refused its step, as `step_units` says it."""
+        if refused:
+            raise FmuError("the step was refused: " + "; ".join(self.instances[refused - 1].messages[-3:]))
+
+    def step(self, strokes: Sequence[float], velocities: Sequence[float], dt: float) -> Array:
+        """Forces (4,) [N] after a step of `dt` [s] from `strokes` (4,) [m] at `velocities` (4,) [m/s]; raises FmuError."""
+        parts = self.parts(dt)
+        moves = (np.array(values, dtype=float) for values in (strokes, velocities))
+        self.check(
+            compiled.module().step_units(
+                *self.functions, self.calls, self.moved, self.found, self.now, *moves, parts, dt / parts
+            )
+        )
+        return self.forces()
+
+    def forces(self) -> Array:
         """Forces (4,) [N] after the last step."""
+        return self.found[:, 0].flatten()
 
-    def works(self) -> Sequence[float]:
+    def works(self) -> Array:
         """Dissipated work (4,) [J]."""
+        return self.found[:, 1].flatten()
 
 
-class SingleFmus:
+class SingleFmus(FourDampers):
     """Four instances of damper FMUs, which their owner frees; raises FmuError where one is not the damper it should be."""
 
     def __init__(self, fmus: Sequence[DamperFmu], dampers: Sequence[Damper]) -> None:
-        self.fmus = fmus
         for wheel, fmu, damper in zip(WHEELS, fmus, dampers, strict=True):
             check_damper(wheel, fmu, damper)
-
-    def step(self, strokes: Sequence[float], velocities: Sequence[float], dt: float) -> list[float]:
-        """As FourDampers."""
-        return [fmu.step(z, v, dt) for fmu, z, v in zip(self.fmus, strokes, velocities, strict=True)]
-
-    def forces(self) -> list[float]:
-        """As FourDampers."""
-        return [fmu.outputs()["force"] for fmu in self.fmus]
-
-    def works(self) -> list[float]:
-        """As FourDampers."""
-        return [fmu.outputs()["work"] for fmu in self.fmus]
+        super().__init__(fmus, [""])
 
 
-class ContainerFmu(Instance):
+class ContainerFmu(FourDampers):
     """The FMU that `twintube container` writes, initialised at stroke 0; a context manager. Raises FmuError."""
 
     def __init__(self, fmu: Path, **start_values: float) -> None:
-        named = {name: [f"{wheel}.{name}" for wheel in WHEELS] for name in (*INPUTS, "force", "work")}
-        super().__init__(fmu, start_values, [name for names in named.values() for name in names])
-        self._inputs = self.buffer(*named["stroke"], *named["velocity"])
-        self._forces, self._works = self.buffer(*named["force"]), self.buffer(*named["work"])
-        self.own_step = float(fmpy.read_model_description(str(fmu)).defaultExperiment.stepSize)
+        names = [f"{wheel}." for wheel in WHEELS]
+        self.unit = Instance(fmu, start_values, [f"{name}{variable}" for variable in (*INPUTS, *FOUND) for name in names])
+        super().__init__([self.unit], names, float(fmpy.read_model_description(str(fmu)).defaultExperiment.stepSize))
 
-    def step(self, strokes: Sequence[float], velocities: Sequence[float], dt: float) -> Sequence[float]:
-        """As FourDampers, in steps of the container's own length, which `dt` must be a multiple of."""
-        # Within a longer step the container would hold the strokes.
-        for at in np.arange(max(round(dt / self.own_step), 1)) * self.own_step:
-            self._inputs[2][:] = [*(z + at * v for z, v in zip(strokes, velocities, strict=True)), *velocities]
-            self.advance(self._inputs, min(dt, self.own_step))
-        return list(self.read(self._forces))
+    def __enter__(self) -> Self:
+        return self
 
-    def forces(self) -> Sequence[float]:
-        """As FourDampers."""
-        return list(self.read(self._forces))
-
-    def works(self) -> Sequence[float]:
-        """As FourDampers."""
-        return list(self.read(self._works))
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.unit.__exit__(kind, error, trace)
 
 
 def check_damper(wheel: str, fmu: DamperFmu, damper: Damper) -> None:
     """Raise FmuError where the FMU has other parameters than the damper that the car reckons with."""
+    if fmu.new:
+        raise FmuError(f"{wheel}: the FMU is of FMI 3.0, must be of FMI 2.0")
     for name, item, _, value in elements(damper):
         reference = fmu.variables[name].valueReference
         (is_value,) = fmu.fmu.getInteger([reference]) if item.metadata["integer"] else fmu.fmu.getReal([reference])

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from twintube.core import sources
+from twintube.core.hooks import NEEDED
 from twintube.core.variables import FV_POINTS
 from twintube.engine.code_cache import CodeCache
 from twintube.parsing import parsed
@@ -32,6 +33,8 @@ LOOPS = (
     "vehicle/full/driver.py",
     "vehicle/full/steering.py",
     "vehicle/full/loop.py",
+    "vehicle/full/unit_loop.py",
+    "vehicle/full/rolling.py",
 )
 LOADING = Lock()
 HEAD = f"import math\nimport numba\n\nFV_POINTS = {FV_POINTS}\n"
@@ -43,7 +46,7 @@ def joined_source() -> str:
     for text in sources.kernel_texts():
         parts += compilable(text)
     for text in sources.effect_texts():
-        parts += compilable(text, described=True)
+        parts += compilable(text)
     for text in (
         sources.model_text(),
         sources.agreement_text(),
@@ -53,8 +56,8 @@ def joined_source() -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def compilable(text: str, *, described: bool = False) -> list[str]:
-    """Constants and functions of a source; of one that is `described` by constants of other types, numbers only."""
+def compilable(text: str) -> list[str]:
+    """Constants and functions of a source, without what describes an effect."""
     parts = []
     for node in parsed(text).body:
         if isinstance(node, ast.FunctionDef):
@@ -62,10 +65,8 @@ def compilable(text: str, *, described: bool = False) -> list[str]:
             for argument in node.args.args:
                 argument.annotation = None
             parts.append('@numba.njit(cache=True, error_model="numpy", nogil=True)\n' + ast.unparse(node))
-        elif isinstance(node, ast.Assign):
-            number = isinstance(node.value, ast.Constant) and type(node.value.value) in (int, float)
-            if number or not described:
-                parts.append(ast.unparse(node))
+        elif isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) not in NEEDED:
+            parts.append(ast.unparse(node))
     return parts
 
 

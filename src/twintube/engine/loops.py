@@ -4,43 +4,51 @@
 """
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+from twintube.arrays import Array
 from twintube.core.agreement import parted
 from twintube.core.effects import effects_parts, effects_remember, effects_scale_valve
 from twintube.core.frame import stroke_limit
 from twintube.core.kernel.forces import gas_rise
 from twintube.core.model import advance, advance_whole, set_up, start
-from twintube.core.outputs import reserve_gas, total_force
+from twintube.core.outputs import total_force
+from twintube.core.publishing import publish_row
 
 # A longer step [s] that goes less than this share of the way its velocities say is a rest, where a cubic would swing.
 REST = 0.3
 UNMOVED = 0.05
 NOTHING = 1e-30  # k_degr of no force, by which none is divided
 
-# Columns that `run_record` writes, in this order; all but the shares and `z` are in SI units of the state's fields.
-COLUMNS = (
-    "force",
-    "k_degr",
-    "F_fluid",
-    "F_friction",
-    "F_gas",
-    "work",
-    "V1_oil",
-    "V1_gas",
-    "V1_foam",
-    "V2_oil",
-    "V2_gas",
-    "V2_foam",
-    "V3_oil",
-    "V3_foam",
-    "V_cav",
-    "V3_gas",
-)
+
+class Records(NamedTuple):
+    """Records laid end to end, as `run_means` takes them."""
+
+    states: Array  # (r, 4) oil level [1], preload [1], factors of the gas force and of its stiffness [1]
+    starts: NDArray[np.int64]  # (r + 1,) where each begins
+    t: Array  # (n,) [s]
+    z: Array  # (n,) [m]
+    v: Array  # (n,) [m/s]
+    warm: Array  # (n,) [K] how much warmer the damper is than at the temperature of its parameters, 0 where unknown
+    samples: NDArray[np.int64]  # (n,) measured samples of the interval that ends here, 0 where unknown
+    parts: int  # steps of an interval
+
+
+class Means(NamedTuple):
+    """What `run_means` writes, all (n,), of the interval that ends at a sample."""
+
+    force: Array  # [N] mean over the time
+    point: Array  # [N] mean of the forces at the measured samples, which misses where between two of them the force jumps
+    work: Array  # [J] since the start of the record
 
 
 def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any) -> int:
-    """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,), and write `out` (n, 16).
+    """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,).
+
+    Writes the outputs to `out` (n, m) in the order of their table.
 
     Row 0 is the state at the first sample. Returns the number of samples done, less than n if a step failed.
     """
@@ -51,23 +59,7 @@ def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any)
             return i
         before = v[i]
         time = t[i]
-        row = out[i]
-        row[0] = total_force(s)
-        row[1] = s.k_degr
-        row[2] = s.F_fluid
-        row[3] = s.F_friction
-        row[4] = s.F_gas
-        row[5] = s.work
-        row[6] = s.V1_oil
-        row[7] = s.V1_gas
-        row[8] = s.V1_foam
-        row[9] = s.V2_oil
-        row[10] = s.V2_gas
-        row[11] = s.V2_foam
-        row[12] = s.V3_oil
-        row[13] = s.V3_foam
-        row[14] = s.V_cav
-        row[15] = reserve_gas(d, s)
+        publish_row(d, s, out[i])
     return len(z)
 
 
@@ -113,104 +105,103 @@ def run_held(p: Any, d: Any, s: Any, f: Any, z: Any, dt: float) -> int:
     return len(z) - 1
 
 
-def run_means(
-    p: Any,
-    d: Any,
-    s: Any,
-    f: Any,
-    states: Any,
-    t: Any,
-    z: Any,
-    v: Any,
-    warm: Any,
-    starts: Any,
-    parts: int,
-    samples: Any,
-    force: Any,
-    point: Any,
-    work: Any,
-) -> int:
-    """Records laid end to end: the mean force [N] over the time since the sample before and the work [J] since the start.
+def run_means(p: Any, d: Any, s: Any, f: Any, records: Any, means: Any) -> int:
+    """Drive the damper over `records` (Records) and write `means` (Means). Returns the number of records done."""
+    for r in range(len(records.states)):
+        if not record_means(p, d, s, f, records, means, r):
+            return r
+    return len(records.states)
 
-    `states` (r, 4) are the records' oil level, preload and factors of the gas force and of its stiffness, `starts` (r + 1,)
-    where they begin, `warm` (n,) [K] how much
-    warmer the damper is than at the temperature of its parameters, 0 where unknown, and `samples` (n,) how many measured
-    samples an interval has, 0 where unknown; `force`, `point` and `work` (n,) are written. `point` is the mean of the forces
-    at the measured samples by trapezoids, which misses where between two of them the force jumps. Between two samples the
-    stroke follows the cubic of their strokes and velocities in `parts` steps, but across a rest. Returns the number of
-    records done.
+
+def record_means(p: Any, d: Any, s: Any, f: Any, records: Any, means: Any, r: int) -> bool:
+    """The means of the record `r`; False if a step failed."""
+    p.oil_level = records.states[r, 0]
+    p.gas_preload = int(records.states[r, 1])
+    set_up(p, d)
+    d.F_0 *= records.states[r, 2]
+    d.c_gas *= records.states[r, 3]
+    # A tuple of arrays that is handed on costs more than a step: numba counts references.
+    t, z, v, samples = records.t, records.z, records.v, records.samples
+    first = records.starts[r]
+    start(p, d, s, z[first])
+    # A step without a way and velocity keeps them: those of the record before must not reach this one.
+    f.k_degr = 1.0
+    f.k_mean = 1.0
+    last = total_force(s)
+    for i in range(first, records.starts[r + 1]):
+        s.warm = records.warm[i]
+        before = max(first, i - 1)
+        # By the samples alone, so that all models see the same of them.
+        gaps = samples[i] if samples[i] <= 2 * records.parts else 0
+        done, force, point, last = interval_means(
+            p, d, s, f, z[before], v[before], z[i], v[i], t[i] - t[before], records.parts, gaps, last
+        )
+        if not done:
+            return False
+        means.force[i] = force
+        means.point[i] = point
+        means.work[i] = s.work
+    return True
+
+
+def interval_means(
+    p: Any, d: Any, s: Any, f: Any, z0: float, v0: float, z1: float, v1: float, dt: float,
+    parts: int, gaps: int, last: float,
+) -> tuple[bool, float, float, float]:  # fmt: skip
+    """An interval in `parts` steps or more: whether it was done, mean force, point, force at the end, from `last` on [N].
+
+    The stroke follows the cubic of strokes [m] and velocities [m/s] over `dt` [s], but across a rest. The point is the mean
+    of the forces at `gaps` measured samples by trapezoids; 0 where they are unknown.
     """
-    for r in range(len(states)):
-        p.oil_level = states[r, 0]
-        p.gas_preload = int(states[r, 1])
-        set_up(p, d)
-        d.F_0 *= states[r, 2]
-        d.c_gas *= states[r, 3]
-        first = starts[r]
-        start(p, d, s, z[first])
-        # A step without a way and velocity keeps them: those of the record before must not reach this one.
-        f.k_degr = 1.0
-        f.k_mean = 1.0
-        before = v[first]
-        time = t[first]
-        at = z[first]
-        memory = effects_remember(p)
-        last = total_force(s)
-        for i in range(first, starts[r + 1]):
-            dt = t[i] - time
-            s.warm = warm[i]
-            n = max(parts, effects_parts(p, dt)) if d.extended > 0 else parts
-            if dt <= 0.0 or (dt > REST and abs(z[i] - at) < UNMOVED * dt * max(abs(before), abs(v[i]))):
-                n = 1
-            # By the samples alone, so that all models see the same of them.
-            gaps = samples[i] if samples[i] <= 2 * parts else 0
-            if gaps > 0:
-                n = gaps * math.ceil(n / gaps)
-            v0 = before
-            z0 = at
-            total = 0.0
-            sampled = 0.5 * last
-            for j in range(1, n + 1):
-                x = j / n
-                goal = z[i]
-                speed = v[i]
-                if j < n:
-                    # Between samples the cubic may leave the tube by a hair.
-                    goal = max(-stroke_limit(d), min(stroke_limit(d), cubic(x, z0, before, z[i], v[i], dt)))
-                    speed = cubic_slope(x, z0, before, z[i], v[i], dt)
-                from_work = s.work
-                from_impulse = s.impulse
-                if not advance_whole(p, d, s, f, goal, v0, speed, dt / n):
-                    return r
-                way = goal - at
-                if d.extended > 0 and dt > 0.0:
-                    total += (s.impulse - from_impulse) / dt
-                elif d.extended == 0 and abs(way) > 1e-9:
-                    # The work over the stroke is the mean force, wherever in the step it jumped.
-                    total += ((s.work - from_work) / way + gas_rise(p, d.F_0, d.c_gas, 0.5 * (at + goal)) - d.F_0) / n
-                else:
-                    total += total_force(s) / n
-                at = goal
-                v0 = speed
-                if gaps > 0 and (j * gaps) % n == 0:
-                    now = total_force(s)
-                    ended = f.k_degr
-                    if d.extended > 0:
-                        rebound = speed > 0.0 or (speed == 0.0 and way > 0.0)
-                        ended = (s.k_re if rebound else s.k_co) * effects_scale_valve(p, speed)
-                    if memory == 0 and s.k_degr > NOTHING:
-                        # k_degr is the mean over the step, a sample sees the end.
-                        now += (ended / s.k_degr - 1.0) * s.F_fluid
-                    last = now
-                    sampled += now if j < n else 0.5 * now
-            if gaps == 0:
-                last = total_force(s)
-            force[i] = total
-            point[i] = sampled / gaps if gaps > 0 else total
-            work[i] = s.work
-            before = v[i]
-            time = t[i]
-    return len(states)
+    n = max(parts, effects_parts(p, dt)) if d.extended > 0 else parts
+    if dt <= 0.0 or (dt > REST and abs(z1 - z0) < UNMOVED * dt * max(abs(v0), abs(v1))):
+        n = 1
+    if gaps > 0:
+        n = gaps * math.ceil(n / gaps)
+    total = 0.0
+    sampled = 0.5 * last
+    at = z0
+    before = v0
+    for k in range(1, n + 1):
+        x = k / n
+        goal = z1
+        speed = v1
+        if k < n:
+            # Between samples the cubic may leave the tube by a hair.
+            goal = max(-stroke_limit(d), min(stroke_limit(d), cubic(x, z0, v0, z1, v1, dt)))
+            speed = cubic_slope(x, z0, v0, z1, v1, dt)
+        from_work = s.work
+        from_impulse = s.impulse
+        if not advance_whole(p, d, s, f, goal, before, speed, dt / n):
+            return False, 0.0, 0.0, 0.0
+        way = goal - at
+        if d.extended > 0 and dt > 0.0:
+            total += (s.impulse - from_impulse) / dt
+        elif d.extended == 0 and abs(way) > 1e-9:
+            # The work over the stroke is the mean force, wherever in the step it jumped.
+            total += ((s.work - from_work) / way + gas_rise(p, d.F_0, d.c_gas, 0.5 * (at + goal)) - d.F_0) / n
+        else:
+            total += total_force(s) / n
+        at = goal
+        before = speed
+        if gaps > 0 and (k * gaps) % n == 0:
+            last = force_at_end(p, d, s, f, speed, way)
+            sampled += last if k < n else 0.5 * last
+    if gaps == 0:
+        return True, total, total, total_force(s)
+    return True, total, sampled / gaps, last
+
+
+def force_at_end(p: Any, d: Any, s: Any, f: Any, speed: float, way: float) -> float:
+    """Force [N] at the end of a step over `way` [m]: k_degr of the state is a mean over the step, a sample sees the end."""
+    now = total_force(s)
+    if effects_remember(p) == 0 and s.k_degr > NOTHING:
+        ended = f.k_degr
+        if d.extended > 0:
+            rebound = speed > 0.0 or (speed == 0.0 and way > 0.0)
+            ended = (s.k_re if rebound else s.k_co) * effects_scale_valve(p, speed)
+        now += (ended / s.k_degr - 1.0) * s.F_fluid
+    return now
 
 
 def cubic(x: float, z0: float, v0: float, z1: float, v1: float, dt: float) -> float:

@@ -14,6 +14,7 @@ from twintube.core import effects, messages, model
 from twintube.core.agreement import Agreement, ways
 from twintube.core.checks import VELOCITY, bad_input, problems
 from twintube.core.frame import stroke_limit
+from twintube.core.publishing import NAMES
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper, load
 from twintube.dampers.damper import refuse
@@ -164,16 +165,15 @@ def simulate_quietly(
 ) -> Simulation:
     """As `simulate`, for motions that were looked at already: without a warning."""
     records, t, z, v = started(damper, stroke, velocity, time)
-    out = np.empty((len(z), len(loops.COLUMNS)))
+    out = np.empty((len(z), len(NAMES)))
     if interpreted:
         p, d, s, f = records
         done = loops.run_record(p, d, s, f, t.tolist(), z.tolist(), v.tolist(), out)
     else:
         done = compiled.module().run_record(*rows(records), t, z, v, out)
     finished(done, z)
-    columns: dict[str, Array] = {name: out[:, i] for i, name in enumerate(loops.COLUMNS)}
-    columns["V3_gas"] = np.maximum(0.0, records[1].V_reserve - columns["V3_oil"] - columns["V3_foam"])
-    return Simulation(z, v, **columns, time=None if time is None else t)
+    columns: dict[str, Any] = {name: out[:, i] for i, name in enumerate(NAMES)}
+    return Simulation(stroke=z, velocity=v, time=None if time is None else t, **columns)
 
 
 def work_between(

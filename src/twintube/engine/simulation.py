@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 from twintube.arrays import Array, freeze_arrays
-from twintube.core import effects
+from twintube.core.publishing import NAMES
 from twintube.core.variables import Outputs
 from twintube.showing import picture, table
 
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True, repr=False)
-class Simulation:
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Simulation(Outputs[Array]):
     """What `simulate` returns; all arrays (n,), read-only, SI units, row i belongs to sample i of the record.
 
     `units` names the unit of each array. `to_dataframe()` and `plot()` show the whole.
@@ -24,22 +24,6 @@ class Simulation:
 
     stroke: Array  # [m]
     velocity: Array  # [m/s]
-    force: Array  # [N], positive when the damper resists rebound (Eq. 1)
-    k_degr: Array  # [1], mean over the step (Eq. 23-39)
-    F_fluid: Array  # [N]
-    F_friction: Array  # [N]
-    F_gas: Array  # [N]
-    work: Array  # [J] dissipated since the start
-    V1_oil: Array  # [m3], as all volumes
-    V1_gas: Array
-    V1_foam: Array
-    V2_oil: Array
-    V2_gas: Array
-    V2_foam: Array
-    V3_oil: Array
-    V3_gas: Array
-    V3_foam: Array
-    V_cav: Array  # [m3] of oil lost to gas by cavitation so far
     time: Array | None = None  # [s], None where `simulate` was not given the times of the samples
 
     def __post_init__(self) -> None:
@@ -49,12 +33,12 @@ class Simulation:
     @property
     def columns(self) -> dict[str, Array]:
         """The results by name, without the inputs."""
-        return {name: getattr(self, name) for name in RESULTS}
+        return {name: getattr(self, name) for name in NAMES}
 
     @property
     def units(self) -> dict[str, str]:
         """The unit of each array by its name."""
-        return INPUTS | {name: unit_of(name) for name in RESULTS}
+        return INPUTS | {item.name: item.metadata["unit"] for item in fields(Outputs)}
 
     def to_dataframe(self) -> pd.DataFrame:
         """A row for each sample, over the time [s] where it is known; the units stand in `.attrs["units"]`.
@@ -77,10 +61,3 @@ class Simulation:
 
 
 INPUTS = {"time": "s", "stroke": "m", "velocity": "m/s"}
-RESULTS = tuple(item.name for item in fields(Simulation) if item.name not in INPUTS)
-
-
-def unit_of(name: str) -> str:
-    """The unit of a result."""
-    table = {item.name: item.metadata["unit"] for item in (*fields(effects.State), *fields(Outputs))}
-    return str(table[name])

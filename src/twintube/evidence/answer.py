@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str], None]
 
+SAMPLED = {"sample_mean": 0.5}  # a sample is a point of the force, a mean over its interval, or between them
+
 VERDICTS = {NONE: "none", STATE: "state", UNKNOWN: "unexplained", "effect": "cause", "fault": "measurement_fault"}
 
 
@@ -99,6 +101,11 @@ class Answer:
         if first.kind == NONE and self.faults:
             return "measurement_fault"
         return VERDICTS[first.kind]
+
+    @property
+    def asked(self) -> tuple[StateAnswer, ...]:
+        """The states of which the file says nothing."""
+        return tuple(one for one in self.states if not one.stated.anything)
 
     @property
     def faults(self) -> tuple[Fault, ...]:
@@ -292,10 +299,20 @@ def compared_with_reference(dataset: LoadedDataset, progress: Progress) -> Answe
     return concluded(dataset, dataset.records, bench, acting, several, told, None, progress)
 
 
+def bench_of(measured: Measured) -> Bench:
+    """The bench of records that were put right.
+
+    Delay and filter that suit the damper without any cause are no facts: each hypothesis has them open. The zero that all
+    records share stays put right, as another state of filling would explain it, too.
+    """
+    known = measured.problem
+    zero = {name: x for name, x in known.usual.items() if name == "force_offset"}
+    return Bench(known.given, known.records, SAMPLED | zero, known.drift)
+
+
 def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress) -> Answer:
     """What the model lacks, in records without the faults of their bench."""
-    known = measured.problem
-    bench = Bench(known.given, known.records, known.usual, known.drift)
+    bench = bench_of(measured)
     records = [record for record in dataset.records if record.name not in measured.odd]
     several = [state_of(bench, records, own, progress) for own in fillings(records)]
     for one in several:

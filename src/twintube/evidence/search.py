@@ -15,7 +15,12 @@ from twintube.evidence.numbers import NUMBERS
 from twintube.evidence.sizes import Sizes
 
 # Numerics.
-TRIED = (0.05, 0.3, 1.5)  # coordinates of a strength from which the best is sought
+TRIED = (
+    0.05,
+    0.3,
+    1.5,
+    5.0,
+)  # coordinates of a strength from which the best is sought: beyond lies a millionth of its prior
 ROUNDS = 5  # of strengths and sizes of the model's own errors in turn
 EVALUATIONS = 12
 MOVED = (0.5, 0.8, 0.95, 1.05, 1.25, 2.0)  # times a strength, that are tried beside an optimum
@@ -76,13 +81,8 @@ class Search:
         change = force - self.base
         if not np.any(np.abs(change) > 1e-9):
             return evidence.log_z
-        b = self.bench
-        hats = np.column_stack([np.interp(np.abs(b.v), b.law.knots, row) for row in np.eye(len(b.law.knots))]) @ b.law.mixing
-        z, t = b.z / b.law.span, b.elapsed / max(1e-9, float(b.elapsed.max()))
-        sides = [hats * (side * change)[:, None] for side in (b.v >= 0.0, b.v < 0.0)]
-        along = np.column_stack([change * z, change * t, change * (1.5 * z**2 - 0.5)])
-        columns = NUMBERS.law_of_cause * np.hstack([*sides, along])
-        off = self.frame.evidence(np.column_stack([b.measured - force, columns]), evidence.sizes)
+        columns = off_its_law(self.bench, change)
+        off = self.frame.evidence(np.column_stack([self.bench.measured - force, columns]), evidence.sizes)
         return float(np.logaddexp(evidence.log_z, off.log_z) - np.log(2.0))
 
     def start(self, m: Mechanism) -> Array:
@@ -156,3 +156,12 @@ class Search:
             bounds=(low, high), max_nfev=EVALUATIONS, ftol=1e-4, xtol=1e-4,
         )  # fmt: skip
         return np.asarray(done.x)
+
+
+def off_its_law(bench: Bench, change: Array) -> Array:
+    """What a mechanism that changes forces by (n,) [N] may do besides (n, k), of size one: it is more or less, smoothly."""
+    hats = np.column_stack([np.interp(np.abs(bench.v), bench.law.knots, row) for row in np.eye(len(bench.law.knots))])
+    z, t = bench.z / bench.law.span, bench.elapsed / max(1e-9, float(bench.elapsed.max()))
+    sides = [hats @ bench.law.mixing * (side * change)[:, None] for side in (bench.v >= 0.0, bench.v < 0.0)]
+    along = np.column_stack([change * z, change * t, change * (1.5 * z**2 - 0.5)])
+    return np.asarray(NUMBERS.law_of_cause * np.hstack([*sides, along]))

@@ -13,6 +13,7 @@ from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper
 from twintube.dampers.gas_spring import gas_factors
 from twintube.engine import compiled
+from twintube.engine.loops import Means, Records
 
 MARGIN = 1.02  # of the velocity threshold of foam
 
@@ -94,12 +95,11 @@ class SimulatedRecords:
         """
         for name, value in changes:
             rows[0][name] = value
-        force, point, work = np.empty(len(self.z)), np.empty(len(self.z)), np.empty(len(self.z))
         t, z, v = motion or (self.t, self.z, self.v)
-        done = compiled.module().run_means(
-            *rows, self.states if states is None else states, t, z, v, self.warm, self.starts, self.parts, self.samples,
-            force, point, work,
-        )  # fmt: skip
-        for some in (force, point):
+        given = self.states if states is None else states
+        records = Records(given, self.starts, t, z, v, self.warm, self.samples, self.parts)
+        means = Means(*np.empty((3, len(z))))
+        done = compiled.module().run_means(*rows, records, means)
+        for some in (means.force, means.point):
             some[self.starts[done] :] = self.failed
-        return force, point, work
+        return means

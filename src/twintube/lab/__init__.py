@@ -1,1 +1,1 @@
-"""Test data independent of the model: a damper with other physics, and datasets with a hidden effect or fault."""
+"""A damper with other physics that stands for measurements."""

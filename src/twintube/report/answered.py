@@ -12,8 +12,7 @@ def lines(answer: Answer) -> list[str]:
     """The answer for the terminal."""
     if answer.changes is None:
         return state.lines(answer.states)
-    unknown = [state.sentence(one) for one in answer.states if not one.stated.anything]
-    return [*unknown, *changes.lines(answer)]
+    return [*state.sentences(answer.asked), *changes.lines(answer)]
 
 
 def write_report(answer: Answer, folder: Path) -> None:

@@ -107,7 +107,7 @@ def drawn(result: Sensitivity, narrow: bool = False) -> Figure:
     for drive, ax in zip(DRIVES, axes.flat, strict=False):
         centre = 100 * mean(result.nominal[drive])
         reach = 100 * error_of(result.nominal[drive])
-        ax.axvspan(centre - reach, centre + reach, color=FAINT, alpha=0.6, lw=0, label="standard error over the seeds")
+        ax.axvspan(centre - reach, centre + reach, color=FAINT, alpha=0.6, lw=0, label="standard error")
         ends = {
             name: [100 * x for x in by[drive]] for name, by in result.ends.items() if not any(map(math.isnan, by[drive]))
         }
@@ -119,7 +119,7 @@ def drawn(result: Sensitivity, narrow: bool = False) -> Figure:
         names = list(largest)
         if result.draws[drive]:
             ends_of_all = [100 * x for x in band_of(result.draws[drive])]
-            label = f"all at once, {SHARES[0]} to {SHARES[1]} % of the draws"
+            label = f"all at once, {SHARES[0]} to {SHARES[1]} %"
             ax.plot(ends_of_all, [-1.0, -1.0], color=INK, lw=4, solid_capstyle="butt", label=label)
             names.insert(0, "all at once")
         ax.set_yticks(range(len(largest) - len(names), len(largest)), names)
@@ -130,7 +130,8 @@ def drawn(result: Sensitivity, narrow: bool = False) -> Figure:
         ax.set_xlabel("worn against intact [%]")
     told = (
         f"Change from intact to worn dampers, whole car at {SPEED:g} km/h, mean of {counted(result.seeds, 'seed')}. "
-        f"Each assumed value at both ends of its range, alone; the {MOST_BARS} that move most. Dotted: no change."
+        f"Each assumed value at both ends of its range, alone; the {MOST_BARS} that move most. Dotted: no change. "
+        "Grey: standard error over the seeds."
     )
     framed(figure, sure(result), told, "Assumed: all of these values, their ranges, F-v curves and friction.", axes.flat[0])
     return figure

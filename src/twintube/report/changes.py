@@ -18,7 +18,9 @@ from twintube.report import style
 from twintube.report.engineering import title_of
 from twintube.report.page import Headline, Picture, Section, Table
 from twintube.report.repairs import BADGES, LEAST, REPAIRS, certain, chance
+from twintube.report.state import badge as state_badge
 from twintube.report.state import sentence as state_sentence
+from twintube.report.state import sentences as state_sentences
 from twintube.words import listed, lower
 
 PICTURE = "changes.png"
@@ -42,6 +44,11 @@ def title(h: Hypothesis, compared: bool) -> str:
     return TITLES[compared].get(h.name) or title_of(h.name)
 
 
+def name_of(h: Hypothesis, answer: Answer) -> str:
+    """The same, where the answer tells a fill as well, which may be another than before."""
+    return "Nothing beside the fill" if h.name == NONE and answer.asked else title(h, answer.compared)
+
+
 def sentence(answer: Answer) -> str:
     """The answer in a sentence, behind what was wrong with the bench."""
     if not answer.faults:
@@ -60,12 +67,15 @@ def remaining(answer: Answer) -> str:
         near = f"; nearest: {lower(title(first, answer.compared))}" if first.found is not None else ""
         return f"No cause of the catalogue explains the records: {answer.unexplained}{near}."
     if len(named) > 1:
-        several = listed([f"{lower(title(h, answer.compared))} ({chance(h.probability)})" for h in named], len(named))
+        several = listed([f"{lower(name_of(h, answer))} ({chance(h.probability)})" for h in named], len(named))
         return f"The records cannot tell: {several}."
     if first.kind == STATE:
         told = sorted((one for one in answer.states if one.stated.anything), key=lambda one: one.posterior.as_stated)
         changed = [one for one in told if one.posterior.as_stated < 0.5] or told[:1]  # several may be doubtful, none alone
         return " ".join(f"{state_sentence(one)} The file says otherwise." for one in changed)
+    if first.name == NONE and answer.asked:
+        what = "has changed" if answer.compared else "is missing"
+        return f"Beside the fill nothing {what}{since}. {certain(first.probability)}"
     if first.name in (NONE, UNKNOWN):
         return f"{title(first, answer.compared)}{since}. {certain(first.probability)}"
     kind = f"Changed{since}" if answer.compared else "Cause" if first.kind == "effect" else "The measurement is faulty"
@@ -100,6 +110,8 @@ def next_step(answer: Answer) -> str:
         steps.append("build the extended set into an FMU: `twintube fmu --parameters extended.toml`")
     elif first.kind == STATE:
         steps.append("state the true fill in dataset.toml")
+    elif first.kind == NONE and answer.asked:
+        steps.append("state this fill in dataset.toml")
     elif first.kind == UNKNOWN:
         known = "look at where the error is; no cause of the catalogue explains it"
         steps.append(known if answer.compared else "identify this damper first (twintube identify)")
@@ -114,7 +126,10 @@ def lines(answer: Answer) -> list[str]:
 def headline(answer: Answer) -> Headline:
     """What the first screen says."""
     badge, mark = BADGES[answer.verdict]
-    badge = "nothing has changed" if answer.compared and answer.verdict == NONE else badge
+    if answer.verdict == NONE and answer.asked:
+        badge, mark = state_badge(answer.asked)
+    elif answer.verdict == NONE and answer.compared:
+        badge = "nothing has changed"
     step = next_step(answer).removeprefix("Next: ")
     caption = "How likely each answer is (blue: these hold 90 %)"
     if answer.unexplained:
@@ -122,14 +137,15 @@ def headline(answer: Answer) -> Headline:
     later = "later " if answer.compared else ""
     caption += f", and the error of each {later}record, predicted from all other records." if gained(answer) else "."
     drawn = Picture.drawn(lambda narrow: picture(answer, narrow), caption)
-    return Headline(sentence(answer), badge, mark, next=step[0].upper() + step[1:], picture=drawn)
+    text = " ".join([*state_sentences(answer.asked), sentence(answer)])
+    return Headline(text, badge, mark, next=step[0].upper() + step[1:], picture=drawn)
 
 
 def picture(answer: Answer, narrow: bool = False) -> Figure:
     """Probabilities of the hypotheses, the largest first, and the errors that the first one takes away."""
     assert answer.changes is not None
     several = [h for h in answer.changes.hypotheses[:SHOWN] if h.probability >= LEAST]
-    bars = [(title(h, answer.compared), h.probability, h.name in answer.changes.credible) for h in several]
+    bars = [(name_of(h, answer), h.probability, h.name in answer.changes.credible) for h in several]
     bars.append(("Everything else", max(0.0, 1.0 - sum(h.probability for h in several)), False))
     known = gained(answer)
     figure, axes = style.grid(2 if known else 1, (5.4 if known else 9.0, max(2.4, 0.8 + 0.45 * len(bars))), narrow, most=2)
@@ -166,7 +182,7 @@ def rows_of(answer: Answer) -> list[Table]:
     shown = answer.changes.hypotheses[:SHOWN]
     several = [
         [
-            title(h, answer.compared),
+            name_of(h, answer),
             chance(h.probability),
             f"{h.log_evidence:.1f}" if np.isfinite(h.log_evidence) else "too slight",
         ]

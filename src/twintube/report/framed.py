@@ -3,6 +3,7 @@
 Made for pages that show a picture of WIDTH at about 100 pixels per inch: smaller letters than these are not legible.
 """
 
+import math
 import re
 import textwrap
 from collections.abc import Iterable
@@ -14,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from scipy.optimize import isotonic_regression
 
-from twintube.report.style import BLUE, GREY, INK
+from twintube.report.style import BLUE, GREY, INK, NARROW
 
 WIDTH = 8.3  # [inch]
 SENTENCE, WORDS, SMALL = 11.5, 9.0, 8.0  # sizes of letters [points]
@@ -48,7 +49,9 @@ def framed(figure: Figure, sentence: str, conditions: str, note: str, key: Axes 
     head += [(line, WORDS, "normal", "#555") for line in wrapped(conditions, WORDS, width)]
     foot = wrapped(note, SMALL, width)
     gap = 0.08  # [inch]
-    row = 2 * inches(WORDS) if key is not None else 0.0
+    unique = dict(zip(*reversed(key.get_legend_handles_labels()), strict=True)) if key is not None else {}
+    columns = len(unique) if width > NARROW else min(2, len(unique))
+    row = (1 + math.ceil(len(unique) / columns)) * inches(WORDS) if unique else 0.0
     above, below = sum(inches(size) for _, size, _, _ in head) + 2 * gap + row, inches(SMALL) * len(foot) + gap
     full = height + above + below
     figure.set_size_inches(width, full)
@@ -59,10 +62,9 @@ def framed(figure: Figure, sentence: str, conditions: str, note: str, key: Axes 
     for text, size, weight, colour in head:  # names may hold "$"
         figure.text(gap / width, top / full, text, size=size, weight=weight, color=colour, va="top", parse_math=False)
         top -= inches(size)
-    if key is not None:
-        unique = dict(zip(*reversed(key.get_legend_handles_labels()), strict=True))
+    if unique:
         place = (gap / width, (top - 0.5 * gap) / full)
-        figure.legend(list(unique.values()), list(unique), loc="upper left", bbox_to_anchor=place, ncols=len(unique),
+        figure.legend(list(unique.values()), list(unique), loc="upper left", bbox_to_anchor=place, ncols=columns,
                       fontsize=WORDS, frameon=False, columnspacing=1.4, borderaxespad=0.0)  # fmt: skip
     figure.text(gap / width, 0.5 * gap / full, "\n".join(foot), size=SMALL, color="#555", va="bottom", parse_math=False)
 

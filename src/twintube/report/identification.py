@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from twintube.dampers.freed_gas import as_published
 from twintube.files import write_bytes, write_text
+from twintube.fitting.peak_velocity import as_csv, peak_velocities
 from twintube.fitting.prediction import predicted
 from twintube.identification import Harmonic, Result
 from twintube.identification.figures import totals, unit
@@ -198,7 +199,7 @@ def sections(result: Result, drawn: dict[str, Picture], chosen: Sequence[tuple[H
 
 
 def write_report(result: Result, folder: Path) -> list[Path]:
-    """Write report.html and its pictures; returns the files."""
+    """Write report.html, its pictures and the table of forces over velocity; returns the files."""
     ordered = sorted(result.harmonics, key=lambda pair: (pair[1] != "heldout", pair[0].top_speed))
     chosen = spread([pair for pair in ordered if not pair[0].intact] or ordered, LOOPS)
     drawn = pictures(result, chosen)
@@ -208,4 +209,5 @@ def write_report(result: Result, folder: Path) -> list[Path]:
     for file, picture in zip(files, drawn.values(), strict=True):
         write_bytes(file, picture.png)
     write_text(folder / "report.html", text)
-    return [*files, folder / "report.html"]
+    write_text(folder / "fv_table.csv", as_csv(peak_velocities([h for h, _ in result.harmonics])))
+    return [*files, folder / "report.html", folder / "fv_table.csv"]

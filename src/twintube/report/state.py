@@ -44,11 +44,12 @@ def sentence(answer: StateAnswer) -> str:
 
 def lines(answers: Sequence[StateAnswer]) -> list[str]:
     """The answers for the terminal."""
-    out = []
-    for answer in answers:
-        many = "" if len(answers) == 1 else f"{listed(answer.records, 3)}: "
-        out.append(many + sentence(answer))
-    return [*out, next_step(answers)]
+    return [*sentences(answers), next_step(answers)]
+
+
+def sentences(answers: Sequence[StateAnswer]) -> list[str]:
+    """A sentence for each state; of several, behind the names of its records."""
+    return [("" if len(answers) == 1 else f"{listed(one.records, 3)}: ") + sentence(one) for one in answers]
 
 
 def next_step(answers: Sequence[StateAnswer]) -> str:
@@ -61,7 +62,7 @@ def next_step(answers: Sequence[StateAnswer]) -> str:
 
 def headline(answers: Sequence[StateAnswer]) -> Headline:
     """What the first screen says."""
-    text = " ".join(sentence(answer) for answer in answers)
+    text = " ".join(sentences(answers))
     step = next_step(answers).removeprefix("Next: ")
     return Headline(text, *badge(answers), next=step[0].upper() + step[1:], picture=drawn(answers))
 

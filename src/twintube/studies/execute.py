@@ -4,7 +4,7 @@ The cases go out in chunks and come back in the order of the grid, so that the f
 what: equal versions on equal machines give equal bytes.
 """
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import CancelledError
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing
@@ -35,6 +35,8 @@ SMALL = 2e7  # samples: some 3 s in one process
 AHEAD = 16  # chunks for each process, because blocks take 2 to 50 ms
 UNITS = {"work_J": "J", "work_relative": "1", "peak_rebound_N": "N", "peak_compression_N": "N"}
 Span = tuple[int, int]
+# From a study, a span of its cases and the version mark that its process must have, whose parameter is named `expected`.
+Work = Callable[[Any, int, int, str], Any]
 
 
 def run(
@@ -60,9 +62,10 @@ def run(
     size = min(LARGEST_CHUNK, max(1, len(study) // CHUNKS))
     spans = [(start, min(start + size, len(study))) for start in range(0, len(study), size)]
     if cluster is not None:
-        parts = on_cluster(study, spans, cluster)
+        parts = on_cluster(chunk, study, version_mark(), spans, cluster)
     else:
-        parts = locally(study, spans, processes or ((cpu_count() or 1) if study.samples > SMALL else 1))
+        count = processes or ((cpu_count() or 1) if study.samples > SMALL else 1)
+        parts = locally(chunk, study, version_mark(), spans, count)
     rows = 0
     with (
         replacing(output) as part,
@@ -84,49 +87,48 @@ def run(
     return rows
 
 
-def locally(study: Study, spans: list[Span], processes: int) -> Generator[Array, None, None]:
-    """The chunks' results in order, from processes of this machine."""
-    mark = version_mark()
+def locally(work: Work, study: Any, mark: str, spans: Sequence[Span], processes: int) -> Generator[Any, None, None]:
+    """What `work(study, start, stop, mark)` returns for each span, in order, from processes of this machine."""
     if min(processes, len(spans)) == 1:
-        yield from (chunk(study, start, stop, mark) for start, stop in spans)
+        yield from (work(study, start, stop, mark) for start, stop in spans)
         return
-    chunk(study, 0, 1, mark)  # compiles once, before the processes do so all at the same time
+    work(study, spans[0][0], spans[0][0] + 1, mark)  # compiles once, before the processes do so all at the same time
     count = min(processes, len(spans), MOST)
-    with pool(count, keep, (study, mark)) as workers:
+    with pool(count, keep, (work, study, mark)) as workers:
         try:
             # Not `map`: it would keep all results of a large study in memory.
             todo = iter(spans)
-            running = [workers.submit(kept_chunk, *span) for span in islice(todo, AHEAD * count)]
+            running = [workers.submit(kept_work, *span) for span in islice(todo, AHEAD * count)]
             while running:
                 yield running.pop(0).result()
-                running += [workers.submit(kept_chunk, *span) for span in islice(todo, 1)]
+                running += [workers.submit(kept_work, *span) for span in islice(todo, 1)]
         except BrokenProcessPool as error:
             raise StudyError("a process of this machine was killed (out of memory?): nothing is written") from error
         finally:
             workers.shutdown(wait=True, cancel_futures=True)
 
 
-KEPT: dict[str, tuple[Study, str]] = {}
+KEPT: dict[str, tuple[Work, Any, str]] = {}
 
 
-def keep(study: Study, mark: str) -> None:
+def keep(work: Work, study: Any, mark: str) -> None:
     """What a process of `locally` is given once."""
-    KEPT["study"] = (study, mark)
+    KEPT["study"] = (work, study, mark)
 
 
-def kept_chunk(start: int, stop: int) -> Array:
-    """`chunk` of the study this process was given."""
-    study, mark = KEPT["study"]
-    return chunk(study, start, stop, mark)
+def kept_work(start: int, stop: int) -> Any:
+    """The work on the study that this process was given."""
+    work, study, mark = KEPT["study"]
+    return work(study, start, stop, mark)
 
 
-def unchanged(study: Study) -> Study:
+def unchanged(study: Any) -> Any:
     """The study itself: a task, and no scattered datum, because a lost task's result is computed again."""
     return study
 
 
-def on_cluster(study: Study, spans: list[Span], address: str) -> Generator[Array, None, None]:
-    """The chunks' results in order, from the workers of a Dask scheduler; what a killed worker had is done again."""
+def on_cluster(work: Work, study: Any, mark: str, spans: Sequence[Span], address: str) -> Generator[Any, None, None]:
+    """As `locally`, from the workers of a Dask scheduler; what a killed worker had is done again."""
     try:
         dask: Any = import_module("distributed")
     except ImportError as error:
@@ -138,8 +140,8 @@ def on_cluster(study: Study, spans: list[Span], address: str) -> Generator[Array
             raise StudyError(f"the Dask scheduler at {address} has no workers after {CONNECTING} s") from error
         shared = client.submit(unchanged, study, pure=True)
         starts, stops = zip(*spans, strict=True)
-        options = {"expected": version_mark(), "pure": True, "retries": RETRIES}
-        futures = client.map(chunk, [shared] * len(spans), starts, stops, **options)
+        options = {"expected": mark, "pure": True, "retries": RETRIES}
+        futures = client.map(work, [shared] * len(spans), starts, stops, **options)
         futures.reverse()
         try:
             while futures:

@@ -17,6 +17,7 @@ CAUSE = "The stroke reaches a rubber stop inside the damper, which adds a spring
 ABSENCE = "The residual is zero over most of the stroke and rises steeply at one end, nearly alike in both directions."
 DECIDES = "the same velocity with half the amplitude"
 NEEDS_TIME = False
+ORDER = 100
 REFERENCE = 0.01  # [m]
 TURN = 0.01  # [m/s] over which the hysteresis turns
 

@@ -17,6 +17,7 @@ CAUSE = "Drainage and bursting bubbles separate foam into oil and gas at a rate 
 ABSENCE = "After a rest or in slow motion the measured force is higher than the model's, whose foam stays."
 DECIDES = "rests of 5, 20 and 60 s between blocks below the cavitation threshold"
 NEEDS_TIME = True
+ORDER = 20
 V_USUAL = 1e-5  # [m3] foam
 
 

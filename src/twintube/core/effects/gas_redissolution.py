@@ -17,6 +17,7 @@ CAUSE = "Bubbles freed by cavitation collapse and dissolve again under pressure,
 ABSENCE = "The model loses force from oscillation to oscillation where the measured damper recovers, at rest above all."
 DECIDES = "rests of 5, 20 and 60 s between blocks above the cavitation threshold"
 NEEDS_TIME = True
+ORDER = 30
 F_PRESSED = 1000.0  # [N] fluid force
 
 

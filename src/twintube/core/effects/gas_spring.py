@@ -18,6 +18,7 @@ CAUSE = "The gas pressure differs from that of the parameter set, or some is lef
 ABSENCE = "The residual is a straight line over the stroke, the same in both directions and at every velocity."
 DECIDES = "a quasi-static record over the whole stroke, and the gas pressure read at the valve"
 NEEDS_TIME = False
+ORDER = 110
 
 
 @dataclass(frozen=True, slots=True)

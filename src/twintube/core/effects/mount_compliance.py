@@ -27,6 +27,7 @@ CAUSE = "A rubber mount between rig or body and piston rod deflects under the fo
 ABSENCE = "The measured force lags behind the model's after every reversal, and small strokes do much less work."
 DECIDES = "small amplitudes at the same velocity: a mount takes its deflection from every stroke"
 NEEDS_TIME = True
+ORDER = 230
 FASTEST = 50.0  # [m/s] beyond every damper
 EXACT = 1e-4  # [N] to which the forces balance
 LEAST = 1e-9  # [N s/m] so that a slope can be divided by

@@ -17,6 +17,7 @@ ABSENCE = (
 )
 DECIDES = "the oil weighed"
 NEEDS_TIME = False
+ORDER = 10
 
 
 @dataclass(frozen=True, slots=True)

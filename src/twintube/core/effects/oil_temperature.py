@@ -27,6 +27,7 @@ CAUSE = "Heat, of the dissipated work or from outside, thins the oil, eases the 
 ABSENCE = "The measured fluid force falls below the model's while the damper gets warm, and comes back after a rest."
 DECIDES = "the tube's temperature, or a rest of ten minutes within a record: heat goes, lost oil does not come back"
 NEEDS_TIME = True
+ORDER = 120
 CAPACITY = 700.0  # [J/K] that H_start counts by where the temperature is measured
 THICKEST = 2.0  # logarithm of the force of cold oil over that of the F-v curve, at most
 

@@ -17,6 +17,7 @@ CAUSE = "A side force with its lever, a tube worn in the middle or dented: rod a
 ABSENCE = "The residual has the sign of the velocity and grows with the stroke, the same at every velocity and oil level."
 DECIDES = "slow records about other middles of the stroke"
 NEEDS_TIME = False
+ORDER = 130
 
 
 @dataclass(frozen=True, slots=True)

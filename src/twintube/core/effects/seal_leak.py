@@ -26,6 +26,7 @@ CAUSE = "A worn seal lets a film of oil out with every stroke, so that the oil l
 ABSENCE = "The measured damper loses force over the whole measurement, also at low velocity, and does not recover at rest."
 DECIDES = "a rest of ten minutes within a record, and the oil weighed afterwards"
 NEEDS_TIME = True
+ORDER = 40
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,7 @@ CAUSE = "A side load or a bent rod presses guide and piston to the wall, which m
 ABSENCE = "The residual is a constant force with the sign of the velocity, at every velocity and oil level."
 DECIDES = "a quasi-static record with and without side load"
 NEEDS_TIME = False
+ORDER = 140
 
 
 @dataclass(frozen=True, slots=True)

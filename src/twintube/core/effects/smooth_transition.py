@@ -20,6 +20,7 @@ CAUSE = "Oil and gas are mixed near the level between them, so that the force bu
 ABSENCE = "The model's force steps where the measured one rises gradually: a residual of both signs around the rise."
 DECIDES = "the same velocity with half the amplitude: the build-up is a length of stroke, not a time"
 NEEDS_TIME = False
+ORDER = 220
 FAR = 1e3
 THIN = 0.1  # of a length: a layer that is thinner acts in proportion, else one of no thickness would act
 STILL = 1e-9  # [m] length of a step's build-up below which there is none

@@ -25,6 +25,7 @@ ABSENCE = (
 )
 DECIDES = "an intact reference measured on the same day, slow and fast"
 NEEDS_TIME = False
+ORDER = 200
 F_BLEED = 1000.0  # [N]
 
 

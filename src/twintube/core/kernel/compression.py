@@ -62,9 +62,7 @@ def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, ca
         # Eq. 40, 41
         freed = cavitating * d.Y_Co * piston
         oil = piston - freed
-        # Beyond the paper: the share d.displaced of that oil goes through the bottom valve instead and is not lost.
-        f.V3_oil += d.displaced * freed
-        f.cavitated = freed - d.displaced * freed
+        f.cavitated = freed
 
     # V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13).
     kept = d.A_1 + freed - piston

@@ -17,7 +17,6 @@ def prepare(p: Parameters, d: Derived) -> None:
     lost = 1.0 - p.gas_preload
     d.F_0 = p.gas_preload * p.F_0
     d.c_gas = p.gas_preload * p.c_gas + lost * p.c_gas_lost
-    d.displaced = 0.0
     lose(p, d, p.oil_level)
 
     # Eq. 22: W_kPV reaches its target within one step. Reading B adds the leak to the flow; the force stays X_Re.
@@ -41,8 +40,13 @@ def lose(p: Parameters, d: Derived, oil_level: float) -> None:
     if p.gas_preload == 0:
         loss = 1.0 - oil_level
         d.cavitation = 1.0 if loss >= p.cavitation_loss else loss / p.cavitation_loss
-    d.Y_Co = d.cavitation * p.Y_Co_cav
-    d.Y_Re = d.cavitation * p.Y_Re_cav
+    cavitate(p, d, 1.0)
+
+
+def cavitate(p: Parameters, d: Derived, share: float) -> None:
+    """Cavitation shares where the `share` [1] of the gas can be freed; the paper knows no limit, 1."""
+    d.Y_Co = share * d.cavitation * p.Y_Co_cav
+    d.Y_Re = share * d.cavitation * p.Y_Re_cav
 
 
 def fill(p: Parameters, d: Derived, s: State, z: float) -> None:

@@ -46,12 +46,9 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
     f.V1_foam_oil = -foam_oil
 
     # What arrives in V2: cavitation frees gas from the oil, and foam beside oil separates.
-    freed = cavitating * d.Y_Re * oil
-    # Beyond the paper: of the oil that gives way to the gas the share d.displaced stays in the reserve and is not lost.
-    displaced = d.displaced * freed
-    f.cavitated = freed - displaced
+    f.cavitated = cavitating * d.Y_Re * oil
     # Eq. 40
-    gas += freed
+    gas += f.cavitated
     # Eq. 41; with 14 to the letter k would be 1 - Y while cavitating, here the force falls by what follows from the gas
     oil -= f.cavitated
     if foam > 0.0 and p.foam_decays > 0 and s.V1_oil > 0.0:
@@ -59,13 +56,18 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
         gas += foam - foam_oil
         foam = 0.0
         foam_oil = 0.0
+    # Eq. 10, 12: V3 gives the rod's volume
+    refill(p, s, f, foaming, d.A_rod, oil, gas, foam, foam_oil)
 
-    # Bottom valve: V3 gives the rod's volume (Eq. 10, 12): oil, then foam, then gas
-    supply = d.A_rod - displaced
+
+def refill(
+    p: Parameters, s: State, f: Flow, foaming: float, supply: float, oil: float, gas: float, foam: float, foam_oil: float
+) -> None:
+    """Bottom valve: V3 gives the flow `supply` [m2], oil, then foam, then gas, to V2 beside the flows that arrive there."""
     f.V3_oil = 0.0
     f.V3_foam = 0.0
     f.V3_foam_oil = 0.0
-    if s.V3_oil > 0.0 or supply < 0.0:
+    if s.V3_oil > 0.0:
         f.V3_oil = -supply
         oil += supply
     elif s.V3_foam > 0.0:

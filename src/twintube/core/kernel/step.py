@@ -69,49 +69,63 @@ def step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: 
     step could not be finished within `MAX_SPLITS`, which no admissible parameter set is known to cause.
     """
     dz = z - s.z
-    F_1 = fluid_force(p, v1)
-    if dz == 0.0:
-        settle(p, d, s, f, v1)
-        f.k_mean = s.k_degr
-        set_forces(p, d, s, F_1, v1)
-        return True
-    F_0 = F_1 if v0 == v1 else fluid_force(p, v0)
-    rising = dz > 0.0
-    left = dz if rising else -dz
+    left = abs(dz)
     foaming = share_above(v0, v1, p.v_foam)
     cavitating = share_above(v0, v1, p.v_cav)
     acting = 0.0
     splits = 0
     while left > 0.0 and splits < MAX_SPLITS:
-        if rising:
-            rebound(p, d, s, f, foaming, cavitating)
-        else:
-            compression(p, d, s, f, foaming, cavitating)
-        way = split_length(s, f, left)
-        move(s, f, way)
+        flows(p, d, s, f, dz, foaming, cavitating)
+        way = carry(s, f, left)
         acting += f.k_degr * way
         left -= way
         splits += 1
+    arrive(p, d, s, f, z, v0, v1, acting)
+    return left <= 0.0
+
+
+def flows(p: Parameters, d: Derived, s: State, f: Flow, dz: float, foaming: float, cavitating: float) -> None:
+    """Flows and k_degr in the direction of `dz`; `foaming` and `cavitating` are the shares [1] of the step with either."""
+    if dz > 0.0:
+        rebound(p, d, s, f, foaming, cavitating)
+    else:
+        compression(p, d, s, f, foaming, cavitating)
+
+
+def carry(s: State, f: Flow, left: float) -> float:
+    """Carry all phases as far as each of them lasts, at most over the stroke `left` [m]; returns the stroke [m]."""
+    way = split_length(s, f, left)
+    move(s, f, way)
+    return way
+
+
+def arrive(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, acting: float) -> None:
+    """End a step at the stroke `z` [m], in which k_degr has the integral `acting` [m] over the stroke."""
+    dz = z - s.z
+    F_1 = fluid_force(p, v1)
+    if dz == 0.0:
+        settle(p, d, s, f, v1)
+        f.k_mean = s.k_degr
+        set_forces(p, d, s, F_1, v1)
+        return
+    F_0 = F_1 if v0 == v1 else fluid_force(p, v0)
+    rising = dz > 0.0
     if not rising:
         squeeze_reserve(d, s)
     s.z = z
     s.F_D = dahl(p, d, s.F_D, dz)
     # The mean over the step: force times stroke is then the work, wherever in the step a phase ran out.
-    s.k_degr = acting / (dz if rising else -dz)
+    s.k_degr = acting / abs(dz)
     f.k_mean = s.k_degr
     if (v1 < 0.0) == rising:
         settle(p, d, s, f, v1)
     friction = s.F_friction
     set_forces(p, d, s, F_1, v1)
     s.work += 0.5 * (F_0 + F_1) * (acting if rising else -acting) + 0.5 * (friction + s.F_friction) * dz
-    return left <= 0.0
 
 
 def settle(p: Parameters, d: Derived, s: State, f: Flow, v: float) -> None:
     """k_degr for the direction of `v` [m/s] where the last stroke went the other way or nowhere."""
-    if v > 0.0:
-        rebound(p, d, s, f, share_above(v, v, p.v_foam), share_above(v, v, p.v_cav))
-        s.k_degr = f.k_degr
-    elif v < 0.0:
-        compression(p, d, s, f, share_above(v, v, p.v_foam), share_above(v, v, p.v_cav))
+    if v != 0.0:
+        flows(p, d, s, f, v, share_above(v, v, p.v_foam), share_above(v, v, p.v_cav))
         s.k_degr = f.k_degr

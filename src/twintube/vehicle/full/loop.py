@@ -68,22 +68,23 @@ def write_step(b: Any, ws: Any, row: Any, steer: float, dt: float) -> None:
 
 def run_car(
     p: Any, d: Any, s: Any, f: Any, c: Any, b: Any, ks: Any, ws: Any, h: Any,
-    road: Any, spacing: float, grips: Any, q: Any, path: Any, inputs: Any, dt: float, out: Any,
+    road: Any, spacing: float, grips: Any, q: Any, path: Any, inputs: Any, begin: int, dt: float, out: Any,
 ) -> int:  # fmt: skip
-    """Drive the car with its dampers, whose records `p`, `d`, `s`, `f` (4,) are; the others as `road_step`.
+    """Drive the car with its dampers, whose records `p`, `d`, `s`, `f` (4,) are, from step `begin` on; else as `road_step`.
 
     `inputs` (n, 3) are `steer`, `wanted` and `held`, step by step; to the angle comes that by which `q` follows a `path`
     (m, 4), if there is one. `out` (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) is written.
 
     Returns the number of finished steps: less than n where a piston would leave its tube, a step failed, or the road ends.
     """
-    for i in range(4):
-        ws[i].damper = total_force(s[i])
-        ws[i].before = ws[i].damper
+    if begin == 0:
+        for i in range(4):
+            ws[i].damper = total_force(s[i])
+            ws[i].before = ws[i].damper
     for n in range(len(inputs)):
         row = out[n]
         write_body(b, row)
-        steer = inputs[n, 0] + follow_path(q, b, path, n * dt, dt)
+        steer = inputs[n, 0] + follow_path(q, b, path, (begin + n) * dt, dt)
         if not road_step(c, b, ks, ws, h, road, spacing, grips, steer, inputs[n, 1], inputs[n, 2], dt):
             return n
         write_step(b, ws, row, steer, dt)

@@ -139,6 +139,45 @@ def started(car: FullCar, speed: float) -> tuple[BodyMotion, list[WheelMotion]]:
     return body, wheels
 
 
+class Underway:
+    """A car on its way over a road, driven on stretch by stretch; see `drive_car`."""
+
+    def __init__(
+        self, car: FullCar, road: Array, spacing: float, speed: float, *, grips: tuple[float, float] = (1.0, 1.0),
+        pursuit: Pursuit | None = None, dt: float = DT, preconditioned: bool = True,
+    ) -> None:  # fmt: skip
+        self.car, self.road, self.spacing, self.dt = car, np.array(road, dtype=float), spacing, dt
+        self.grips, self.steps = np.array(grips, dtype=float), 0
+        each = [at_rest(damper, 0.0) for damper in car.dampers]
+        self.limits = [stroke_limit(row[1]) for row in each]
+        self.dampers = p, d, s, f = tuple(together(list(records)) for records in zip(*each, strict=True))
+        if preconditioned:
+            for i in range(len(WHEELS)):
+                compiled.module().run_held(p[i], d[i], s[i], f[i], np.zeros(2), 0.0)
+                compiled.module().run_held(p[i], d[i], s[i], f[i], conditioning(), CONDITIONING_STEP)
+        self.before = s["work"].copy()
+        body, wheels = started(car, speed)
+        self.body, self.given = compiled.as_row(car.body)[0], together(car.wheels)
+        self.brakes = compiled.as_row(car.brakes)[0]
+        self.moving, self.turning = compiled.as_row(body), together(wheels)
+        self.driver, self.path = pursuer(car, pursuit)
+
+    def on(self, inputs: Array) -> CarRun:
+        """Drive on by `inputs` (n, 3); raises InputError where a piston would leave its tube, and at the end of the road."""
+        out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
+        done = compiled.module().run_car(
+            *self.dampers, self.body, self.moving[0], self.given, self.turning, self.brakes, self.road, self.spacing,
+            self.grips, self.driver, self.path, np.array(inputs, dtype=float), self.steps, self.dt, out,
+        )  # fmt: skip
+        begin, self.steps = self.steps, self.steps + done
+        if done < len(inputs):
+            strokes = self.turning["stroke"] + self.turning["velocity"] * self.dt
+            axles = self.moving["way"][0] + np.array([wheel.x for wheel in self.car.wheels]) + self.car.body.x_rear
+            length = (self.road.shape[1] - 1) * self.spacing
+            raise InputError(f"time {self.steps * self.dt:g} s: {why_stopped(strokes, self.limits, axles, length)}")
+        return as_run(out, begin, self.dt, self.before)
+
+
 def drive_car(
     car: FullCar, road: Array, spacing: float, inputs: Array, speed: float, *, grips: tuple[float, float] = (1.0, 1.0),
     pursuit: Pursuit | None = None, dt: float = DT, preconditioned: bool = True,
@@ -149,28 +188,8 @@ def drive_car(
     `grips` are the factors of the tyre forces on the left and the right track; `pursuit` steers along a path besides.
     Raises InputError where a piston would leave its tube, and at the end of the road.
     """
-    module = compiled.module()
-    each = [at_rest(damper, 0.0) for damper in car.dampers]
-    p, d, s, f = (together(list(records)) for records in zip(*each, strict=True))
-    if preconditioned:
-        for i in range(len(WHEELS)):
-            module.run_held(p[i], d[i], s[i], f[i], np.zeros(2), 0.0)
-            module.run_held(p[i], d[i], s[i], f[i], conditioning(), CONDITIONING_STEP)
-    before = s["work"].copy()
-    body, wheels = started(car, speed)
-    out = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS)))
-    moving, turning = compiled.as_row(body), together(wheels)
-    driver, path = pursuer(car, pursuit)
-    done = module.run_car(
-        p, d, s, f, compiled.as_row(car.body)[0], moving[0], together(car.wheels), turning,
-        compiled.as_row(car.brakes)[0], np.array(road, dtype=float), spacing, np.array(grips, dtype=float),
-        driver, path, np.array(inputs, dtype=float), dt, out,
-    )  # fmt: skip
-    if done < len(inputs):
-        strokes, limits = turning["stroke"] + turning["velocity"] * dt, [stroke_limit(row[1]) for row in each]
-        axles = moving["way"][0] + np.array([wheel.x for wheel in car.wheels]) + car.body.x_rear
-        raise InputError(f"time {done * dt:g} s: {why_stopped(strokes, limits, axles, (road.shape[1] - 1) * spacing)}")
-    return as_run(out, dt, before)
+    way = Underway(car, road, spacing, speed, grips=grips, pursuit=pursuit, dt=dt, preconditioned=preconditioned)
+    return way.on(inputs)
 
 
 def why_stopped(strokes: Array, limits: Sequence[float], axles: Array, length: float) -> str:
@@ -185,10 +204,13 @@ def why_stopped(strokes: Array, limits: Sequence[float], axles: Array, length: f
     return ", ".join(outside) or "a damper's step could not be finished"
 
 
-def as_run(out: Array, dt: float, before: Array) -> CarRun:
-    """The columns of the loop (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) by name; `before` (4,) [J]: the dampers' earlier work."""
+def as_run(out: Array, begin: int, dt: float, before: Array) -> CarRun:
+    """The columns of the loop (n, BODY_COLUMNS + 4 WHEEL_COLUMNS) by name, from step `begin` on.
+
+    `before` (4,) [J] is the dampers' earlier work.
+    """
     columns = [out[:, i] for i in range(BODY_COLUMNS)]
     table = out[:, BODY_COLUMNS:].reshape(len(out), len(WHEELS), WHEEL_COLUMNS)
     each_wheel = [np.ascontiguousarray(table[:, :, i]) for i in range(WHEEL_COLUMNS)]
     each_wheel[10] = each_wheel[10] - before
-    return CarRun(np.arange(len(out)) * dt, *columns, *each_wheel)
+    return CarRun((begin + np.arange(len(out))) * dt, *columns, *each_wheel)

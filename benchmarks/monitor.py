@@ -1,0 +1,69 @@
+"""`python -m benchmarks.monitor drives.parquet`: the monitor's tables, and how many worn dampers they see.
+
+The drives are those of `twintube study driving`: the cars of the group `train` make the tables, those of `test` are judged.
+"""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from twintube.cli.base import standalone
+from twintube.dampers.freed_gas import DEFAULT, SCALAR
+from twintube.driving import detection
+from twintube.driving.model import FILE, REFERENCE, WORN, from_json, to_json
+from twintube.driving.training import Drive, load, train
+from twintube.words import counted
+
+PARTS = (0.25, 0.5, 1.0)  # of the cars, for the learning curve
+
+
+def trained(drives: Sequence[Drive]) -> dict[str, Any]:
+    """What is said of a training in the file of the tables."""
+    cars, minutes = len({drive.car for drive in drives}), sum(len(drive.minutes) for drive in drives)
+    says = (
+        f"The tables were made from {counted(len(drives), 'simulated drive')} of {cars} cars, {minutes} minutes in all. "
+        f"Worn means {WORN:.0%} oil or less. No measured car has been judged with them."
+    )
+    return {"says": says, "cars": cars, "drives": len(drives), "minutes": minutes, "worn_oil_level": WORN}
+
+
+def lines(figures: dict[str, Any]) -> list[str]:
+    """The table of what is seen, in Markdown: with a reference, by axle, sensors, length and oil level."""
+    found = [row for row in figures["detection"] if row["compared_with"] == REFERENCE]
+    oils = sorted({row["oil"] for row in found}, key=lambda text: int(text.split()[0]))
+    head = ["method", "sensors", "axle", "worn", "model", "min", *oils]
+    table = ["| " + " | ".join(head) + " |", "|" + " --- |" * len(head)]
+    names = ("method", "sensors", "axle", "worn", "model", "minutes")
+    for key in dict.fromkeys(tuple(row[name] for name in names) for row in found):
+        own = {row["oil"]: row for row in found if tuple(row[name] for name in names) == key}
+        cells = [f"{own[oil]['seen']} of {own[oil]['dampers']}" if oil in own else "" for oil in oils]
+        model = {DEFAULT: "full", SCALAR: "scalar"}[key[4]]
+        table.append("| " + " | ".join(map(str, (*key[:4], model, key[5], *cells))) + " |")
+    return table
+
+
+def main(
+    drives: Annotated[list[Path], typer.Argument(metavar="FILE", help="Files of `twintube study driving`.")],
+    model_file: Annotated[
+        Path | None, typer.Option("--model", metavar="FILE", help=f"Write the tables, as {FILE} of the package.")
+    ] = None,
+    json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all figures to this file.")] = None,
+) -> None:
+    """Make the monitor's tables from the cars of the training, and judge the drives of the test."""
+    loaded = [drive for path in drives for drive in load(path)]
+    training, test = ([drive for drive in loaded if drive.group == group] for group in ("train", "test"))
+    model = from_json(to_json(train(training, trained(training))))
+    figures = detection.summary(model, training, test)
+    figures["learning_curve"] = detection.learning_curve(training, test, PARTS)
+    if model_file is not None:
+        model_file.write_text(to_json(model), encoding="utf-8")
+    if json_file is not None:
+        json_file.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
+    typer.echo("\n".join(lines(figures)))
+
+
+if __name__ == "__main__":
+    standalone(main)()

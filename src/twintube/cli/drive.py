@@ -1,0 +1,62 @@
+"""The command about the driving car's signals."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from twintube.cli.base import VEHICLE, app
+from twintube.cli.options import CAR, FRONT, REAR, ROADS, SEED, WORN_AT, one_of
+from twintube.errors import InputError
+
+
+@app.command(
+    rich_help_panel=VEHICLE,
+    epilog="Example: twintube drive --speed 80 --road-class B --minutes 5 --worn rear_left --oil-level 0.4 --gas-lost "
+    "--write signals.parquet",
+)
+def drive(
+    write_to: Annotated[Path, typer.Option("--write", metavar="FILE", help="Signals: .parquet, or .mf4 (extra mdf).")],
+    speed: Annotated[float, typer.Option(metavar="KM/H", help="Mean speed.", min=20.0, max=200.0)] = 80.0,
+    road_class: Annotated[str, one_of(ROADS, help="Class of the road, ISO 8608.")] = "B",
+    minutes: Annotated[float, typer.Option(metavar="MIN", help="Length.", min=0.1, max=60.0)] = 5.0,
+    worn: WORN_AT = "all",
+    oil_level: Annotated[float, typer.Option(metavar="0..1", help="Oil of the worn dampers.", min=0.0, max=1.0)] = 1.0,
+    gas_lost: Annotated[bool, typer.Option("--gas-lost", help="Their gas preload is lost.")] = False,
+    temperature: Annotated[
+        float, typer.Option(metavar="DEGC", help="Temperature of the dampers' oil and gas.", min=-40.0, max=120.0)
+    ] = 23.0,
+    front: FRONT = "SA7",
+    rear: REAR = "SA8",
+    car_file: CAR = "passat_b8",
+    seed: SEED = 1,
+) -> None:
+    """Drive the whole car and write the signals of its bus.
+
+    The file's labels hold the truth about its dampers. `twintube monitor` reads such files.
+    """
+    from twintube import dampers
+    from twintube.driving.drives import driven
+    from twintube.driving.scenes import Conditions, Vehicle, Wear, scene
+    from twintube.driving.signals import check_suffix, write
+    from twintube.vehicle.cars import load_car
+    from twintube.vehicle.full.study import WORN
+    from twintube.vehicle.road import GD_N0
+
+    check_suffix(write_to)
+    if road_class not in GD_N0:
+        raise InputError(f"--road-class {road_class}: must be one of {', '.join(GD_N0)}")
+    if worn not in WORN:
+        raise InputError(f"--worn {worn}: must be one of {', '.join(WORN)}")
+    levels = [oil_level if i in WORN[worn] else 1.0 for i in range(4)]
+    gas = [0 if gas_lost and i in WORN[worn] else 1 for i in range(4)]
+    vehicle = Vehicle(load_car(car_file), dampers.load(front), dampers.load(rear))
+    conditions = Conditions(
+        road_class, speed, 60.0 * minutes, seed, temperature=temperature, random=seed
+    )  # fmt: skip
+    signals = driven(scene(vehicle, conditions, Wear(levels, gas)))
+    write(signals, write_to)
+    typer.echo(
+        f"{write_to}: {minutes:g} min of {vehicle.car.name} at {speed:g} km/h on a road of class {road_class}, "
+        f"{len(signals.values)} channels every {signals.interval * 1e3:g} ms"
+    )

@@ -1,0 +1,24 @@
+"""From the table of outputs to the functions that fill them in, the same for every engine."""
+
+from collections.abc import Callable
+from dataclasses import fields
+from typing import Any
+
+from twintube.core import outputs
+from twintube.core.variables import Derived, Outputs, State
+
+NAMES = tuple(item.name for item in fields(Outputs))
+VALUES = {item.name: str(item.metadata["value"]) for item in fields(Outputs)}
+
+
+def publishing_source() -> str:
+    """The text of `publish(d, s, o)`, which fills a record after a step, and of `publish_row(d, s, row)` for a row (m,)."""
+    record = "".join(f"    o.{name} = {value}\n" for name, value in VALUES.items())
+    row = "".join(f"    row[{i}] = {value}\n" for i, value in enumerate(VALUES.values()))
+    return f"def publish(d, s, o):\n{record}\n\ndef publish_row(d, s, row):\n{row}"
+
+
+made = {"total_force": outputs.total_force, "reserve_gas": outputs.reserve_gas}
+exec(compile(publishing_source(), "<outputs>", "exec"), made)
+publish: Callable[[Derived, State, Any], None] = made["publish"]  # type: ignore[assignment]
+publish_row: Callable[[Derived, State, Any], None] = made["publish_row"]  # type: ignore[assignment]

@@ -1,0 +1,1 @@
+"""The driving car: its signals as the bus shows them, and drives of cars with worn dampers."""

@@ -1,0 +1,166 @@
+"""From features to the probability that a damper is worn: a table of weights, each of a feature with a meaning.
+
+What counts is by how much a feature differs from what is usual: for the car in its good state, where a reference is given,
+else for the fleet of the training. What is usual moves with speed and road, by slopes that all cars share. The sum of
+weight times difference over scale is the logarithm of the odds against a good damper, a worn one taken as likely as a good
+one before the drive.
+"""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any, Final
+
+from twintube.driving.channels import PLACES
+from twintube.driving.features import CONDITIONS, OF_A_WHEEL, mean_of, of_the_damper
+from twintube.words import listed
+
+FILE: Final = "monitor.json"
+MOST: Final = 4.0  # scales that a feature counts at most: no good damper is further off, and no damper is surer worn
+WORN: Final = 0.4  # oil level of a worn damper, the lower one of the paper's degraded states
+REFERENCE, FLEET = "reference", "fleet"
+AXLES: Final = {place: "front" if place[0] == "f" else "rear" for place in PLACES}
+# Which way a feature goes where damping is lost.
+SIGNS: Final = {
+    **{f"{sensor}_{name}": -1 if name == "damping" else 1 for sensor in ("speed", "accel") for name in OF_A_WHEEL},
+    "body_bounce": 1,
+}
+SETS: Final = {  # sensors by the beginnings of their features
+    "bus": ("speed_",),
+    "bus and body": ("speed_", "body_"),
+    "bus and wheels": ("speed_", "accel_"),
+    "bus, body and wheels": ("speed_", "body_", "accel_"),
+}
+
+
+def names_of(sensors: str) -> tuple[str, ...]:
+    """The features of a set of sensors."""
+    return tuple(name for name in SIGNS if name.startswith(SETS[sensors]))
+
+
+def sensors_of(rows: Sequence[Mapping[str, float]]) -> str:
+    """The largest set of sensors whose features are in all minutes."""
+    shared = set.intersection(*(set(of_the_damper(row, PLACES[0])) for row in rows))
+    return [name for name in SETS if shared.issuperset(names_of(name))][-1]
+
+
+def clipped(value: float) -> float:
+    """A difference over its scale, within +-MOST."""
+    return min(max(value, -MOST), MOST)
+
+
+@dataclass(frozen=True)
+class Table:
+    """The weights of an axle: log odds = intercept + sum of weight * difference / scale, each within +-MOST.
+
+    A scale is the standard deviation of good dampers. `limit` [1] is the probability that at most 1 in 100 good dampers
+    of the training passes.
+    """
+
+    intercept: float
+    weights: Mapping[str, float]
+    scales: Mapping[str, float]
+    limit: float
+
+    def parts(self, difference: Mapping[str, float]) -> dict[str, float]:
+        """What each feature adds to the log odds."""
+        return {name: weight * clipped(difference[name] / self.scales[name]) for name, weight in self.weights.items()}
+
+    def probability(self, difference: Mapping[str, float]) -> float:
+        """That the damper is worn [1]."""
+        odds = self.intercept + sum(self.parts(difference).values())
+        return 1.0 / (1.0 + math.exp(-odds))
+
+
+@dataclass(frozen=True)
+class Usual:
+    """What is usual for the dampers of an axle: value at the middle of the conditions, and slopes over CONDITIONS."""
+
+    value: float
+    slopes: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Model:
+    """All tables: `usual` by axle and feature, `tables` by REFERENCE or FLEET, sensors and axle; `about` says of what."""
+
+    middle: tuple[float, ...]  # of CONDITIONS in the training
+    lowest: tuple[float, ...]
+    highest: tuple[float, ...]
+    usual: Mapping[str, Mapping[str, Usual]]
+    tables: Mapping[str, Mapping[str, Mapping[str, Table]]]
+    about: Mapping[str, Any] = field(default_factory=dict)
+
+    def at_middle(self, row: Mapping[str, float], place: str) -> dict[str, float]:
+        """The features of a damper as they would be at the middle of the conditions."""
+        away = [row[name] - middle for name, middle in zip(CONDITIONS, self.middle, strict=True)]
+        own = of_the_damper(row, place)
+        return {
+            name: own[name] - sum(a * b for a, b in zip(usual.slopes, away, strict=True))
+            for name, usual in self.usual[AXLES[place]].items()
+            if name in own
+        }
+
+    def difference(
+        self, rows: Sequence[Mapping[str, float]], place: str, reference: Sequence[Mapping[str, float]] = ()
+    ) -> dict[str, float]:
+        """By how much the features of a damper differ from what is usual; `rows` and `reference` are minutes."""
+        here = mean_of([self.at_middle(row, place) for row in rows])
+        if reference:
+            usual = mean_of([self.at_middle(row, place) for row in reference])
+        else:
+            usual = {name: each.value for name, each in self.usual[AXLES[place]].items()}
+        return {name: value - usual[name] for name, value in here.items() if name in usual}
+
+    def table(self, way: str, sensors: str, place: str) -> Table:
+        """The weights for REFERENCE or FLEET, a set of sensors and a damper."""
+        return self.tables[way][sensors][AXLES[place]]
+
+    def outside(self, rows: Sequence[Mapping[str, float]]) -> str:
+        """Which conditions of a drive lie outside those of the training, in words; empty where none does."""
+        words = {"speed": "slower or faster", "level": "smoother or rougher"}
+        mean = mean_of([dict(row) for row in rows])
+        found = [
+            words[name]
+            for name, low, high in zip(CONDITIONS, self.lowest, self.highest, strict=True)
+            if not low <= mean[name] <= high
+        ]
+        return listed(found)
+
+
+def to_json(model: Model) -> str:
+    """The model as text, with the digits that count."""
+    return json.dumps(rounded(asdict(model)), indent=1) + "\n"
+
+
+def rounded(value: Any) -> Any:
+    """Numbers with five digits."""
+    if isinstance(value, Mapping):
+        return {name: rounded(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [rounded(each) for each in value]
+    return float(f"{value:.5g}") if isinstance(value, float) else value
+
+
+def from_json(text: str) -> Model:
+    """The model of a text that `to_json` wrote."""
+    content = json.loads(text)
+    usual = {
+        axle: {name: Usual(each["value"], tuple(each["slopes"])) for name, each in some.items()}
+        for axle, some in content["usual"].items()
+    }
+    tables = {
+        way: {sensors: {axle: Table(**each) for axle, each in axles.items()} for sensors, axles in some.items()}
+        for way, some in content["tables"].items()
+    }
+    middle, lowest, highest = (tuple(content[name]) for name in ("middle", "lowest", "highest"))
+    return Model(middle, lowest, highest, usual, tables, content["about"])
+
+
+@lru_cache
+def shipped() -> Model:
+    """The model that comes with the package."""
+    return from_json(files("twintube.driving").joinpath(FILE).read_text(encoding="utf-8"))

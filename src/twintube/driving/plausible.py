@@ -1,0 +1,187 @@
+"""Whether a drive can be judged, and whether its channels are what their names say: each doubt ends with one line."""
+
+from typing import Final
+
+import numpy as np
+
+from twintube.arrays import Array
+from twintube.driving.channels import PLACES
+from twintube.driving.features import LEAST
+from twintube.driving.signals import Signals
+from twintube.driving.spectra import (
+    BETWEEN,
+    HOP,
+    MOST_BRAKE,
+    SENSORS,
+    WINDOW,
+    Spectra,
+    coherence,
+    cross,
+    density,
+    mean_shown,
+    taken,
+    within,
+)
+from twintube.errors import InputError
+from twintube.words import counted
+
+LEAST_COHERENCE: Final = 0.25  # of front and rear wheel: the road then makes half of the power of each, 0.5 squared
+UNITS: Final = {"km/h": 3.6, "m/s": 1.0}  # numbers of a wheel speed over those in rad/s, times the radius
+FACTORS: Final = np.geomspace(
+    0.1, 12.0, 100
+)  # of the speed at which the rear wheels may follow: from rev/s to m/s and beyond
+ENOUGH: Final = 150  # windows, 5 minutes, that show the delay
+# Resonances of unequal front and rear dampers pass for a delay of a quarter period: 20 ms of the 50 that 200 km/h leaves.
+GROSS: Final = 2.5
+SURE: Final = 4.0  # standard errors
+LEAST_GAIN: Final = 0.2  # [m/s2] root mean square: below, the wheels' own noise has a part in what they gain
+DIFFERS: Final = 0.08  # of the speed: tyres are worn and pressed by 4 %, km/h for rad/s is 12 %
+
+
+def check_channels(signals: Signals) -> None:
+    """Raise InputError where a sensor stands still, or a channel is another than its name says."""
+    check_alive(signals)
+    check_units(signals)
+
+
+def check_drive(some: Spectra) -> None:
+    """Raise InputError where a drive is too short, slow or smooth for an answer."""
+    check_length(some)
+    check_road(some)
+    check_same_wheel(some)
+
+
+def check_alive(signals: Signals) -> None:
+    """Raise InputError for a sensor of a wheel or the body that stands still throughout."""
+    for name, values in signals.values.items():
+        if ("wheel" in name or "body" in name) and values.max() == values.min():
+            raise InputError(f"{name} = {values[0]:.6g} throughout: this sensor does not move")
+
+
+def slope(y: Array, x: Array) -> tuple[float, float]:
+    """Slope of y over x through the origin, and its standard error; both NaN where x does not move."""
+    power = float(x @ x)
+    if power == 0.0 or len(x) < 3:
+        return float("nan"), float("nan")
+    value = float(y @ x) / power
+    rest = y - value * x
+    return value, float(np.sqrt(rest @ rest / (len(x) - 1) / power))
+
+
+def blocks(values: Array, count: int) -> Array:
+    """Means (b,) over blocks of samples."""
+    whole = len(values) // count * count
+    return np.asarray(values[:whole].reshape(-1, count).mean(axis=1))
+
+
+def check_units(signals: Signals) -> None:
+    """Raise InputError where the wheels gain another speed than the car, or turn with the other sign than its yaw."""
+    count = max(2, round(1.0 / signals.interval))
+    radius, track = float(signals.car["wheel_radius_m"]), float(signals.car.get("track_front_m", float("nan")))
+    wheel = {place: blocks(signals.values[f"wheel_speed_{place}_rad_per_s"] * radius, count) for place in PLACES}
+    if len(wheel["fl"]) < 4:
+        return
+    braked = blocks(signals.values["brake_pressure_pa"], count) > MOST_BRAKE
+    gained = np.diff(np.mean(list(wheel.values()), axis=0)) / (count * signals.interval)
+    along = blocks(signals.values["accel_x_m_per_s2"], count)
+    along = 0.5 * (along[1:] + along[:-1])
+    free = ~(braked[1:] | braked[:-1])
+    # The sensor shows the slope of the road and its own noise besides, the wheels neither: it is fitted to them.
+    if free.any():
+        moved = gained[free] - gained[free].mean()
+        share, error = slope(along[free], moved)
+        if np.sqrt(np.mean(moved**2)) > LEAST_GAIN and abs(share - 1.0) > max(DIFFERS, SURE * error):
+            raise InputError(
+                f"wheel speeds: they gain {1.0 / share:.2f} times the speed that accel_x_m_per_s2 says"
+                f"{unit_of(1.0 / share, radius)}; must be rad/s and m/s2"
+            )
+    yaw = blocks(signals.values["yaw_rate_rad_per_s"], count)
+    for left, right in (("fl", "fr"), ("rl", "rr")):
+        ratio, error = slope((wheel[right] - wheel[left]) / track, yaw)
+        if ratio < -SURE * error:
+            raise InputError(
+                f"wheel_speed_{left}_rad_per_s and wheel_speed_{right}_rad_per_s: exchanged, or yaw_rate_rad_per_s has "
+                "the other sign: in a left turn the right wheels must turn faster"
+            )
+
+
+def unit_of(ratio: float, radius: float) -> str:
+    """The unit whose numbers would be so many times too large, in words; empty where there is none."""
+    near = {name: abs(np.log(ratio / (factor * radius))) for name, factor in UNITS.items() if ratio > 0.0}
+    name = min(near, key=lambda each: near[each], default="")
+    return f", as if they were in {name}" if name and near[name] < DIFFERS else ""
+
+
+def check_length(some: Spectra) -> None:
+    """Raise InputError where fewer than LEAST windows are usable."""
+    if len(some) >= LEAST:
+        return
+    left = [f"{count} {reason}" for reason, count in some.left_out.items() if count]
+    why = f" ({', '.join(left)})" if left else ""
+    slow = 2 * next(iter(some.left_out.values()), 0) > some.all_windows  # the first reason is the speed
+    raise InputError(
+        f"drive too short: {counted(len(some), 'usable window')} of {WINDOW:g} s among {some.all_windows}{why}: "
+        f"must be at least {LEAST}, which are {0.5 * WINDOW * (LEAST + 1):g} s of rolling straight"
+        + (". Are the wheel speeds rad/s?" if slow else "")
+    )
+
+
+def check_road(some: Spectra) -> None:
+    """Raise InputError where front and rear wheels do not show one road, or show it in another order or at another speed."""
+    shared = {sensor: coherence(some, sensor) for sensor in some.sensors}
+    if max(shared.values()) < LEAST_COHERENCE:
+        raise InputError(
+            f"drive too smooth: front and rear wheels share {shared['speed']:.2f} of what they show at wheel hop (coherence "
+            f"of {HOP[0]:g} to {HOP[1]:g} Hz): must be at least {LEAST_COHERENCE:g}; drive over a rougher road"
+        )
+    factor = followed(some)
+    if not 1.0 / GROSS < factor < GROSS:
+        what = "front and rear are exchanged" if factor < 0.0 else "another unit than rad/s, or another wheelbase"
+        raise InputError(
+            f"wheel speeds: the rear wheels run over the road {some.delay.mean() / factor:.3g} s after the front wheels, "
+            f"at this speed it must be about {some.delay.mean():.3g} s: {what}"
+        )
+
+
+def check_same_wheel(some: Spectra) -> None:
+    """Raise InputError where a wheel's acceleration goes with another wheel's speed, or with none: another wheel or clock.
+
+    Both must show the road: else nothing is said.
+    """
+    if some.sensors != SENSORS or min(coherence(some, sensor) for sensor in SENSORS) < LEAST_COHERENCE:
+        return
+    there = within(some.frequency, HOP)
+    for place in PLACES:
+        speed = some.amplitude[f"speed_{place}"]
+        side = place[0] + ("r" if place[1] == "l" else "l")
+        shared = {}
+        for other in (place, side):
+            felt = some.amplitude[f"accel_{other}"]
+            both = np.abs(mean_shown(np.conj(speed) * felt)) ** 2
+            shared[other] = float(np.nanmean(both[there] / (density(speed) * density(felt))[there]))
+        if shared[place] < 2.0 * shared[side]:
+            raise InputError(
+                f"wheel_accel_{place}_m_per_s2: coherence {shared[place]:.2f} with the speed of this wheel at wheel hop, "
+                f"that of wheel_accel_{side}_m_per_s2 is {shared[side]:.2f}: another wheel's, or its clock is another"
+            )
+
+
+def followed(some: Spectra) -> float:
+    """At how many times the speed the rear wheels follow the front ones; negative where they lead; 1 where none is clear.
+
+    The cross density, each frequency weighted by its coherence, is largest for the right delay (generalised correlation).
+    Another delay than a likely one must explain twice as much, as the resonances of unequal wheels turn the phase as well.
+    """
+    some = taken(some, slice(0, ENOUGH))
+    factors, total = np.concatenate([FACTORS, -FACTORS]), np.zeros(2 * len(FACTORS), dtype=complex)
+    for side in "lr":
+        front, rear = (some.amplitude[f"speed_{end}{side}"] for end in "fr")
+        over = np.sqrt(density(front) * density(rear))
+        there = within(some.frequency, (BETWEEN[0], HOP[1])) & np.isfinite(over)
+        for i, factor in enumerate(factors):
+            shared = cross(front[:, there], rear[:, there], some.frequency[there], some.delay / factor)
+            total[i] += np.mean(shared / over[there]) / 2.0
+    power = np.abs(total) ** 2
+    likely = (factors > 1.0 / GROSS) & (factors < GROSS)
+    best = int(np.argmax(power))
+    return float(factors[best]) if power[best] > max(LEAST_COHERENCE, 2.0 * power[likely].max()) else 1.0

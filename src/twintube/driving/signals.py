@@ -1,0 +1,243 @@
+"""Signals of a drive, as the car's bus shows them: read from and written to Parquet and ASAM MDF 4.
+
+One row per sample of the finest raster; a slower channel repeats its last value, as a bus logger writes it. Beside the
+channels stands what is known of car, drive and sensors, and the truth where a simulation wrote the file (`labels`).
+"""
+
+import difflib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from twintube.arrays import Array, read_only
+from twintube.core.checks import outside
+from twintube.dampers.damper import suggestion
+from twintube.data.binary import check_package, read_binary
+from twintube.data.findings import UnreadableError
+from twintube.data.formats import BINARY_BYTES, Format, Raw
+from twintube.driving.channels import CHANNELS, SHEET, TIME
+from twintube.errors import InputError
+from twintube.files import replacing
+from twintube.reading import ReadError, check_regular
+from twintube.words import listed, shown
+
+KEY = "twintube"  # of the metadata in Parquet; the attachment of an MDF file is KEY.json
+PARTS = ("car", "drive", "channels", "labels")
+SUFFIXES = (".parquet", ".pq", ".mf4")
+GAP = 1.5  # usual sample intervals: a lost sample makes 2, a bus's jitter less than half of one more
+MASTER = "time"  # as an MDF file's time is named
+
+
+@dataclass(frozen=True)
+class Signals:
+    """A drive: `time` (n,) [s], and `values` by channel name, (n,) each in the channel's unit.
+
+    `car` is its data sheet, `drive` what is said of the drive, `channels` each sensor's sample interval and resolution, and
+    `labels` the truth. Raises InputError where a required channel is missing or a value cannot be.
+    """
+
+    time: Array
+    values: Mapping[str, Array]
+    car: Mapping[str, Any] = field(default_factory=dict)
+    drive: Mapping[str, Any] = field(default_factory=dict)
+    channels: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    labels: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Check, and make read-only what all readers share."""
+        check_names(self.values)
+        check_time(self.time)
+        for name, values in self.values.items():
+            check_values(name, values, self.time)
+        check_sheet(self.car)
+        object.__setattr__(self, "time", read_only(self.time))
+        object.__setattr__(self, "values", {name: read_only(values) for name, values in self.values.items()})
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def interval(self) -> float:
+        """The sample interval of the raster [s]."""
+        return usual_interval(self.time)
+
+    def known(self) -> dict[str, Any]:
+        """What stands beside the channels, by PARTS."""
+        return {name: dict(getattr(self, name)) for name in PARTS}
+
+
+def check_names(values: Mapping[str, Any]) -> None:
+    """Raise InputError for a required channel that is missing, with the nearest name that is there, and for unknown ones."""
+    others = [name for name in values if name not in CHANNELS]
+    missing = [name for name, channel in CHANNELS.items() if channel.required and name not in values]
+    if missing:
+        raise InputError(f"missing: {listed([with_nearest(name, others) for name in missing], 5)}")
+    if others:
+        raise InputError(f"unknown channel {shown(others[0])}{suggestion(others[0], CHANNELS)}")
+
+
+def with_nearest(name: str, others: Sequence[str]) -> str:
+    """A missing name, with the one of `others` that is most like it."""
+    near = difflib.get_close_matches(name, others, n=1)
+    return f"{name} (the file has {shown(near[0])})" if near else name
+
+
+def usual_interval(time: Array) -> float:
+    """The median of the sample intervals [s]."""
+    return float(np.median(np.diff(time)))
+
+
+def check_time(time: Array) -> None:
+    """Raise InputError unless the times [s] are finite, increase, and leave no gap."""
+    if len(time) < 2:
+        raise InputError(f"{TIME}: {len(time)} samples, at least 2 are needed")
+    if not np.all(np.isfinite(time)):
+        raise InputError(f"{TIME}, sample {int(np.argmin(np.isfinite(time))) + 1}: must be a number")
+    steps = np.diff(time)
+    if steps.min() <= 0.0:
+        i = int(np.argmin(steps > 0.0))
+        raise InputError(f"{TIME}, sample {i + 2}: {time[i + 1]:.6g} s after {time[i]:.6g} s: the times must increase")
+    usual = usual_interval(time)
+    if steps.max() > GAP * usual:
+        i = int(np.argmax(steps > GAP * usual))
+        raise InputError(
+            f"{TIME}: a gap of {steps[i]:.3g} s after {time[i]:.6g} s: must be at most {GAP:g} times the usual "
+            f"{usual:.3g} s; cut the file there"
+        )
+
+
+def check_values(name: str, values: Array, time: Array) -> None:
+    """Raise InputError unless the values of a channel are as many as the times and within its range."""
+    if np.shape(values) != np.shape(time):
+        raise InputError(f"{name}: {np.size(values)} values for {len(time)} samples")
+    channel = CHANNELS[name]
+    wrong = ~((values >= channel.lower) & (values <= channel.upper))
+    if wrong.any():
+        i = int(np.argmax(wrong))
+        message = outside(name, float(values[i]), channel.lower, channel.upper, channel.unit)
+        raise InputError(f"time {time[i]:.6g} s: {message}")
+
+
+def check_sheet(car: Mapping[str, Any]) -> None:
+    """Raise InputError where a length of the car's data sheet is none."""
+    for name, (lower, upper) in SHEET.items():
+        value = car.get(name, lower)
+        if type(value) not in (int, float):
+            raise InputError(f"car.{name} = {shown(value)}: must be a number")
+        if message := outside(f"car.{name}", float(value), lower, upper, "m"):
+            raise InputError(message)
+
+
+def read(path: str | Path) -> Signals:
+    """The signals of a Parquet or MDF 4 file; raises InputError with its name, OSError.
+
+    Columns beside CHANNELS are left out: a logger writes more than is asked for.
+    """
+    path = Path(path)
+    try:
+        check_suffix(path)
+        check_regular(path, BINARY_BYTES)
+        check_package(path)
+        wanted = Format(columns={name: name for name in (TIME, *CHANNELS)})
+        raw = next(read_binary([(path, wanted)]))
+        if isinstance(raw, UnreadableError):
+            raise raw
+        # After the reader's process took the file without harm, this one may open it.
+        names, text = about_mdf(path) if path.suffix.lower() == ".mf4" else (list(raw.columns), about_parquet(path))
+        time = MASTER if path.suffix.lower() == ".mf4" else TIME
+        if time not in raw.columns:
+            raise InputError(f"missing: {with_nearest(TIME, names)}")
+        found = [name for name in CHANNELS if name in raw.columns]
+        if any(channel.required and name not in found for name, channel in CHANNELS.items()):
+            check_names(dict.fromkeys(name for name in names if name not in (TIME, MASTER)))
+        return Signals(numbers(raw, time), {name: numbers(raw, name) for name in found}, **known_of(text))
+    except (ReadError, UnreadableError, InputError) as error:
+        raise InputError(f"{path.name}: {error}") from error
+
+
+def check_suffix(path: Path) -> None:
+    """Raise InputError for a file of another format."""
+    if path.suffix.lower() not in SUFFIXES:
+        raise InputError(f"the ending {path.suffix or 'of its name'}: must be one of {', '.join(SUFFIXES)}")
+
+
+def numbers(raw: Raw, name: str) -> Array:
+    """A column as numbers; raises InputError where a cell holds none."""
+    column = raw.columns[name]
+    for i, value in enumerate(column) if isinstance(column, list) else ():
+        if not isinstance(value, int | float):
+            raise InputError(f"{name}, sample {i + 1}: {'no value' if value is None else shown(value)}: must be a number")
+    return np.asarray(column, dtype=float)
+
+
+def about_parquet(path: Path) -> str:
+    """The text beside the columns."""
+    import pyarrow.parquet as pq
+
+    return str((pq.read_schema(path).metadata or {}).get(KEY.encode(), b"{}").decode("utf-8", "replace"))
+
+
+def about_mdf(path: Path) -> tuple[list[str], str]:
+    """The names of all channels, and the text beside them."""
+    from asammdf import MDF
+
+    with MDF(path) as file:
+        texts = [item for item in file.attachments if str(item.file_name) == f"{KEY}.json"]
+        return list(file.channels_db), texts[0].extract().decode("utf-8", "replace") if texts else "{}"
+
+
+def known_of(text: str) -> dict[str, dict[str, Any]]:
+    """What a file says of PARTS; raises InputError unless each is a table."""
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"metadata {KEY}: not JSON ({error})") from error
+    if not isinstance(content, dict):
+        raise InputError(f"metadata {KEY}: must be a table, not {shown(content)}")
+    parts = {name: content.get(name, {}) for name in PARTS}
+    for name, part in parts.items():
+        if not isinstance(part, dict):
+            raise InputError(f"metadata {KEY}, {name}: must be a table, not {shown(part)}")
+    return parts
+
+
+def write(signals: Signals, path: str | Path) -> None:
+    """Write signals as Parquet or MDF 4, by the ending, whole or not at all; raises InputError, OSError."""
+    path = Path(path)
+    check_suffix(path)
+    text = json.dumps(signals.known(), allow_nan=False)
+    with replacing(path) as part:
+        (write_mdf if path.suffix.lower() == ".mf4" else write_parquet)(signals, part, text)
+
+
+def write_parquet(signals: Signals, path: Path, text: str) -> None:
+    """Columns in the order of CHANNELS behind the time."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    columns = {TIME: signals.time} | {name: signals.values[name] for name in CHANNELS if name in signals.values}
+    units = {TIME: "s"} | {name: channel.unit for name, channel in CHANNELS.items()}
+    fields = [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in columns]
+    schema = pa.schema(fields, metadata={KEY: text})
+    pq.write_table(pa.table([pa.array(values) for values in columns.values()], schema=schema), path, compression="zstd")
+
+
+def write_mdf(signals: Signals, path: Path, text: str) -> None:
+    """One channel group, the text as an attachment."""
+    from asammdf import MDF, Signal
+
+    with MDF(version="4.10") as file:
+        file.append(
+            [
+                Signal(np.array(values), np.array(signals.time), CHANNELS[name].unit, name, comment=CHANNELS[name].meaning)
+                for name, values in signals.values.items()
+            ],
+            comment=KEY,
+            common_timebase=True,
+        )
+        file.attach(text.encode(), file_name=f"{KEY}.json", mime="application/json")
+        file.save(path, overwrite=True, compression=2)

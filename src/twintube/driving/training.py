@@ -1,0 +1,195 @@
+"""The monitor's tables from drives whose dampers are known; needs scikit-learn (extra `training`).
+
+Drives are those of `twintube study driving`, in the group `train`; those of the group `test` are for `detection`.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from twintube.arrays import Array
+from twintube.dampers.freed_gas import DEFAULT
+from twintube.driving.channels import PLACES
+from twintube.driving.features import CONDITIONS, of_the_damper
+from twintube.driving.model import AXLES, FLEET, MOST, REFERENCE, SETS, SIGNS, WORN, Model, Table, Usual, names_of
+from twintube.errors import InputError
+
+LENGTHS: Final = (1, 5, 20)  # [min] of drives that are judged
+FALSE_ALARMS: Final = 0.01  # of the good dampers, for the limit of a table
+LIKELIER: Final = 0.5  # limit at least: a damper that is likelier good than worn is none to watch
+STRENGTHS: Final = (0.01, 0.1, 1.0, 10.0)  # of the weights against their penalty; the best one for cars left out is taken
+FOLDS: Final = 5  # groups of cars
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A drive of a car: its minutes, and the truth of the four dampers in the order of PLACES."""
+
+    car: str
+    minutes: Sequence[Mapping[str, float]]
+    oil_levels: tuple[float, ...]
+    gas_preload: tuple[int, ...]
+    reference: bool = False  # a drive of the car in its good state, to compare others with
+    model: str = DEFAULT  # of worn dampers: a way of the freed gas, or the scalar factor
+    group: str = "train"
+
+    def good(self, place: str) -> bool:
+        """Whether a damper is as new."""
+        i = PLACES.index(place)
+        return self.oil_levels[i] == 1.0 and self.gas_preload[i] == 1
+
+    def worn(self, place: str) -> bool:
+        """Whether a damper is worn."""
+        return self.oil_levels[PLACES.index(place)] <= WORN
+
+
+def load(path: Path) -> list[Drive]:
+    """The drives of a study's Parquet file that gave minutes; raises InputError for another file, OSError."""
+    import pyarrow.parquet as pq
+
+    names = pq.read_schema(path).names
+    if missing := [name for name in ("drive", "car", "speed_hop_fl") if name not in names]:
+        raise InputError(f"{path.name}: column {missing[0]} is missing: must be a file of `twintube study driving`")
+    found: dict[tuple[int, str], list[dict[str, Any]]] = {}
+    for row in pq.read_table(path).to_pylist():
+        if row["minute"] > 0:
+            found.setdefault((row["drive"], row["model"]), []).append(row)
+    return [of_rows(rows) for rows in found.values()]
+
+
+def of_rows(rows: Sequence[Mapping[str, Any]]) -> Drive:
+    """The drive of a study's rows."""
+    first = rows[0]
+    oil, gas = (tuple(first[f"{name}_{place}"] for place in PLACES) for name in ("oil_level", "gas_preload"))
+    # The truth stays outside of the minutes: nothing that judges them can read it.
+    known = {name for name in first if name in CONDITIONS or name.startswith(("speed_", "accel_", "body_"))}
+    minutes = [{name: row[name] for name in known} for row in rows]
+    car = f"{first['group']} {first['car']}"
+    return Drive(car, minutes, oil, gas, first["reference"], first["model"], first["group"])
+
+
+def references(drives: Iterable[Drive]) -> dict[str, list[Mapping[str, float]]]:
+    """The minutes of the reference drives by car."""
+    found: dict[str, list[Mapping[str, float]]] = {}
+    for drive in drives:
+        if drive.reference:
+            found.setdefault(drive.car, []).extend(drive.minutes)
+    return found
+
+
+def usual_values(drives: Sequence[Drive], middle: Sequence[float]) -> dict[str, dict[str, Usual]]:
+    """Fleet's value and slopes of all features by axle, from good dampers in cars whose dampers are all good.
+
+    The slopes are those within a car: a car's own deviation has no part in them.
+    """
+    good = [drive for drive in drives if all(map(drive.good, PLACES))]
+    found: dict[str, dict[str, Usual]] = {}
+    for axle in ("front", "rear"):
+        found[axle] = {}
+        places = [place for place in PLACES if AXLES[place] == axle]
+        rows = [(drive.car, place, row) for drive in good for row in drive.minutes for place in places]
+        x = np.array([[row[name] for name in CONDITIONS] for _, _, row in rows]) - np.array(middle)
+        group = np.unique([f"{car} {place}" for car, place, _ in rows], return_inverse=True)[1]
+        own = [of_the_damper(row, place) for _, place, row in rows]
+        for name in SIGNS:
+            if any(name not in each for each in own):
+                continue
+            y = np.array([each[name] for each in own])
+            within_x, within_y = x - means(x, group), y - means(y[:, None], group)[:, 0]
+            slopes = np.linalg.lstsq(within_x, within_y, rcond=None)[0]
+            found[axle][name] = Usual(float(np.mean(y - x @ slopes)), tuple(map(float, slopes)))
+    return found
+
+
+def means(values: Array, group: Any) -> Array:
+    """Of each row (n, k) the mean of its group (n,)."""
+    count = np.bincount(group)
+    sums = np.column_stack([np.bincount(group, column) for column in values.T])
+    return np.asarray((sums / count[:, None])[group])
+
+
+def examples(
+    model: Model, drives: Sequence[Drive], way: str, place: str, lengths: Sequence[int] = LENGTHS
+) -> list[tuple[Drive, int, dict[str, float]]]:
+    """Drive, length [min] and differences of a damper, for all lengths that a drive has."""
+    known = references(drives)
+    found = []
+    for drive in drives:
+        if drive.reference or (way == REFERENCE and drive.car not in known):
+            continue
+        for length in lengths:
+            if length <= len(drive.minutes):
+                usual = known[drive.car] if way == REFERENCE else ()
+                found.append((drive, length, model.difference(drive.minutes[:length], place, usual)))
+    return found
+
+
+def fitted_table(
+    values: Array, worn: np.ndarray[Any, np.dtype[np.bool_]], cars: Sequence[str], names: Sequence[str]
+) -> Table:
+    """The weights (features with the sign that physics gives alone) and the limit, from differences (n, features).
+
+    A feature whose weight has the wrong sign says nothing that the others do not; it is left out, and the rest fitted anew.
+    """
+    from sklearn.linear_model import LogisticRegression
+    from sklearn.model_selection import GridSearchCV, GroupKFold, cross_val_predict
+
+    scale = np.std(values[~worn], axis=0)
+    used = list(range(len(names)))
+    folds = list(GroupKFold(FOLDS).split(values, worn, cars))
+    while True:
+        x = np.clip(values / scale, -MOST, MOST)[:, used]
+        # Even odds, however many dampers of the training are worn.
+        search = GridSearchCV(
+            LogisticRegression(class_weight="balanced", max_iter=10_000), {"C": STRENGTHS}, scoring="neg_log_loss", cv=folds
+        ).fit(x, worn)
+        best = search.best_estimator_
+        weights = best.coef_[0]
+        wrong = [i for i, weight in zip(used, weights, strict=True) if weight * SIGNS[names[i]] <= 0.0]
+        if not wrong:
+            break
+        used = [i for i in used if i not in wrong]
+        if not used:
+            raise InputError(f"training: none of {', '.join(names)} goes the way that lost damping moves it")
+    # The penalty makes probabilities too even: a line through the log odds of cars left out puts that right (Platt).
+    odds = cross_val_predict(best, x, worn, cv=folds, method="decision_function")[:, None]
+    line = LogisticRegression(class_weight="balanced").fit(odds, worn)
+    slope, offset = float(line.coef_[0, 0]), float(line.intercept_[0])
+    return Table(
+        slope * float(best.intercept_[0]) + offset,
+        {names[i]: slope * float(weight) for i, weight in zip(used, weights, strict=True)},
+        {names[i]: float(scale[i]) for i in used},
+        max(LIKELIER, float(np.quantile(line.predict_proba(odds)[~worn, 1], 1.0 - FALSE_ALARMS))),
+    )
+
+
+def train(drives: Sequence[Drive], about: Mapping[str, Any]) -> Model:
+    """All tables from drives; raises InputError where a set has no good or no worn dampers."""
+    conditions = np.array([[row[name] for name in CONDITIONS] for drive in drives for row in drive.minutes])
+    middle = tuple(map(float, np.mean(conditions, axis=0)))
+    lowest, highest = tuple(map(float, conditions.min(axis=0))), tuple(map(float, conditions.max(axis=0)))
+    model = Model(middle, lowest, highest, usual_values(drives, middle), {}, about)
+    tables: dict[str, dict[str, dict[str, Table]]] = {}
+    for way in (REFERENCE, FLEET):
+        for axle in ("front", "rear"):
+            rows = [
+                (drive, place, difference)
+                for place in PLACES
+                if AXLES[place] == axle
+                for drive, _, difference in examples(model, drives, way, place)
+                if drive.model == DEFAULT and (drive.good(place) or drive.worn(place))
+            ]
+            worn = np.array([drive.worn(place) for drive, place, _ in rows])
+            if worn.all() or not worn.any():
+                raise InputError(f"training: {np.count_nonzero(worn)} of {len(worn)} {axle} dampers are worn: must be some")
+            for sensors in SETS:
+                names = [name for name in names_of(sensors) if all(name in each for _, _, each in rows)]
+                if names != list(names_of(sensors)):
+                    continue
+                values = np.array([[each[name] for name in names] for _, _, each in rows])
+                table = fitted_table(values, worn, [drive.car for drive, _, _ in rows], names)
+                tables.setdefault(way, {}).setdefault(sensors, {})[axle] = table
+    return Model(model.middle, model.lowest, model.highest, model.usual, tables, about)

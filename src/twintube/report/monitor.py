@@ -1,0 +1,160 @@
+"""The page of the monitor: which damper of a driving car is worn, and what its wheel shows."""
+
+import textwrap
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from twintube.driving.channels import NAMES, PLACES
+from twintube.driving.model import FLEET, REFERENCE
+from twintube.driving.monitor import FINE, STATES, WATCH, WORN_OUT, Answer, Watched, meaning
+from twintube.driving.spectra import HOP
+from twintube.report import style
+from twintube.report.page import Headline, Picture, Section, Table, html
+from twintube.words import counted, listed
+
+COLOURS = {FINE: style.GREEN, WATCH: style.ORANGE, WORN_OUT: style.RED}
+MARKS = {FINE: "yes", WATCH: "warn", WORN_OUT: "no"}
+BESIDE = {REFERENCE: "the same car in its good state", FLEET: "the cars of the training, as no reference was given"}
+CAPTION = (
+    "What each wheel speed shows over frequency; shaded: wheel hop. Where a damper has lost its damping, the wheel swings "
+    "in a narrow, high peak. Gaps: frequencies of the wheel's own rotation."
+)
+UNSEEN = "Fine does not say that no oil is lost: a damper damps as new until its foot valve draws gas."
+NEXT = {
+    FINE: "Nothing to do. Judge the next drive in the same way.",
+    WATCH: "Judge another drive of 5 minutes or more, on a rougher road, with a reference of the same car.",
+    WORN_OUT: "Look for oil at the damper, and put the axle on an inspection bench: `twintube inspect` says what that sees.",
+}
+
+
+def damper(place: str) -> str:
+    """A damper in words."""
+    return NAMES[place].replace("wheel", "damper")
+
+
+def percent(probability: float) -> str:
+    """A probability in words; none is certain."""
+    return "below 1 %" if probability < 0.01 else "above 99 %" if probability > 0.99 else f"{100 * probability:.0f} %"
+
+
+def sentence(answer: Answer) -> str:
+    """The answer in words."""
+    parts = []
+    for state, says in ((WORN_OUT, "has lost its damping: replace"), (WATCH, "damps less than usual: watch")):
+        if some := answer.of(state):
+            several = says.replace("has lost its", "have lost their").replace("damps", "damp") if len(some) > 1 else says
+            parts.append(f"The {listed([damper(each.place) for each in some], 4)} {several}.")
+    if not parts:
+        return "All four dampers damp as good ones."
+    if rest := len(answer.of(FINE)):
+        parts.append(f"{counted(rest, 'other')} {'damps as a good one' if rest == 1 else 'damp as good ones'}.")
+    return " ".join(parts)
+
+
+def worst_state(answer: Answer) -> str:
+    """The state that decides about the car."""
+    return next((state for state in (WORN_OUT, WATCH) if answer.of(state)), FINE)
+
+
+def remark(answer: Answer) -> str:
+    """Under which conditions the answer holds."""
+    said = [f"Compared with {BESIDE[answer.way]}, over {answer.seconds / 60:.1f} usable minutes."]
+    if answer.outside:
+        said.append(f"The drive was {answer.outside} than all of the training: the probabilities may be wrong.")
+    return " ".join([*said, UNSEEN])
+
+
+def spectra(answer: Answer, narrow: bool = False) -> Figure:
+    """What each wheel speed shows, in the places of the wheels."""
+    figure, axes = style.grid(4, (4.6, 2.6), narrow, most=2, sharex=True, sharey=True)
+    shown = (answer.frequency >= 0.5) & (answer.frequency <= 24.0)
+    frequency = answer.frequency[shown]
+    for ax, each in zip(axes.flat, answer.dampers, strict=True):
+        ax.axvspan(*HOP, color=style.FAINT, alpha=0.35, lw=0)
+        if answer.usual:
+            ax.semilogy(frequency, answer.usual[each.place][shown], color=style.GREY, lw=1.3, label="in its good state")
+        drawn = answer.density[each.place][shown]
+        for state, colour in COLOURS.items():  # the key names all states in their order
+            own = state == each.state
+            ax.semilogy(frequency if own else [], drawn if own else [], color=colour, lw=1.7, label=f"this drive: {state}")
+        text = f"{NAMES[each.place].removesuffix(' wheel')}: {each.state}, worn {percent(each.probability)}"
+        style.title(ax, text[0].upper() + text[1:])
+    style.label(axes, "frequency [Hz]", "(wheel speed / mean)²\nper Hz")
+    style.legend_above(figure, *axes.flat[:4])
+    return figure
+
+
+def summary(answer: Answer) -> Table:
+    """A row for each damper."""
+    rows = [
+        [
+            damper(each.place), each.state, percent(each.probability), percent(each.limit), f"{each.damping:.2f}",
+            f"{np.exp(each.difference['speed_hop']):.1f}",
+        ]
+        for each in answer.dampers
+    ]  # fmt: skip
+    head = ("damper", "state", "probability that it is worn", "limit", "damping ratio of wheel hop", "power at wheel hop")
+    return Table(head, rows, "The two last as factors of what is usual", numeric=(2, 3, 4, 5))
+
+
+def reasons(answer: Answer) -> Table:
+    """By which factor each feature differs from what is usual, and what that adds to the log odds."""
+    names = list(answer.dampers[0].difference)
+    rows = [[meaning(name), *(reason(each, name) for each in answer.dampers)] for name in names]
+    return Table(
+        ("feature", *PLACES), rows, "Factor of what is usual, and in brackets what it adds to the log odds", (1, 2, 3, 4)
+    )
+
+
+def reason(each: Watched, name: str) -> str:
+    """A cell of `reasons`."""
+    added = f" ({each.parts[name]:+.1f})" if name in each.parts else ""
+    return f"{np.exp(each.difference[name]):.2f}{added}"
+
+
+def terminal(answer: Answer) -> str:
+    """The answer as text."""
+    table = summary(answer)
+    rows = [["damper", "state", "worn", "limit", "damping", "hop power"], *map(list, table.rows)]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return "\n".join([*lines, sentence(answer), *textwrap.wrap(remark(answer), 118)])
+
+
+def page(answer: Answer, name: str, references: Sequence[str], about: str) -> str:
+    """The page as HTML; `about` says what the tables were made from."""
+    state = worst_state(answer)
+    head = Headline(
+        sentence(answer), state, MARKS[state], remark(answer), NEXT[state],
+        Picture.drawn(partial(spectra, answer), CAPTION),
+    )  # fmt: skip
+    left = [f"{reason}: {counted(count, 'window')}" for reason, count in answer.left_out.items() if count]
+    drive = [
+        ("Usable", f"{counted(answer.windows, 'window')} of 4 s among {answer.all_windows}"),
+        ("Left out", listed(left, 4) if left else "none"),
+        ("Mean speed", f"{3.6 * answer.speed:.0f} km/h"),
+        ("Coherence of front and rear wheels at wheel hop", f"{answer.coherence:.2f}; at least 0.25 is needed"),
+        ("Sensors", answer.sensors),
+        ("References", listed(list(references), 5) if references else "none"),
+    ]
+    states = [(name, text) for name, text in STATES.items()]
+    return html(
+        f"Dampers of the driving car: {name}",
+        [],
+        [
+            Section("dampers", "The four dampers", tables=[summary(answer)], notes=states),
+            Section("reasons", "What speaks for it", text=[REASONS], tables=[reasons(answer)]),
+            Section("drive", "The drive", notes=drive),
+            Section("limits", "What this cannot say", text=[UNSEEN, about]),
+        ],
+        headline=head,
+    )
+
+
+REASONS = (
+    "Each feature is compared with what is usual at the drive's speed and road. Log odds above 0 speak for a worn damper. "
+    "A feature without brackets has no weight: it says nothing that the others do not."
+)

@@ -1,0 +1,204 @@
+"""The monitor on oscillators whose damping is known, and on input that it must refuse."""
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rolling import SHEET, rolling
+from typer.testing import CliRunner
+
+from twintube.cli import app
+from twintube.driving import plausible
+from twintube.driving.channels import PLACES
+from twintube.driving.features import LEAST, MINUTE, table
+from twintube.driving.model import FLEET, MOST, REFERENCE, SETS, SIGNS, shipped
+from twintube.driving.monitor import FINE, watch
+from twintube.driving.physical import wheel_hop
+from twintube.driving.signals import Signals, write
+from twintube.driving.spectra import HOP, coherence, density, hold, spectra
+from twintube.errors import InputError
+
+
+@pytest.mark.parametrize("zeta", [0.05, 0.1, 0.2])
+@pytest.mark.parametrize("interval", [0.01, 0.02])
+def test_damping_ratio_of_wheel_hop(zeta: float, interval: float) -> None:
+    some = spectra(rolling((zeta,) * 4, seconds=300.0, interval=interval))
+    found = [wheel_hop(some.frequency, density(some.amplitude[f"speed_{place}"])) for place in PLACES]
+    assert np.mean([natural for natural, _ in found]) == pytest.approx(12.0, rel=0.03)
+    assert np.mean([ratio for _, ratio in found]) == pytest.approx(zeta, rel=0.2)
+
+
+def test_power_is_that_of_the_signal() -> None:
+    signals = rolling(seconds=120.0)
+    some = spectra(signals)
+    step = some.frequency[1]
+    for place in PLACES:
+        values = signals.values[f"wheel_speed_{place}_rad_per_s"]
+        power = np.nansum(density(some.amplitude[f"speed_{place}"])) * step
+        # Below a step and at the orders of the wheel nothing is counted.
+        assert 0.5 < power / np.var(values / values.mean()) < 1.1
+
+
+def test_orders_of_the_wheel_are_left_out() -> None:
+    turns = 20.0 / SHEET["wheel_radius_m"] / (2 * np.pi)
+    some = spectra(rolling())
+    assert HOP[0] < turns < HOP[1]
+    hidden = np.isnan(density(some.amplitude["speed_fl"]))
+    assert hidden[np.abs(some.frequency - turns) < 0.25].all() and hidden.mean() < 0.5
+
+
+def test_slow_channels_are_taken_once() -> None:
+    coarse = rolling(interval=0.02)
+    twice = Signals(np.arange(2 * len(coarse)) * 0.01, {n: np.repeat(x, 2) for n, x in coarse.values.items()}, SHEET)
+    assert (hold(twice), hold(coarse)) == (2, 1)
+    assert table(twice)[0]["speed_hop_fl"] == pytest.approx(table(coarse)[0]["speed_hop_fl"])
+
+
+def test_units_of_a_sensor_do_not_matter() -> None:
+    signals = rolling(accels=True)
+    scaled = {name: x * (0.1 if "wheel_accel" in name else 1.0) for name, x in signals.values.items()}
+    first, second = table(signals)[0], table(replace(signals, values=scaled))[0]
+    assert first == pytest.approx(second)
+
+
+def test_minutes() -> None:
+    rows = table(rolling(seconds=300.0))
+    assert len(rows) == 5
+    assert [row["windows"] for row in rows[:-1]] == [MINUTE] * 4 and rows[-1]["windows"] >= MINUTE
+    assert len(table(rolling(seconds=2.0 * (LEAST + 1)))) == 1
+
+
+@pytest.fixture(scope="module")
+def good() -> Signals:
+    return rolling(seconds=180.0, seed=7)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_lost_damper_is_named(place: str, good: Signals) -> None:
+    damping = tuple(0.05 if each == place else 0.3 for each in PLACES)
+    answer = watch(rolling(damping, seconds=180.0), [good])
+    assert answer.way == REFERENCE and answer.sensors == "bus"
+    assert answer.worst.place == place
+    assert answer.worst.damping < 0.4
+    # These wheels carry no body, whose resonance counts in front: the damper need not be beyond its limit.
+    others = [each.probability for each in answer.dampers if each.place != place]
+    assert answer.worst.probability > 1.5 * max(others)
+    assert all(each.state == FINE for each in answer.dampers if each.place != place)
+
+
+def test_good_dampers_are_fine(good: Signals) -> None:
+    answer = watch(rolling(seconds=180.0), [good])
+    assert {each.state for each in answer.dampers} == {FINE}
+    assert answer.coherence > 0.8 and answer.seconds == pytest.approx(180.0)
+
+
+def test_the_answer_does_not_read_the_truth(good: Signals) -> None:
+    drive = rolling((0.05, 0.3, 0.3, 0.3), seconds=120.0)
+    labelled = replace(drive, labels={"wheels": {place: {"oil_level": 1.0} for place in PLACES}})
+    assert watch(drive, [good]).as_json == watch(labelled, [good]).as_json
+
+
+def test_more_damping_lost_is_never_less_worn() -> None:
+    for ways in shipped().tables.values():
+        for axles in ways.values():
+            for each in axles.values():
+                assert all(weight * SIGNS[name] > 0.0 for name, weight in each.weights.items())
+                nothing = dict.fromkeys(each.weights, 0.0)
+                lost = {name: 100.0 * SIGNS[name] * each.scales[name] for name in each.weights}
+                assert each.probability(nothing) < 0.5 < each.probability(lost)
+                assert sum(each.parts(lost).values()) == pytest.approx(MOST * sum(map(abs, each.weights.values())))
+
+
+def test_tables_for_all_sensors() -> None:
+    model = shipped()
+    assert {way: set(some) for way, some in model.tables.items()} == {REFERENCE: set(SETS), FLEET: set(SETS)}
+
+
+def changed(signals: Signals, change: Callable[[str, dict[str, np.ndarray]], np.ndarray]) -> Signals:
+    return replace(signals, values={name: change(name, dict(signals.values)) for name in signals.values})
+
+
+def kmh(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
+    return values[name] * (3.6 * SHEET["wheel_radius_m"] if "wheel_speed" in name else 1.0)
+
+
+def front_for_rear(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
+    other = {"_fl": "_rl", "_fr": "_rr", "_rl": "_fl", "_rr": "_fr"}
+    end = next((end for end in other if end in name), "")
+    return values[name.replace(end, other[end])] if "wheel_speed" in name else values[name]
+
+
+def left_for_right_accels(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
+    return values[name.replace("fl", "fr")] if name == "wheel_accel_fl_m_per_s2" else values[name]
+
+
+def still(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
+    return np.full_like(values[name], 70.0) if name == "wheel_speed_rr_rad_per_s" else values[name]
+
+
+def braking(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
+    return np.full_like(values[name], 2e6) if name == "brake_pressure_pa" else values[name]
+
+
+@pytest.mark.parametrize(
+    ("options", "change", "says"),
+    [
+        ({"swing": 0.5, "seconds": 120.0}, kmh, r"wheel speeds: .* as if they were in km/h; must be rad/s"),
+        ({}, front_for_rear, "wheel speeds: .* front and rear are exchanged"),
+        ({"accels": True}, left_for_right_accels, r"wheel_accel_fl_m_per_s2: .* another wheel's, or its clock is another"),
+        ({}, still, "wheel_speed_rr_rad_per_s = 70 throughout"),
+        ({}, braking, r"drive too short: 0 usable windows .*\(29 braking\): must be at least 10"),
+        ({"seconds": 15.0}, None, "drive too short: 6 usable windows"),
+        ({"seconds": 3.0}, None, "a drive of 3 s: must be at least 4 s"),
+        ({"speed": 5.0}, None, r".*29 slower than 25 km/h.*Are the wheel speeds rad/s\?"),
+        ({"rough": 1e-6}, None, "drive too smooth: front and rear wheels share 0.0"),
+        ({"interval": 0.04}, None, "wheel speeds every 40 ms: must be at most 25 ms"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_refused(options: dict[str, float], change: object, says: str) -> None:
+    signals = rolling(**options)
+    with pytest.raises(InputError, match="drive.parquet: " + says):
+        watch(changed(signals, change) if change else signals, names=["drive.parquet"])  # type: ignore[arg-type]
+
+
+def test_a_data_sheet_is_needed(good: Signals) -> None:
+    with pytest.raises(InputError, match=r"car.wheelbase_m is missing"):
+        watch(replace(good, car={}))
+    with pytest.raises(InputError, match=r"reference 1: car.wheelbase_m = 2.5: must be 2.8 as in the drive"):
+        watch(rolling(), [replace(good, car=SHEET | {"wheelbase_m": 2.5})])
+
+
+def test_km_per_h_at_a_steady_speed_only_misplaces_the_road() -> None:
+    """12 % are within what unequal resonances do to the delay: the answer stands, and the docs say so."""
+    plausible.check_drive(spectra(changed(rolling(), kmh)))
+
+
+def test_coherence_of_wheels_without_a_road() -> None:
+    assert coherence(spectra(rolling(rough=0.0, seconds=180.0)), "speed") < 0.1
+
+
+def test_command(tmp_path: Path, good: Signals) -> None:
+    drive, reference = tmp_path / "drive.parquet", tmp_path / "good.parquet"
+    write(rolling((0.3, 0.3, 0.05, 0.3), seconds=180.0), drive)
+    write(good, reference)
+    page, figures = tmp_path / "monitor.html", tmp_path / "monitor.json"
+    run = CliRunner().invoke(
+        app, ["monitor", str(drive), "--reference", str(reference), "--output", str(page), "--json", str(figures)]
+    )
+    assert run.exit_code == 0, run.output
+    assert "rear left damper" in run.output
+    found = json.loads(figures.read_text())
+    assert max(found["dampers"], key=lambda each: found["dampers"][each]["probability_worn"]) == "rl"
+    assert found["compared_with"] == "reference"
+    html = page.read_text()
+    assert "rear left damper" in html and "Next:" in html and "drive.parquet" in html
+    for arguments, says in (
+        ([str(drive), "--reference", str(drive)], "is the drive itself"),
+        ([str(drive), "--output", str(tmp_path / "page.pdf")], "must end in .html"),
+        ([str(tmp_path / "none.parquet")], "none.parquet"),
+    ):
+        run = CliRunner().invoke(app, ["monitor", *arguments])
+        assert run.exit_code == 2 and says in run.output
