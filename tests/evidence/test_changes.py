@@ -77,13 +77,19 @@ def test_oil_and_gas_lost_since_is_another_state_than_stated() -> None:
     assert "The file says otherwise" in lines(found)[0]
 
 
-def test_no_answer_is_less_likely_than_the_next() -> None:
+def test_an_answer_does_not_contradict_its_numbers() -> None:
     found = before_and_after(lambda r: 1.06 * r.force)
     assert found.changes is not None
-    several = [h.probability for h in found.changes.hypotheses]
-    assert several == sorted(several, reverse=True)
-    assert sum(several) == pytest.approx(1.0)
+    shares = [h.probability for h in found.changes.hypotheses]
+    assert shares == sorted(shares, reverse=True)
+    assert sum(shares) == pytest.approx(1.0)
     assert sum(h.probability for h in found.named) >= 0.9
+    # Each is its prior times its evidence.
+    several = [h for h in found.changes.hypotheses if h.probability > 1e-9]
+    singles = [h.name for h in found.changes.hypotheses if h.kind in ("effect", "fault") and "+" not in h.name]
+    prior = priors(singles, [h.name for h in several])
+    own = np.array([prior[h.name] * np.exp(h.log_evidence) for h in several])
+    assert own / own.sum() == pytest.approx([h.probability for h in several], abs=1e-6)
 
 
 def test_prior_probabilities_sum_to_one() -> None:

@@ -14,9 +14,11 @@ from libcosimpy.CosimSlave import CosimLocalSlave
 from twintube.core.kernel import fill, prepare, step
 from twintube.core.variables import Derived, Flow, State, blank
 from twintube.dampers import load
+from twintube.fmu.table import variables
 
 DT = 1e-3
-STROKE, VELOCITY, FORCE, OIL_LEVEL = 0, 1, 2, 17  # value references, in the order of the variables
+REFERENCE = {variable.name: i for i, variable in enumerate(variables(load("SA8")))}
+STROKE, VELOCITY, FORCE, OIL_LEVEL = (REFERENCE[name] for name in ("stroke", "velocity", "force", "oil_level"))
 
 
 def motion(i: int) -> tuple[float, float]:
