@@ -101,13 +101,13 @@ def changes(
     nothing = [weight(f) - search.none.log_z + np.log(prior[m.effect]) for m, f in found.items() if slight[m]]
     log_p[NONE] = float(np.logaddexp.reduce([log_p[NONE], *nothing]))
     total = float(np.logaddexp.reduce(list(log_p.values())))
-    whole = log_p[NONE] - float(np.log(prior[NONE]))  # so that probability is prior times evidence for each
+    offset = log_p[NONE] - float(np.log(prior[NONE]))  # so that probability is prior times evidence for each
     several = []
     for name, z in evidence.items():
         own = [f for m, f in found.items() if m.effect == name]
         kind = own[0].mechanism.kind if own else name
         best = max(own, key=weight) if own else None
-        several.append(Hypothesis(name, kind, 0.0 if name == NONE else z - whole, float(np.exp(log_p[name] - total)), best))
+        several.append(Hypothesis(name, kind, 0.0 if name == NONE else z - offset, float(np.exp(log_p[name] - total)), best))
     return Changes(tuple(sorted(several, key=lambda h: -h.probability)), tuple(base.mechanisms), search)
 
 
