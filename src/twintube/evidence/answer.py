@@ -246,10 +246,8 @@ def diagnose(path: str | Path, progress: Progress | None = None) -> Answer:
     progress("reading the records")
     dataset, turned = read(path)
     if turned is not None and (has_reference(dataset.records) or any(record.unknown for record in dataset.records)):
-        dataset, turned = (
-            load_dataset(path),
-            None,
-        )  # raises: there the bench is not looked at, and nothing put right in silence
+        # There the bench is not looked at, and nothing is put right in silence: this raises.
+        dataset, turned = load_dataset(path), None
     return answer(dataset, progress, turned)
 
 
