@@ -3,7 +3,7 @@
 import json
 import os
 import platform
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -19,6 +19,7 @@ from benchmarks.identify import SEEDS, bench_identify
 from benchmarks.importers import as_table, bench_importers
 from benchmarks.inspect import bench_inspect
 from benchmarks.kernel import bench_kernel
+from benchmarks.marked_pages import with_table
 from benchmarks.oil_leak_page import bench_oil_leak
 from benchmarks.priors import bench_priors
 from benchmarks.small_strokes import bench_small_strokes
@@ -52,8 +53,23 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
 FEW = {"identify": SEEDS, "calibration": DRAWS}  # seeds by default, where not MANY
 MANY = 10
 OTHERS = ("oil_leak",)
+TABLES: dict[str, Callable[[Any], str]] = {"diagnosis": score_tables, "importers": as_table}
 NAMES = ", ".join((*BENCHMARKS, *SEEDED, *OTHERS))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+def as_lines(figures: Mapping[str, Any]) -> str:
+    """Figures for the terminal."""
+    lines = []
+    for key, value in figures.items():
+        if isinstance(value, float):
+            lines.append(f"{key:32}{value:12.3f}")
+        elif isinstance(value, dict):
+            lines.append(f"{key}:")
+            for row, cells in value.items():
+                told = ", ".join(f"{what} {n:.4g}" for what, n in cells.items()) if isinstance(cells, dict) else f"{cells:g}"
+                lines.append(f"  {row:34}{told}")
+    return "".join(f"{line}\n" for line in lines)
 
 
 @app.command(epilog="Example: python -m benchmarks kernel --json kernel.json")
@@ -73,6 +89,10 @@ def main(
     ] = None,
     plot: Annotated[Path | None, typer.Option(help="Picture of oil_leak.")] = None,
     tables: Annotated[Path | None, typer.Option(help="Tables of oil_leak in Markdown.")] = None,
+    page: Annotated[
+        Path | None,
+        typer.Option("--write", exists=True, dir_okay=False, help="Page to put the table into, between its marks."),
+    ] = None,
     damper: Annotated[Path | None, typer.Option(help="Parameter file for oil_leak; by default the paper's eight.")] = None,
 ) -> None:
     """Measure speed, or make a table of the documentation anew, and print it.
@@ -86,10 +106,15 @@ def main(
     if name not in (*BENCHMARKS, *SEEDED, *OTHERS):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
+    if page is not None and name not in TABLES:
+        typer.echo(f"error: --write: {name} has no table for a page, only {' and '.join(TABLES)}", err=True)
+        raise typer.Exit(2)
     seeds = FEW.get(name, MANY) if seeds is None else seeds
     compiled.module()
     figures: dict[str, Any]
     try:
+        if page is not None:
+            with_table(page, name, "")  # before hours of work
         if name == "oil_leak":
             figures = bench_oil_leak(damper, plot, tables)
         else:
@@ -98,17 +123,9 @@ def main(
         typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from error
     typer.echo(f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}")
-    tables_of = {"diagnosis": score_tables, "importers": as_table}
-    if name in tables_of:
-        typer.echo(tables_of[name](figures), nl=False)
-    for key, value in figures.items() if name not in tables_of else ():
-        if isinstance(value, float):
-            typer.echo(f"{key:32}{value:12.3f}")
-        elif isinstance(value, dict):
-            typer.echo(f"{key}:")
-            for row, cells in value.items():
-                told = ", ".join(f"{what} {n:.4g}" for what, n in cells.items()) if isinstance(cells, dict) else f"{cells:g}"
-                typer.echo(f"  {row:34}{told}")
+    typer.echo(TABLES[name](figures) if name in TABLES else as_lines(figures), nl=False)
+    if page is not None:
+        page.write_text(with_table(page, name, TABLES[name](figures)), encoding="utf-8")
     if json_file is not None:
         json_file.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
 

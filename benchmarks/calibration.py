@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits
 
 from benchmarks.calibration_figures import figures
 from benchmarks.diagnosis import folder_of
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper, load
 from twintube.data import MEASURED, LoadedDataset, Record
 from twintube.diagnosis.records.noise import averaging_noise, noise
@@ -35,6 +35,7 @@ from twintube.evidence.search import Found, off_its_law
 from twintube.evidence.sizes import Sizes, log_weights
 from twintube.evidence.state import NOTHING, log_prior, state
 from twintube.rig.signals import AMPLITUDE
+from worlds.bench.plan import chance
 
 RNG = np.random.Generator
 DAMPER = "SA8"
@@ -142,7 +143,7 @@ def drawn(several: Sequence[Mechanism], bench: Bench, base: dict[str, float], wh
     u = rng.standard_normal(len(m.strengths))
     u = np.clip(np.where([s.kind == "half" for s in m.strengths], np.abs(u), u), *m.ends)
     change = where * (bench.forces(base | m.values(u)) - bench.forces(base))
-    if rng.random() < 0.5:
+    if chance(rng, 0.5):
         columns = off_its_law(bench, change)
         change = change + columns @ rng.standard_normal(columns.shape[1])
     return Hidden(m, u, change)

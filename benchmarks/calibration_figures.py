@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta, chisquare, kstest
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.evidence.changes import NONE
 
 BINS = 10
+EVEN = 0.5  # probability of the one and the other
 SURE = 0.99
 SUREST = 1e-6  # probability that counts for a truth which is all but excluded
 
@@ -52,7 +53,7 @@ def of_state(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
         "inside_90": share(sum(bool(row["inside"]) for row in rows), len(rows)),
         "width": {"median": float(np.median(wide))},
         "gas_lost": told(p, lost),
-        "preload_right": share(int(np.sum((p > 0.5) == lost)), len(rows)),
+        "preload_right": share(int(np.sum((p > EVEN) == lost)), len(rows)),
     }
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.demo.car_ride import drive_car_with_fmus
 from twintube.demo.damper_fmu import DamperFmu
@@ -46,10 +46,10 @@ def paired(car: FullCar, road: Array, inputs: Array) -> tuple[float, float]:
         files = [build_fmu(d, Path(folder) / f"{d.name}.fmu", platforms=(fmpy.platform,)) for d in car.dampers[1:3]]
         fmus = [stack.enter_context(DamperFmu(files[i // 2])) for i in range(len(car.dampers))]
         four = SingleFmus(fmus, car.dampers)
-        drive_car_with_fmus(car, four, road, SPACING, inputs[:2000], SPEED)
+        drive_car_with_fmus(car, four, road, SPACING, inputs[:2000], speed=SPEED)
         for _ in range(RUNS):
             begun = time.process_time()
-            drive_car_with_fmus(car, four, road, SPACING, inputs, SPEED, preconditioned=False)
+            drive_car_with_fmus(car, four, road, SPACING, inputs, speed=SPEED, preconditioned=False)
             between = time.process_time()
             drive_car(car, road, SPACING, inputs, SPEED, preconditioned=False)
             times.append((between - begun, time.process_time() - between))

@@ -92,7 +92,7 @@ def in_c(folder: Path, damper: Damper) -> dict[str, float]:
         guid = fmpy.read_model_description(str(unit)).guid
         library = next((Path(fmpy.extract(str(unit), str(folder / f"c{fmi}"))) / "binaries" / platform).iterdir())
 
-        def run(file: Path, step: float, steps: int, instances: int, guid: str = guid, fmi: Fmi = fmi) -> list[float]:
+        def run(file: Path, step: float, steps: int, instances: int, *, guid: str = guid, fmi: Fmi = fmi) -> list[float]:
             """Time of a step [us] and memory of an instance [kB]."""
             command = [host, file, guid, fmi, step, steps, instances, 0, 1, 2]
             done = subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True)

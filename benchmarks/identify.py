@@ -58,7 +58,7 @@ def bench_identify(seeds: int = SEEDS) -> dict[str, Any]:
     tables: dict[str, Any] = {}
     methods: dict[str, Callable[..., Best]] = {
         "default": partial(together, size=PAPER.together),
-        **{name: partial(search, size=EQUAL, method=name) for name in ("de", "cma", "pso")},
+        **{name: partial(search, size=EQUAL, method=name) for name in ("de", "pso")},
     }
     for name in DAMPERS:
         damper = load(name, as_published=True)

@@ -11,11 +11,10 @@ from typing import Annotated, Any
 import typer
 
 from twintube.cli.base import standalone
-from twintube.dampers.freed_gas import DEFAULT, SCALAR
+from twintube.common.words import counted
 from twintube.driving import detection
 from twintube.driving.model import FILE, REFERENCE, WORN, from_json, to_json
 from twintube.driving.training import Drive, load, train
-from twintube.words import counted
 
 PARTS = (0.25, 0.5, 1.0)  # of the cars, for the learning curve
 
@@ -40,8 +39,7 @@ def lines(figures: dict[str, Any]) -> list[str]:
     for key in dict.fromkeys(tuple(row[name] for name in names) for row in found):
         own = {row["oil"]: row for row in found if tuple(row[name] for name in names) == key}
         cells = [f"{own[oil]['seen']} of {own[oil]['dampers']}" if oil in own else "" for oil in oils]
-        model = {DEFAULT: "full", SCALAR: "scalar"}[key[4]]
-        table.append("| " + " | ".join(map(str, (*key[:4], model, key[5], *cells))) + " |")
+        table.append("| " + " | ".join(map(str, (*key, *cells))) + " |")
     return table
 
 

@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.kernel import fluid_force
 from twintube.dampers import Damper, freed_gas, load
 from twintube.dampers.dead_length import bounds, collapse_level, prepared

@@ -19,12 +19,12 @@ from benchmarks.oil_leak import (
     slow_falls,
     with_valves_of,
 )
+from twintube.common.files import write_bytes, write_text
 from twintube.dampers import Damper, freed_gas, load
 from twintube.dampers.toml import names
 from twintube.engine.simulate import simulate
-from twintube.files import write_bytes, write_text
-from twintube.report.framed import OIL, SCALAR, WIDTH, WORDS, framed, oil
-from twintube.report.style import ORANGE, VIOLET, canvas, label, png, title
+from twintube.report.common.framed import OIL, SCALAR, WIDTH, WORDS, framed, oil
+from twintube.report.common.style import ORANGE, VIOLET, canvas, label, png, title
 from twintube.rig import harmonic_block
 
 DRAWN = 0.025  # [m] amplitude of the picture

@@ -31,6 +31,7 @@ SEED = 43001  # the first of each world
 EACH = {"unknown_fill": 2, "before_after": 2, "challenge": 2, "workshop": 2}
 BENCH_LOOKED_AT = ("example", "challenge", "workshop")  # without a reference
 ANSWERS = "answers.jsonl"
+EVEN = 0.5  # probability of the one and the other
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,7 @@ def best(row: dict[str, Any]) -> str:
     """What is likeliest; of a state the preload."""
     if "probabilities" in row:
         return str(max(row["probabilities"], key=lambda name: float(row["probabilities"][name])))
-    return "gas lost" if row["state"][-1]["gas_lost"] > 0.5 else "gas there"
+    return "gas lost" if row["state"][-1]["gas_lost"] > EVEN else "gas there"
 
 
 def moved(row: dict[str, Any], usual: dict[str, Any]) -> dict[str, float]:

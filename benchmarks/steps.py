@@ -6,7 +6,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.variables import blank
 from twintube.dampers import load
 from twintube.demo.damper_fmu import DamperFmu

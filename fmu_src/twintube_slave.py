@@ -210,7 +210,7 @@ class TwinTube(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is untyped
             self._say(text)
         return not text
 
-    def _step(self, time: float, h: float) -> str:
+    def _step(self, time: float, h: float) -> str:  # noqa: PLR0911 - a return for each way to refuse a step
         """Make a step; a message, and the state as before, where it is refused."""
         if self.mode != STEPPING:
             text = messages.NOT_NOW % ("fmi2DoStep", messages.MODES[self.mode])

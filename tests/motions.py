@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from twintube import harmonic_block, load
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.maneuvers import MANEUVERS
 from twintube.vehicle.plan import drive_signal

@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
+from twintube.common.files import write_text
 from twintube.errors import UserError
-from twintube.files import write_text
 from worlds.makers import FIRST_SEED, WORLDS, collected, jobs
 from worlds.run import run as run_jobs
 from worlds.run import write_score

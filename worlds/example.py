@@ -15,8 +15,8 @@ import numpy as np
 import tomlkit
 from scipy.io import savemat
 
+from twintube.common.files import replacing, write_text
 from twintube.dampers import load
-from twintube.files import replacing, write_text
 from twintube.rig.signals import AMPLITUDE
 from worlds.blind_trials.hidden import secret
 from worlds.blind_trials.trials import WARM, Trial, TrialRecord, measured, plans, take
@@ -39,11 +39,13 @@ def example() -> Trial:
     channels = []
     for plan in planned:
         samples = RATES.get(plan.velocity, 1.0) * 2 * math.pi * AMPLITUDE / max(plan.velocity, 1e-3)
-        channels.append(take(plan, damper, hidden, WARM + rng.uniform(-0.5, 0.5), samples, 0.0, rng))
+        channels.append(
+            take(plan, damper, hidden, start=WARM + rng.uniform(-0.5, 0.5), samples=samples, jitter=0.0, rng=rng)
+        )
     forces = [float(np.abs(t.force).max()) for t in channels]
     degraded = max(f for f, t in zip(forces, channels, strict=True) if not t.plan.preload)
     records = [
-        measured(t, hidden, (0.0, max(forces), degraded), NOISE * f, False, 0.0, rng)
+        measured(t, hidden, (0.0, max(forces), degraded), noise=NOISE * f, speed=False, phase=0.0, rng=rng)
         for f, t in zip(forces, channels, strict=True)
     ]
     stored = [thinned(record, plan.velocity) for record, plan in zip(records, planned, strict=True)]

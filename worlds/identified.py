@@ -6,9 +6,9 @@ from tempfile import TemporaryDirectory
 
 import tomlkit
 
+from twintube.common.files import write_text
 from twintube.dampers import to_toml
 from twintube.errors import UserError
-from twintube.files import write_text
 from twintube.identification import identify
 
 FILE = "identified.toml"

@@ -57,7 +57,9 @@ def of_trials(kind: str, seed: int, strength: float | None, folder: Path) -> Non
     causes = kind.split("+")
     of = "none" if kind == "none" else "fault" if set(causes) <= set(trials.FAULTS) else "effect"
     more = {"parameters": trial.truth, "strength": trial.strength}
-    write_truth(folder, told("blind_trials", seed, trial.damper, causes, "outside" if kind in trials.OUTSIDE else of, more))
+    write_truth(
+        folder, told("blind_trials", seed, trial.damper, causes, kind="outside" if kind in trials.OUTSIDE else of, more=more)
+    )
 
 
 def blind_trials(seed: int, folder: Path) -> None:

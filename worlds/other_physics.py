@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from twintube import load
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.lab.virtual_rig import VirtualDamper, run, virtual_damper
 from twintube.lab.virtual_rig.dimensions import DIMENSIONS
 from worlds.bench.plan import RNG, Motion, span
@@ -37,22 +37,31 @@ def with_friction(damper: VirtualDamper, more: float) -> VirtualDamper:
     return replace(damper, F_static=damper.F_static + more, F_sliding=damper.F_sliding + more)
 
 
-def force(damper: VirtualDamper, z: Array, level: float, preload: bool, room: float, warmer: float) -> Array:
+def force(damper: VirtualDamper, z: Array, level: float, *, preload: bool, room: float, warmer: float) -> Array:
     """Force of the rig [N] (n,) at strokes [m] at RATE, with oil that is `warmer` [K] than the room."""
-    return run(damper, np.arange(len(z)) / RATE, np.asarray(z, dtype=np.float64), level, preload, room + warmer).force
+    return run(
+        damper,
+        np.arange(len(z)) / RATE,
+        np.asarray(z, dtype=np.float64),
+        level,
+        gas_preload=preload,
+        temperature_degC=room + warmer,
+    ).force
 
 
 def rig_on(
-    healthy: VirtualDamper, damper: VirtualDamper, day: Day, state: dict[str, Any], fault: Fault, warmer: float
+    healthy: VirtualDamper, damper: VirtualDamper, day: Day, state: dict[str, Any], *, fault: Fault, warmer: float
 ) -> Damper:
     """A virtual damper in a session; `state` holds oil_level and gas_preload where they are not as delivered."""
     level, preload = float(state.get("oil_level", 1.0)), bool(state.get("gas_preload", 1))
     same = damper == healthy and (level, preload, fault, warmer) == (1.0, True, Fault(), 0.0)
 
     def driven(i: int, motion: Motion) -> Driven:
-        own = force(damper, motion.stroke, level, preload, day.room, warmer)
+        own = force(damper, motion.stroke, level, preload=preload, room=day.room, warmer=warmer)
         read = fault.sign * fault.stroke_gain * motion.stroke  # what the damper would do at the stroke that is read
-        return Driven(own, own if same else force(healthy, read, 1.0, True, day.room, 0.0), day.room + warmer)
+        return Driven(
+            own, own if same else force(healthy, read, 1.0, preload=True, room=day.room, warmer=0.0), day.room + warmer
+        )
 
     return driven
 
@@ -82,9 +91,12 @@ def virtual_rig(seed: int) -> World:
     state = drawn if key in STATES else {}
     fault = Fault(**drawn) if key in CHANNELS else Fault()
     days = draw_day(rng), draw_day(rng)
-    new, used = rig_on(healthy, healthy, days[0], {}, Fault(), 0.0), rig_on(healthy, damper, days[1], state, fault, warmer)
-    before = session(rng, bench, days[0], first, Fault(), new, reference=True)
-    after = session(rng, bench, days[1], later, fault, used, reference=False)
+    new, used = (
+        rig_on(healthy, healthy, days[0], {}, fault=Fault(), warmer=0.0),
+        rig_on(healthy, damper, days[1], state, fault=fault, warmer=warmer),
+    )
+    before = session(rng, bench, days[0], first, Fault(), damper=new, reference=True)
+    after = session(rng, bench, days[1], later, fault, damper=used, reference=False)
     wrong = bool(rng.random() < STATED_WRONGLY)
     truth = {
         "world": "virtual_rig", "seed": seed, "damper": name, "kind": "none", "causes": ["none"], "also_fits": [],

@@ -19,8 +19,8 @@ from typing import Any, Final
 
 from tqdm import tqdm
 
+from twintube.common.files import write_text
 from twintube.errors import UserError
-from twintube.files import write_text
 from twintube.provenance import fingerprint
 from worlds.makers import Job
 from worlds.scoring import Pair, read_pairs, score, tables

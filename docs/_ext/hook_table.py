@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from twintube.core.hook_table import page
+from twintube.core.hook_table import with_hooks
 
 PAGE = Path(__file__).parents[1] / "effects.md"
 
 if __name__ == "__main__":
-    PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    PAGE.write_text(with_hooks(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from sphinx.application import Sphinx
 from sphinx.util.typing import stringify_annotation
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 
 MODES = ("fully-qualified-except-typing", "fully-qualified", "smart")
 NAMED = {"Array": Array, "ArrayLike": ArrayLike}
@@ -31,7 +31,9 @@ def described(metadata: Any) -> str:
     return f"{metadata['description']} [{metadata['unit']}]" if "description" in metadata else ""
 
 
-def add_fields(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+def add_fields(  # noqa: PLR0917 - as Sphinx calls it
+    app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]
+) -> None:
     """Append the fields of a dataclass to its docstring."""
     if what != "class" or not is_dataclass(obj):
         return
@@ -50,7 +52,7 @@ def add_fields(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines:
     lines.append("")
 
 
-def shorten(
+def shorten(  # noqa: PLR0917 - as Sphinx calls it
     app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str | None, returns: str | None
 ) -> tuple[str | None, str | None]:
     """Write arrays as `Array`; a record says its fields in a list of their own."""

@@ -9,8 +9,9 @@ diagnose        what state a damper is in, what has changed, and what the simula
 """
 
 from importlib import import_module
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
+
+from twintube.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from twintube.dampers import Damper as Damper
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
     from twintube.identification import identify as identify
     from twintube.rig import Signal as Signal
     from twintube.rig import harmonic_block as harmonic_block
-
-__version__ = version("twintube")
 
 # Imported where they are first used: numba, scipy and the FMU tools take seconds.
 HOMES = {

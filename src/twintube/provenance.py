@@ -10,7 +10,7 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-from twintube.parsing import parsed
+from twintube.common.parsing import parsed
 
 PACKAGE = "twintube"
 ROOT = Path(__file__).parent

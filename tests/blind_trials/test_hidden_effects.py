@@ -16,7 +16,7 @@ P = load("SA8", as_published=True).parameters
 class Run:
     """A record of SA8 with effects hidden in it."""
 
-    def __init__(self, level, velocity, preload=False, pause=0.0, name="SA8", excitation=None, changes=None, **hidden):
+    def __init__(self, level, velocity, preload=False, pause=0.0, *, name="SA8", excitation=None, changes=None, **hidden):
         self.excitation = excitation or harmonic(velocity, pause)
         rate = max(200.0, 400 * velocity / (2 * np.pi * 0.045))
         self.time = np.arange(int(self.excitation.duration * rate)) / rate

@@ -16,7 +16,7 @@ def sampled(excitation, per=300, velocity=1.0):
     return np.arange(int(excitation.duration * rate)) / rate
 
 
-def run(level, velocity, name="SA8", preload=False, hidden=None, pause=0.0, **options):
+def run(level, velocity, name="SA8", preload=False, hidden=None, *, pause=0.0, **options):
     excitation = harmonic(velocity, pause)
     time = sampled(excitation, velocity=velocity)
     out = march(tube(name, level, preload), hidden or Hidden(), excitation, time, **options)

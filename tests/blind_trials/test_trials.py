@@ -34,6 +34,7 @@ def test_a_whole_dataset_has_all_records():
     assert sum(name.endswith("_rest") for name in names) == 2
 
 
+@pytest.mark.slow
 def test_recovery_records_are_added_to_the_others(tmp_path):
     usual, extended = short_trial("none"), short_trial("none", recover=(1.08,), seconds=2.0)
     added = extended.records[len(usual.records) :]

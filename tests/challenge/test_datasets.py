@@ -33,7 +33,7 @@ def test_none_is_the_kernel_within_the_noise() -> None:
     run = finished(runs_of(bench, 10.0)[0])
     exact = sampled(run, bench.recorder)
     quiet = replace(bench, zero=0.0, colour=0.0)
-    noise = logged(exact, run, quiet, 20.0, 0.1, np.random.default_rng(1))["force [N]"] - exact[2]
+    noise = logged(exact, run, quiet, sigma=20.0, step=0.1, rng=np.random.default_rng(1))["force [N]"] - exact[2]
     assert np.std(noise) == pytest.approx(20.0, rel=0.1)
     assert abs(np.mean(noise)) < 100.0 / np.sqrt(len(noise))
 
@@ -42,7 +42,10 @@ def test_a_wrong_unit_is_in_the_file_alone() -> None:
     bench = replace(bench_for(frozenset({"sine"}), False, np.random.default_rng(5)), stroke_noise=0.0)
     plain = finished(runs_of(bench, 10.0)[0])
     wrong = replace(plain, unit=(0.1, 1.0))
-    told = [logged(sampled(r, bench.recorder), r, bench, 20.0, 0.1, np.random.default_rng(1)) for r in (plain, wrong)]
+    told = [
+        logged(sampled(r, bench.recorder), r, bench, sigma=20.0, step=0.1, rng=np.random.default_rng(1))
+        for r in (plain, wrong)
+    ]
     assert told[1]["force [N]"] == pytest.approx(0.1 * told[0]["force [N]"])
     assert np.array_equal(told[1]["stroke [mm]"], told[0]["stroke [mm]"])
 

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench import faults
 from worlds.bench.plan import rms
 from worlds.challenge.catalogue import CAUSES

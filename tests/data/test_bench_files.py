@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 
 from tests.data.conftest import RECORD, as_csv, good
 from twintube.cli import app
+from twintube.common.words import short
 from twintube.data import Record, check_dataset, load_dataset
-from twintube.words import short
 
 Make = Callable[..., Path]
 T, Z, F = "time [s]", "stroke [mm]", "force [N]"
@@ -67,7 +67,9 @@ def every(rows: list[str], blank: str, step: int, count: int = 1) -> str:
     ("blank", "step", "count", "number"),
     [("\n", 1, 1, 1501), ("\n", 500, 7, 21), (",,\n", 3, 1, 500), ("  \n", 2, 1, 750), (" , ,\t\n", 50, 2, 60)],
 )
-def test_blank_rows_are_skipped(folder: Make, tmp_path: Path, blank: str, step: int, count: int, number: int) -> None:
+def test_blank_rows_are_skipped(  # noqa: PLR0917 - pytest names them
+    folder: Make, tmp_path: Path, blank: str, step: int, count: int, number: int
+) -> None:
     text = every(as_csv(plain()).splitlines(keepends=True), blank, step, count)
     path = folder({"a.csv": text})
     is_good(single(path))
@@ -94,7 +96,7 @@ SEGMENT = (
 )
 
 
-def lvm(x: str, sep: str = "\t", d: str = ".", names: str = "Weg Kraft", units: str = "mm N", segments: int = 1) -> str:
+def lvm(x: str, sep: str = "\t", d: str = ".", names: str = "Weg Kraft", units: str = "mm N", *, segments: int = 1) -> str:
     c = plain()
     texts = {name: [f"{v:.9g}".replace(".", d) for v in c[name]] for name in c}
     columns = {

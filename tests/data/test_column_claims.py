@@ -7,8 +7,8 @@ import pytest
 
 from tests.data.conftest import good
 from twintube.data import Finding, check_dataset
-from twintube.data.column_claims import check_unit
-from twintube.data.column_names import assigned
+from twintube.data.check.column_claims import check_unit
+from twintube.data.convert.column_names import assigned
 from twintube.data.findings import Notes
 
 
@@ -16,7 +16,7 @@ def found(name: str, stated: str) -> list[Finding]:
     """The findings on a column of this name where `columns` says `stated`, as in `force [N]`."""
     quantity, unit = stated[:-1].split(" [")
     notes = Notes("a.csv")
-    check_unit(name, quantity, unit, stated, False, notes)
+    check_unit(name, quantity, unit, stated, scaled=False, notes=notes)
     return notes.findings
 
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from tests.data.conftest import RECORD, good
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.data import Record, load_dataset
-from twintube.data.defects import clipped, dropped, frozen, resolution, unprepared
+from twintube.data.check.defects import clipped, dropped, frozen, resolution, unprepared
 
 Make = Callable[..., Path]
 F = "force [N]"

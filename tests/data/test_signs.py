@@ -9,7 +9,7 @@ import pytest
 from tests.diagnosis import small
 from twintube.dampers import Damper, load
 from twintube.data import Finding, Record, check_dataset
-from twintube.data.signs import AS_STATED, PULLED, TURNED, UNTOLD, quasi_steady, told_by
+from twintube.data.records.signs import AS_STATED, PULLED, TURNED, UNTOLD, quasi_steady, told_by
 
 WEAK = {"v_co": load("SA8").parameters.v_re, "F_co": load("SA8").parameters.F_re, "F_0": 40.0}  # symmetric, little gas
 

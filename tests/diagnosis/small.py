@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import tomlkit
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper, load
 from twintube.data import MEASURED, LoadedDataset, Record
 from twintube.diagnosis.problem import Problem

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tests.diagnosis import small
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.data import Record
 from twintube.diagnosis.measurement.edges import alone, with_edges, with_noise, without_outliers
 from twintube.diagnosis.records.noise import averaging_noise, correlation, neighbour_noise, noise

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import butter, lfilter
 
 from tests.diagnosis import small
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import effects
 from twintube.dampers import load
 from twintube.data import Record

@@ -20,6 +20,7 @@ def record(
     noise: float,
     rng: np.random.Generator,
     rate: float | None = None,
+    *,
     amplitude: float = AMPLITUDE,
 ) -> Record:
     """Twelve oscillations of a digressive damper with friction; without preload no force in a part that fades."""
@@ -59,7 +60,9 @@ def bench(noise: float = 0.01, seed: int = 0, rate: float | None = None, slow: f
     """Intact and degraded; `slow` is the amplitude [m] of the three slower velocities."""
     rng = np.random.default_rng(seed)
     return [
-        record(v, preload, noise, rng, rate, slow if v < 0.5 else AMPLITUDE) for preload in (True, False) for v in VELOCITIES
+        record(v, preload, noise, rng, rate, amplitude=slow if v < 0.5 else AMPLITUDE)
+        for preload in (True, False)
+        for v in VELOCITIES
     ]
 
 

@@ -8,7 +8,7 @@ from twintube.driving.signals import Signals
 SHEET = {"name": "oscillators", "wheelbase_m": 2.8, "track_front_m": 1.5, "track_rear_m": 1.5, "wheel_radius_m": 0.3}
 
 
-def rolling(
+def rolling(  # noqa: PLR0913 - a property of the drive each
     damping=(0.3, 0.3, 0.3, 0.3),
     *,
     seconds=60.0,
@@ -18,9 +18,13 @@ def rolling(
     noise=1e-5,
     swing=0.0,
     accels=False,
+    runout=0.0,
     seed=1,
 ) -> Signals:
-    """Signals; the rear wheels run over the road of the front wheels later. `swing` [m/s2] changes the speed slowly."""
+    """Signals; the rear wheels run over the road of the front wheels later. `swing` [m/s2] changes the speed slowly.
+
+    `runout` is that of the encoders over their radius.
+    """
     random = np.random.default_rng(seed)
     time = np.arange(round(seconds / interval)) * interval
     n, f = len(time), np.fft.rfftfreq(len(time), interval)
@@ -35,6 +39,7 @@ def rolling(
             if accels:
                 values[f"wheel_accel_{end}{side}_m_per_s2"] = 0.05 * np.gradient(np.gradient(shown))
             own = speed + faster + speed * (rough * shown + noise * random.standard_normal(n))
+            own *= 1.0 + runout * np.sin(np.cumsum(own) * interval / SHEET["wheel_radius_m"])
             values[f"wheel_speed_{end}{side}_rad_per_s"] = own / SHEET["wheel_radius_m"]
     values["accel_x_m_per_s2"] = np.gradient(faster, time) + 0.05 * random.standard_normal(n)
     values["accel_y_m_per_s2"] = 0.05 * random.standard_normal(n)

@@ -159,3 +159,14 @@ def test_the_example_of_a_drive_is_read(tmp_path: Path) -> None:
 def test_a_number_below_zero_is_refused() -> None:
     with pytest.raises(UserError, match="must not be below 0"):
         draw(-1, 60.0, 1)
+
+
+def test_a_worn_damper_drives_again_with_each_way_of_the_freed_gas_and_a_good_one_does_not() -> None:
+    plan = study.Plan(10, 1.0, seed=3, freed_gas=True, scalar=True)
+    several = len(plan.models)
+    worn = next(n for n in range(10) if min(draw(n, 60.0, 3).wear.oil_level) < 1.0)
+    rows = [study.rows(plan, several * worn + i)[0] for i in range(several)]
+    assert [row["model"] for row in rows] == ["dissolves", "stays", "limited", "pushes_oil", "scalar factor"]
+    assert len({row["road_seed"] for row in rows}) == 1
+    assert len({row.get("speed_hop_rl") for row in rows}) > 1
+    assert study.rows(plan, several * 0 + 1) == []  # a reference drive

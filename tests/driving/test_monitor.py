@@ -147,6 +147,7 @@ def braking(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
     ("options", "change", "says"),
     [
         ({"swing": 0.5, "seconds": 120.0}, kmh, r"wheel speeds: .* as if they were in km/h; must be rad/s"),
+        ({"runout": 1e-3}, kmh, r"wheel speeds: 1.08 times the rotation of the wheels, .* as if they were in km/h"),
         ({}, front_for_rear, "wheel speeds: .* front and rear are exchanged"),
         ({"accels": True}, left_for_right_accels, r"wheel_accel_fl_m_per_s2: .* another wheel's, or its clock is another"),
         ({}, still, "wheel_speed_rr_rad_per_s = 70 throughout"),
@@ -171,9 +172,13 @@ def test_a_data_sheet_is_needed(good: Signals) -> None:
         watch(rolling(), [replace(good, car=SHEET | {"wheelbase_m": 2.5})])
 
 
-def test_km_per_h_at_a_steady_speed_only_misplaces_the_road() -> None:
+def test_km_per_h_without_a_line_only_misplaces_the_road() -> None:
     """12 % are within what unequal resonances do to the delay: the answer stands, and the docs say so."""
     plausible.check_drive(spectra(changed(rolling(), kmh)))
+
+
+def test_lines_at_the_orders_of_rad_per_s_are_no_other_unit() -> None:
+    plausible.check_turns(rolling(runout=1e-3))
 
 
 def test_coherence_of_wheels_without_a_road() -> None:

@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from twintube.data.formats import Format, Raw
-from twintube.data.read_binary import parquet
+from twintube.data.read.binary_child import parquet
 from twintube.driving import signals as signals_file
 from twintube.driving.channels import CHANNELS
 from twintube.driving.signals import KEY, Signals, read, write

@@ -7,7 +7,7 @@ import pytest
 from scipy import signal
 
 from twintube import load
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.driving import sensors
 from twintube.driving.channels import PLACES
 from twintube.driving.drives import driven

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.engine.simulate import simulate
 from twintube.fitting.simulation import SimulatedRecords

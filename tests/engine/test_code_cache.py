@@ -8,7 +8,7 @@ from types import ModuleType
 
 import pytest
 
-from twintube import caches
+from twintube.common import caches
 from twintube.engine.code_cache import VOUCHED, CodeCache, vouched
 
 TEXT = """

@@ -13,7 +13,7 @@ from twintube.engine import compiled
 sys.setswitchinterval(1e-6)
 with ThreadPoolExecutor(8) as threads:
     modules = list(threads.map(lambda _: compiled.module(), range(16)))
-    marks = list(threads.map(provenance.fingerprint, ["twintube.studies.cases", "twintube.report.fitted"] * 4))
+    marks = list(threads.map(provenance.fingerprint, ["twintube.studies.cases", "twintube.report.paper.fitted"] * 4))
 assert len(set(marks)) == 2
 assert len(set(map(id, modules))) == 1
 """

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tests.diagnosis import small
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 
 OFF = 0.04  # of the fluid force, smooth in speed and other in each direction
 

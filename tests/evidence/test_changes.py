@@ -12,13 +12,13 @@ from typer.testing import CliRunner
 
 from tests.diagnosis import small
 from tests.evidence.specimen import own_law
-from twintube.arrays import Array
 from twintube.cli import app
+from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.evidence import Answer, answer
 from twintube.evidence.changes import priors
-from twintube.report.changes import lines
+from twintube.report.diagnosis.changes import lines
 
 Formula = Callable[[small.Run], Array]
 SPEEDS = (0.3, 0.6)  # [m/s]

@@ -5,11 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.signal import lfilter
 
 from tests.diagnosis import small
 from twintube import diagnose
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.diagnosis.put_right import put_right
@@ -20,22 +19,9 @@ from twintube.evidence.base import Base
 from twintube.evidence.bench import Bench
 from twintube.evidence.changes import mechanisms
 from twintube.evidence.contract import as_json
-from twintube.report.answered import lines, write_report
+from twintube.report.diagnosis.page import lines, write_report
 
 SPEEDS = (0.3, 0.6, 1.0)  # [m/s]
-
-
-def worn_valves(r: small.Run) -> Array:
-    return r.force - np.where(r.velocity > 0.0, 0.2, 0.1) * r.fluid
-
-
-def late_fluid(r: small.Run) -> Array:
-    kept = float(np.exp(-(r.time[1] - r.time[0]) / 0.006))
-    return np.asarray(r.force - r.fluid + lfilter([1.0 - kept], [1.0, -kept], r.fluid))
-
-
-def more_friction(r: small.Run) -> Array:
-    return np.asarray(r.force + 90.0 * np.tanh(r.velocity / 0.005))
 
 
 def moved_zero(r: small.Run) -> Array:
@@ -47,9 +33,6 @@ def heavy_clamp(r: small.Run) -> Array:
 
 
 HIDDEN: dict[str, small.Formula] = {
-    "valve_wear": worn_valves,
-    "fluid_lag": late_fluid,
-    "side_load_friction": more_friction,
     "force_offset": moved_zero,
     "clamp_inertia": heavy_clamp,
 }

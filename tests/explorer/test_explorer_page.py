@@ -41,5 +41,5 @@ def test_without_a_compiler_the_command_says_so(tmp_path: Path, monkeypatch: pyt
 
     monkeypatch.setattr(binaries, "find_spec", lambda name: None if name == "ziglang" else util.find_spec(name))
     done = CliRunner().invoke(app, ["explore", "--output", str(tmp_path / "explorer.html")])
-    assert done.exit_code == 2 and done.stderr == "error: no C compiler: pip install ziglang\n"
+    assert done.exit_code == 2 and done.stderr == "error: no C compiler: pip install 'twintube[fmu]'\n"
     assert metadata.version("ziglang")  # it was there all the time

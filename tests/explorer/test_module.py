@@ -13,7 +13,7 @@ import pytest
 from fmpy.fmi2 import FMU2Slave
 
 from tests.explorer.wasm import Module
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper, load, names
 from twintube.explorer import translate
 from twintube.fmu.equations import checked
@@ -68,7 +68,9 @@ class Native:
         set_rate = self.fmi2SetRealInputDerivatives  # type: ignore[attr-defined]
 
         @numba.njit
-        def loop(unit: int, t: Array, z: Array, v: Array, wanted: Array, out: Array) -> int:  # pragma: no cover
+        def loop(  # noqa: PLR0917 - compiled by numba
+            unit: int, t: Array, z: Array, v: Array, wanted: Array, out: Array
+        ) -> int:  # pragma: no cover
             inputs, order = np.array([0, 1], np.uint32), np.array([1], np.int32)
             values, rate, row = np.zeros(2), np.zeros(1), np.zeros(len(wanted))
             worst = get_real(unit, wanted.ctypes.data, len(wanted), row.ctypes.data)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import wasmtime
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.explorer.module import module
 
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import effects
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import load
 from twintube.dampers.gas_spring import P_ATM, gas_factors
-from twintube.data.condition import is_intact
+from twintube.data.records.condition import is_intact
 from twintube.engine import compiled
 from twintube.engine.loops import Means, Records
 from twintube.fitting.intervals import impulse, means

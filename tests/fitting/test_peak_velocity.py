@@ -1,9 +1,13 @@
 """The peak-velocity evaluation of sines whose force is known."""
 
+import dataclasses
+import io
+
 import numpy as np
+import pytest
 
 from twintube.fitting.harmonic import Harmonic
-from twintube.fitting.peak_velocity import as_csv, peak_velocities
+from twintube.fitting.peak_velocity import COLUMNS, as_csv, as_xlsx, peak_velocities
 
 SAMPLES, AMPLITUDE, FREQUENCY = 1000, 0.02, 2.0
 
@@ -43,3 +47,17 @@ def test_the_table_has_a_row_for_each_direction() -> None:
     lines = as_csv(peak_velocities([record()])).splitlines()
     assert lines[0] == "record,direction,oscillations,velocity_m_s,force_peak_N,force_window_N,force_crossing_N"
     assert [line.split(",")[:2] for line in lines[1:]] == [["sine", "rebound"], ["sine", "compression"]]
+
+
+def test_the_sheet_holds_the_same_as_numbers() -> None:
+    pytest.importorskip("xlsxwriter")
+    calamine = pytest.importorskip("python_calamine")
+    rows = [dataclasses.replace(row, record="=1+1") for row in peak_velocities([record()])]
+    sheet = as_xlsx(rows)
+    (name,) = calamine.CalamineWorkbook.from_filelike(io.BytesIO(sheet)).sheet_names
+    head, *found = calamine.CalamineWorkbook.from_filelike(io.BytesIO(sheet)).get_sheet_by_name(name).to_python()
+    assert tuple(head) == COLUMNS
+    for line, row in zip(found, map(dataclasses.astuple, rows), strict=True):
+        assert tuple(line[:2]) == row[:2]
+        assert line[2:] == pytest.approx(row[2:], rel=1e-15)  # Excel has 16 digits
+    assert as_xlsx(rows) == sheet

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, lfilter, sawtooth
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.fitting.strokes import noise, quiet, turns
 from twintube.rig.signals import harmonic_block
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.dampers.freed_gas import condition
 from twintube.fmu import build_fmu

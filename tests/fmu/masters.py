@@ -10,7 +10,7 @@ import numpy as np
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.full.car import WHEELS
 
 Road = Callable[[float], tuple[Array, Array]]  # heights [m] and rates [m/s] (4,) at the way driven [m]

@@ -14,8 +14,8 @@ import pytest
 from lxml import etree
 from typer.testing import CliRunner
 
-from twintube import caches
 from twintube.cli import app
+from twintube.common import caches
 from twintube.dampers import Damper, load
 from twintube.fmu import BuildError, binaries, build_fmu, description, documentation, library_cache
 from twintube.fmu.description import model_name
@@ -153,7 +153,7 @@ def test_control_characters_of_a_name_reach_neither_page_nor_files() -> None:
     texts = [
         documentation.page(damper, "native"),
         to_ssv(damper),
-        description.described(damper, "{}", "", {}, [], []).decode(),
+        description.described(damper, "{}", "", {}, sources=[], categories=[]).decode(),
     ]
     for text in texts:
         text.encode()

@@ -15,7 +15,7 @@ import pytest
 from twintube.dampers import load
 from twintube.demo.damper_fmu import DamperFmu
 from twintube.fmu import binaries, build_fmu
-from twintube.fmu.platforms import PLATFORMS
+from twintube.fmu.platforms import PLATFORMS, Fmi
 
 WORN = {"oil_level": 0.56, "gas_preload": 0}
 STEPS = 3000
@@ -37,17 +37,17 @@ def compiled_host(platform: str, folder: Path, *flags: str) -> Path:
 
 
 def forces(
-    platform: str, start: list[str], host: Path, folder: Path, environment: Mapping[str, str] | None = None
+    platform: str, start: list[str], host: Path, folder: Path, *, environment: Mapping[str, str] | None = None, fmi: Fmi = 2
 ) -> list[float]:
     """Forces of the library in a program that `start` runs."""
-    fmu = build_fmu(load("SA8"), folder / "unit", platforms=(platform,))
+    fmu = build_fmu(load("SA8"), folder / "unit", platforms=(platform,), fmi=fmi)
     with zipfile.ZipFile(fmu) as archive:
         library = archive.extract(f"binaries/{platform}/twintube_SA8.{PLATFORMS[platform][0]}", folder)
     description = fmpy.read_model_description(str(fmu))
     references = {v.name: v.valueReference for v in description.modelVariables}
     values = [str(x) for name, value in WORN.items() for x in (references[name], value)]
     run = subprocess.run(
-        [*start, str(host), library, description.guid, *values],
+        [*start, str(host), library, description.guid, str(fmi), *values],
         input="".join(f"{z!r} {v!r} 1e-3\n" for z, v in map(motion, range(STEPS))),
         capture_output=True, text=True, env=environment, check=False, timeout=180,
     )  # fmt: skip
@@ -82,14 +82,15 @@ def test_the_dll_computes_what_the_linux_library_does(expected: list[float], win
         "WINEDEBUG": "-all",
         "WINEDLLOVERRIDES": "mscoree=;mshtml=",  # no questions about what the new prefix lacks
     }
-    computed = forces("win64", [str(WINE)], compiled_host("win64", tmp_path), tmp_path, environment)
+    computed = forces("win64", [str(WINE)], compiled_host("win64", tmp_path), tmp_path, environment=environment)
     # The same operations in the same order, but another library's exp and pow.
     assert computed == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.skipif(sys.platform != "linux" or QEMU is None, reason="qemu-aarch64 is absent (Debian: qemu-user)")
 @pytest.mark.skipif(not ARM_SYSTEM.is_dir(), reason="a C library of ARM is absent (Debian: libc6-arm64-cross)")
-def test_the_arm_library_computes_what_that_of_x86_does(expected: list[float], tmp_path: Path) -> None:
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_the_arm_library_computes_what_that_of_x86_does(expected: list[float], fmi: Fmi, tmp_path: Path) -> None:
     host = compiled_host("aarch64-linux", tmp_path, "-ldl")
-    computed = forces("aarch64-linux", [str(QEMU), "-L", str(ARM_SYSTEM)], host, tmp_path)
+    computed = forces("aarch64-linux", [str(QEMU), "-L", str(ARM_SYSTEM)], host, tmp_path, fmi=fmi)
     assert computed == pytest.approx(expected, rel=1e-9)

@@ -13,7 +13,7 @@ from fmpy.build import build_platform_binary
 from fmpy.util import create_zip_archive
 from masters import Unit, wheels_of
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.demo.damper_fmu import VOLUMES, DamperFmu
 from twintube.engine.simulate import simulate

@@ -17,8 +17,8 @@ from lxml import etree
 from masters import drive, wheels_of
 from typer.testing import CliRunner
 
-from twintube.arrays import Array
 from twintube.cli import app
+from twintube.common.arrays import Array
 from twintube.fmu import BuildError
 from twintube.fmu.ssp import build_ssp
 from twintube.vehicle.full.car import WHEELS

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from tests.hardening.cases import KINDS
 from tests.hardening.hostile import Hostile
 from twintube.cli import app
-from twintube.words import CONTROL
+from twintube.common.words import CONTROL
 
 resource = pytest.importorskip("resource", reason="timers, pipes and limits of POSIX")
 

@@ -14,14 +14,15 @@ import pytest
 from tests.data.conftest import RECORD
 from tests.hardening.hostile import HEAD, changed, mat
 from twintube import studies
-from twintube.data import binary, check_dataset
-from twintube.processes import pool
+from twintube.common.processes import pool
+from twintube.data import check_dataset
+from twintube.data.read import binary
 from twintube.studies import execute
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 GROUP = """
 import os, sys, time
-from twintube.processes import pool
+from twintube.common.processes import pool
 if __name__ == "__main__":
     with pool(2) as workers:
         futures = [workers.submit(os.getpid) for _ in range(2)]
@@ -140,7 +141,7 @@ def test_a_reader_that_waits_is_ended_and_the_machine_may_be_the_reason(
 @posix
 def test_the_time_of_a_reader_is_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(binary, "SECONDS", 1.0)
-    message = slow_reader(tmp_path, monkeypatch, "from read_binary import limit\nlimit(int(sys.argv[2]))\nwhile True: pass")
+    message = slow_reader(tmp_path, monkeypatch, "from binary_child import limit\nlimit(int(sys.argv[2]))\nwhile True: pass")
     assert message == "the file is damaged: reading took more than 1 s of processor time"
 
 

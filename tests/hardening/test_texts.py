@@ -8,11 +8,11 @@ from typer.testing import CliRunner
 from tests.data.conftest import good
 from twintube import __version__
 from twintube.cli import app
+from twintube.common.reading import ReadError, read_toml
+from twintube.common.words import LONGEST, listed, printable, shown
 from twintube.dampers import ParameterError, load, to_toml
 from twintube.dampers.quantity import quantity
 from twintube.data import read_motion
-from twintube.reading import ReadError, read_toml
-from twintube.words import LONGEST, listed, printable, shown
 
 RUNNER = CliRunner()
 
@@ -40,7 +40,7 @@ def test_long_texts_are_cut() -> None:
 
 
 def test_a_dollar_in_a_name_is_not_a_formula() -> None:
-    from twintube.report import style
+    from twintube.report.common import style
 
     figure, axes = style.canvas()
     names = ["price $5", "a$b_$c^$", "$\\frac{$"]

@@ -68,7 +68,10 @@ def test_a_spring_that_touches_at_a_fixed_phase_is_not_taken_for_it(side: float)
         assert averaging(blocks(some)) is None
 
 
-@pytest.mark.parametrize("kind", ["none", "end_stop", "side_load_friction", "fluid_lag"])
+LONG = [pytest.param(kind, marks=pytest.mark.slow) for kind in ("none", "side_load_friction", "fluid_lag")]
+
+
+@pytest.mark.parametrize("kind", ["end_stop", *LONG])
 def test_physics_is_not_taken_for_it(kind: str) -> None:
     assert averaging(blocks(list(dataset(trial(kind, 102)).records))) is None
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.identify import records_of
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper, load
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
 from twintube.engine.simulate import InputError
@@ -52,7 +52,7 @@ def test_thinner_sampling_does_not_move_the_optimum(basic: Damper, records: list
     optima = []
     for samples in (64, 256):
         objective = Objective(basic, TABLE_6, records, with_work=False, samples=samples)
-        optima.append(minimise(objective, objective.bounds, method="cma", population=12, generations=60, seed=1).x)
+        optima.append(minimise(objective, objective.bounds, population=20, generations=60, seed=1).x)
     k = [x[4] + x[2] * (1 - x[4]) for x in optima]
     assert optima[0][0] == pytest.approx(optima[1][0], abs=0.02)
     assert k[0] == pytest.approx(k[1], abs=0.02)

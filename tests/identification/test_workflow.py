@@ -150,7 +150,7 @@ class BrokenOffError(Exception):
     """Ends a run in the middle."""
 
 
-@pytest.mark.parametrize("method", ["de", "pso"])
+@pytest.mark.parametrize("method", [pytest.param("de", marks=pytest.mark.slow), "pso"])
 def test_a_broken_off_run_goes_on_and_ends_the_same(bench: Path, tmp_path: Path, method: str) -> None:
     tiny = Budget((8, 3), (12, 3), (8, 3), (32, 3))
     whole = identify(bench, method=method, budget=tiny, journal=tmp_path / "whole").identification
@@ -205,7 +205,7 @@ def test_command_identifies_and_a_killed_run_ends_the_same(bench: Path, tmp_path
 def test_bad_input_gives_a_single_line(bench: Path, tmp_path: Path) -> None:
     result = CliRunner().invoke(app, ["identify", str(bench), "--output", str(tmp_path / "x"), "--method", "pos"])
     assert result.exit_code == 2
-    assert "--method pos: must be one of de, pso, cma" in result.output
+    assert "--method pos: must be one of de, pso" in result.output
     assert not (tmp_path / "x").exists()
 
 

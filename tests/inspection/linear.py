@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper, load
 from twintube.dampers.curve import continued
 from twintube.inspection.plate import Plate

@@ -12,7 +12,7 @@ from twintube.dampers import load
 from twintube.dampers.freed_gas import DEFAULT, VARIED
 from twintube.inspection import METHODS, conditions, inspected
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, markdown, method_rows, range_rows
-from twintube.report.inspected import by_way
+from twintube.report.inspection.summary import by_way
 from twintube.vehicle.cars import load_car
 
 RUNNER = CliRunner()

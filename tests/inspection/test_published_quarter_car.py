@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from tests.inspection.linear import linear_car, linear_damper
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.inspection.benches import DT as BENCH_DT
 from twintube.inspection.benches import on_plate, plate_motion
 from twintube.inspection.figures import measured_cycles

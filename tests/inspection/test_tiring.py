@@ -35,8 +35,8 @@ from twintube.inspection.tiring import (
     shaker,
     twice,
 )  # fmt: skip
-from twintube.report.inspected import Inspection, sentence
-from twintube.report.inspection_tiring import remarks
+from twintube.report.inspection.summary import Inspection, sentence
+from twintube.report.inspection.tiring import remarks
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track
 
@@ -125,7 +125,7 @@ def test_the_heat_of_the_run_alone_fails_no_intact_damper(name):
     damper = load(name)
     for sample in samples(12, 3):
         setting = sample.setting()
-        found = runs(sample.made(damper), sample.corner(damper, load_car()), setting.shaker, DT, setting.fade)
+        found = runs(sample.made(damper), sample.corner(damper, load_car()), setting.shaker, DT, fade=setting.fade)
         assert max(run.growth for run in found) < LIMIT
         assert found[-1].growth > 1.02, "heat is felt"
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Slave
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import model
 from twintube.core.effects import State
 from twintube.core.variables import Derived, Flow, blank
@@ -49,7 +49,9 @@ def interpreted(damper: Damper, stroke: Array, steps: Array) -> Array:
 
 
 @numba.njit
-def loop(advance: Any, p: Any, d: Any, s: Any, f: Any, z: Array, steps: Array, out: Array) -> None:  # pragma: no cover
+def loop(  # noqa: PLR0917 - compiled by numba
+    advance: Any, p: Any, d: Any, s: Any, f: Any, z: Array, steps: Array, out: Array
+) -> None:  # pragma: no cover
     for i in range(len(z) - 1):
         v = (z[i + 1] - z[i]) / steps[i]
         advance(p, d, s, f, z[i] + v * steps[i], v, v, steps[i])

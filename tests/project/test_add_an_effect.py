@@ -50,7 +50,7 @@ def fluid(damper):
 ratio = fluid(damper) / fluid(plain)
 stroke = 0.001 * np.arange(1, 81) - 0.04
 np.testing.assert_allclose(ratio, 1 - 0.5 * np.exp(-((stroke / 0.02) ** 2)), rtol=1e-9)
-xml = described(damper, "{0}", "2025-01-01T00:00:00Z", {}, [], []).decode()
+xml = described(damper, "{0}", "2025-01-01T00:00:00Z", {}, sources=[], categories=[]).decode()
 assert 'name="bypass_groove.groove_share"' in xml and 'name="bypass_groove.groove_length"' in xml
 try:
     checked((NATIVE / "kernel.h").read_text(encoding="utf-8"))
@@ -181,7 +181,7 @@ def test_the_translation_takes_it(copy: Path) -> None:
 
 
 def test_every_hook_and_role_of_the_page_exists() -> None:
-    from twintube.core.hook_table import HOOKS, page
+    from twintube.core.hook_table import HOOKS, with_hooks
     from twintube.core.hooks import NEEDED, ROLES
 
     section = PAGE[PAGE.index("## Add an effect") :]
@@ -190,4 +190,4 @@ def test_every_hook_and_role_of_the_page_exists() -> None:
     for role in ROLES:
         assert f"`{role}`" in section
     assert all(f"| `{hook}` |" in section for hook in HOOKS)
-    assert page(PAGE) == PAGE, "python docs/_ext/hook_table.py"
+    assert with_hooks(PAGE) == PAGE, "python docs/_ext/hook_table.py"

@@ -4,8 +4,14 @@ import re
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
+from benchmarks import __main__ as command
 from benchmarks.dead_length import rises, turning
+from benchmarks.importer_jobs import COLUMNS
+from benchmarks.importer_runs import NO_ERRORS
+from benchmarks.importers import REFERENCE, REFUSED, as_table
+from benchmarks.marked_pages import parts
 from benchmarks.small_strokes import bench_small_strokes
 from benchmarks.tiring import row
 from twintube import load
@@ -53,3 +59,40 @@ def test_the_plate_that_watches(head: str, changes: float, level: float | None) 
     found = row(damper, 6.0)
     figures = [f"{found[name]:.2f}" for name in ("first", "largest", "growth", "force growth")]
     assert [*figures, f"{100 * found['off the plate']:.0f} %"] in rows(re.escape(head), "inspection_tiring.md")
+
+
+def figures(table: str) -> dict[str, dict[str, str]]:
+    """What a table of importers was made from."""
+    lines, _, notes = table.partition("\n\n")
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines.splitlines()]
+    found = {tool: dict(zip(rows[0][1:], cells, strict=True)) for tool, *cells in rows[2:]}
+    for note in notes.splitlines():
+        where, _, words = note.removeprefix("- ").partition(": ")
+        whats, _, tool = where.partition(" in ")
+        found[tool] |= dict.fromkeys(whats.split(" and "), REFUSED + words)
+    return found
+
+
+def test_the_page_has_the_table_of_importers() -> None:
+    _, table, _ = parts(DOCS / "import.md", "importers")
+    found = figures(table)
+    assert as_table(found) == table
+    assert all(tuple(cells) == COLUMNS for cells in found.values())
+    for cell in (cell for cells in found.values() for cell in cells.values()):
+        assert cell in ("", REFERENCE, NO_ERRORS) or cell.startswith(REFUSED) or 0 <= float(cell) < 1e-9
+
+
+def test_the_command_writes_between_the_marks_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    cells = dict.fromkeys(COLUMNS, "1e-16") | {COLUMNS[-1]: f"{REFUSED}version 2.0, unknown"}
+    monkeypatch.setitem(command.BENCHMARKS, "importers", lambda: {"tool 1.0": cells})
+    page = tmp_path / "page.md"
+    page.write_text("before\n<!-- table: importers -->\nold\n<!-- end of table -->\nafter\n", encoding="utf-8")
+    run = CliRunner().invoke(command.app, ["importers", "--write", str(page)])
+    assert run.exit_code == 0, run.output
+    before, table, after = parts(page, "importers")
+    assert (before, after) == ("before\n<!-- table: importers -->\n", "<!-- end of table -->\nafter\n")
+    assert figures(table) == {"tool 1.0": cells}
+    page.write_text("no marks\n", encoding="utf-8")
+    run = CliRunner().invoke(command.app, ["importers", "--write", str(page)])
+    assert (run.exit_code, page.read_text(encoding="utf-8")) == (2, "no marks\n")
+    assert "the lines <!-- table: importers --> and <!-- end of table --> are missing" in run.output

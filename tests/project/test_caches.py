@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from twintube import caches, load, simulate
+from twintube import load, simulate
 from twintube.cli import app
+from twintube.common import caches
 from twintube.errors import UserError
 from twintube.fmu import binaries
 
@@ -150,7 +151,7 @@ def test_commands_do_without_a_home(compiled_kernel: None, no_home: Path, argume
 
 
 def test_pictures_need_no_home_and_say_nothing(temporary: Path) -> None:
-    script = "from twintube import caches; caches.lend(); import matplotlib.pyplot as p; p.figure().savefig('a.png')"
+    script = "from twintube.common import caches; caches.lend(); import matplotlib.pyplot as p; p.figure().savefig('a.png')"
     environment = {**os.environ, "HOME": "/proc/x", "TMPDIR": str(temporary)}
     done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")

@@ -4,28 +4,35 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 SCRIPT = """
 import sys
 
-for name in ("asammdf", "cma", "distributed", "emcee", "h5py", "pandas", "pyarrow", "pymoo"):
+for name in ("asammdf", "distributed", "emcee", "fmpy", "h5py", "pandas", "pyarrow", "pymoo", "pythonfmu", "ziglang"):
     sys.modules[name] = None
 from typer.testing import CliRunner
 
 import twintube.evidence
-import twintube.report.answered
+import twintube.report.diagnosis.page
 from twintube.cli import app
 
-for arguments in (["example", "my_example"], ["check", "my_example"], ["simulate", "SA8", "--amplitude-mm", "10"]):
+for arguments in (["example", "my_example"], ["check", "my_example"], ["simulate", "SA8", "--amplitude-mm", "10"], ["ride", "SA8"]):
     run = CliRunner().invoke(app, arguments)
     assert run.exit_code == 0, (arguments, run.output, run.exception)
 """
 
 
-def test_a_missing_package_is_answered_with_what_to_install(tmp_path: Path) -> None:
-    script = "import sys\nsys.modules['pyarrow'] = None\nfrom twintube.cli import app\napp(['study', 'variants'])"
+@pytest.mark.parametrize(
+    ("package", "command", "extra"), [("pyarrow", ["study", "variants"], "formats"), ("fmpy", ["demo"], "fmu")]
+)
+def test_a_missing_package_is_answered_with_what_to_install(
+    tmp_path: Path, package: str, command: list[str], extra: str
+) -> None:
+    script = f"import sys\nsys.modules['{package}'] = None\nfrom twintube.cli import app\napp({command})"
     done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 2
-    assert done.stderr == "error: the package pyarrow is not installed: pip install 'twintube[formats]'\n"
+    assert done.stderr == f"error: the package {package} is not installed: pip install 'twintube[{extra}]'\n"
 
 
 def test_first_contact_needs_no_extra(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from threading import Barrier, Thread
 
 import pytest
 
-from twintube.files import replacing, write_bytes, write_text
+from twintube.common.files import replacing, write_bytes, write_text
 
 
 def test_a_file_is_replaced_whole(tmp_path: Path) -> None:

@@ -14,8 +14,8 @@ from typer.testing import CliRunner
 
 from twintube.cli import app
 from twintube.data import check_dataset, load_dataset
-from twintube.data.manifest import RECORD, TOP
-from twintube.data.sniff import sniff
+from twintube.data.dataset_toml.manifest import RECORD, TOP
+from twintube.data.sniff.text import sniff
 from twintube.engine.simulate import InputError
 
 RUNNER = CliRunner()

@@ -106,7 +106,7 @@ def test_a_folder_keeps_the_answer_to_another_dataset(command: str, monkeypatch:
 
 def test_a_folder_says_which_command_of_a_group_made_it(monkeypatch: pytest.MonkeyPatch) -> None:
     made = SimpleNamespace(page=Path("out/index.html"), pictures=())
-    monkeypatch.setattr("twintube.report.reproduce.reproduce", lambda *arguments, **options: made)
+    monkeypatch.setattr("twintube.report.paper.reproduce.reproduce", lambda *arguments, **options: made)
     assert run("paper", "figures", "--output", "out").exit_code == 0
     assert json.loads((Path("out") / MARK).read_text())["command"] == "paper figures"
 

@@ -20,7 +20,12 @@ MUTATIONS = {
     "effects/oil_temperature.py": ("-p.fade_heat", "-1.0625 * p.fade_heat"),
     "model.py": ("0.5 *", "0.5625 *"),
 }
-KEPT = ("twintube.report.records", "twintube.report.fitted", "twintube.studies.cases", "twintube.identification.objective")
+KEPT = (
+    "twintube.report.paper.records",
+    "twintube.report.paper.fitted",
+    "twintube.studies.cases",
+    "twintube.identification.objective",
+)
 PROBE = """
 import hashlib, json, sys
 from pathlib import Path

@@ -20,7 +20,7 @@ import pytest
 
 from tests.project.test_docs_examples import PAGES, ROOT, blocks, check_options
 from tests.project.test_traceability import tags as tags_of_files
-from twintube.extras import extra_of
+from twintube.common.extras import extra_of
 
 DOCS = ROOT / "docs"
 GALLERY = sorted((DOCS / "gallery").glob("*.py"))

@@ -39,6 +39,10 @@ def test_pages_are_short() -> None:
         assert len((DOCS / f"{name}.md").read_text(encoding="utf-8").splitlines()) <= 120, name
 
 
+def test_no_page_has_more_than_200_lines() -> None:
+    assert not [page.name for page in DOCS.glob("*.md") if len(page.read_text(encoding="utf-8").splitlines()) > 200]
+
+
 def test_a_word_of_the_glossary_is_used() -> None:
     rest = " ".join(path.read_text(encoding="utf-8").lower() for path in DOCS.glob("*.md") if path.stem != "glossary")
     for cell in re.findall(r"^\| ([^|]+) \|", (DOCS / "glossary.md").read_text(encoding="utf-8"), re.MULTILINE)[1:]:

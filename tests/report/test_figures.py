@@ -6,12 +6,12 @@ import pytest
 
 from twintube.engine.simulate import simulate
 from twintube.identification import Harmonic
-from twintube.report import style
-from twintube.report.context import Context
-from twintube.report.figures import FIGURES
-from twintube.report.records import Job, excitation
-from twintube.report.reproduce import BASES, summary
-from twintube.report.statement import as_json
+from twintube.report.common import style
+from twintube.report.paper.context import Context
+from twintube.report.paper.figures import FIGURES
+from twintube.report.paper.records import Job, excitation
+from twintube.report.paper.reproduce import BASES, summary
+from twintube.report.paper.statement import as_json
 from twintube.rig.plan import at_oil_level
 
 DRAWN = (3, 7, 8, 11, 12, 14, 16, 17, 18, 19, 27, 28, 29, 31, 33)

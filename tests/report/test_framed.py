@@ -5,8 +5,8 @@ from itertools import combinations
 import numpy as np
 from matplotlib.colors import to_rgb
 
-from twintube.report.framed import WIDTH, framed, name_lines, worn, wrapped
-from twintube.report.style import canvas, png
+from twintube.report.common.framed import WIDTH, framed, name_lines, worn, wrapped
+from twintube.report.common.style import canvas, png
 
 
 def test_a_long_sentence_and_its_key_stay_within_the_picture_and_above_the_panels() -> None:

@@ -9,8 +9,8 @@ from tests.identification.test_noisy_strokes import record
 from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.identification import Result, identify_dataset
-from twintube.report.identification import write_report
-from twintube.report.identification_pictures import works
+from twintube.report.identification.page import write_report
+from twintube.report.identification.pictures import works
 
 SIZES = {0.131: 0.02, 0.2: 0.01, 0.3: 0.02}  # amplitude [m] by velocity [m/s]
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from twintube.report import style
-from twintube.report.live import MOST_POINTS, Curve, Look, live
-from twintube.report.page import Section, html
+from twintube.report.common import style
+from twintube.report.common.html_page import Section, html
+from twintube.report.identification.live import MOST_POINTS, Curve, Look, live
 
 CURVES = [Curve("measured", "measured", style.INK), Curve("base", "base model <b>", style.BLUE, (6, 4)),
           Curve("other", "other model", style.GREEN, shown=False)]  # fmt: skip

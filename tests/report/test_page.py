@@ -5,7 +5,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from twintube.report.page import Finding, Headline, Picture, Section, Table, html, readable
+from twintube.report.common.html_page import Finding, Headline, Picture, Section, Table, html, readable
 
 PNG = b"\x89PNG\r\n\x1a\n0000"
 
@@ -48,7 +48,9 @@ def text() -> str:
     finding = Finding("work < force & more", "does not hold", [("Source", "Section 1")], {"a_b": {"SA1": [1.0, 2.0]}})
     section = Section("one", "Figure 1", "does not hold", "0 of 1", ["A paragraph"], [Picture(PNG, "a picture")], [finding],
                       [Table(("x", "y"), [("1", "2")], "A table")], [("Remark", "none")])  # fmt: skip
-    return html("A title", ["A lead"], [section, Section("two", "Without verdict")], [Table(("h",), [("c",)])], "the foot")
+    return html(
+        "A title", ["A lead"], [section, Section("two", "Without verdict")], [Table(("h",), [("c",)])], foot="the foot"
+    )
 
 
 def test_it_is_self_contained(text):

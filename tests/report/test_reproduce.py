@@ -6,10 +6,10 @@ import pytest
 
 from twintube.dampers import ParameterError, load
 from twintube.engine.simulate import InputError
-from twintube.report.figures import FIGURES
-from twintube.report.figures.validation import filling
-from twintube.report.records import Job, Records
-from twintube.report.reproduce import figure_numbers, reproduce
+from twintube.report.paper.figures import FIGURES
+from twintube.report.paper.figures.validation import filling
+from twintube.report.paper.records import Job, Records
+from twintube.report.paper.reproduce import figure_numbers, reproduce
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ Written from Gillespie, "Fundamentals of Vehicle Dynamics" (ch. 5 and 6), as mat
 import numpy as np
 from scipy import signal
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.full.run import FullCar
 
 

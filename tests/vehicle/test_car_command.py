@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 from twintube.cli import app
 from twintube.dampers.freed_gas import DEFAULT
-from twintube.report.conclusion import read_inspection, section
+from twintube.report.car.conclusion import read_inspection, section
 from twintube.vehicle.cars import FOLDER
 from twintube.vehicle.maneuvers import MANEUVERS
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from twintube.arrays import Array
 from twintube.cli import app
+from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.dampers.freed_gas import condition
 from twintube.demo.car_ride import drive_car_with_fmus
@@ -68,7 +68,7 @@ def assert_equal(run: CarRun, wanted: CarRun) -> None:
 
 def test_four_fmus_drive_as_the_compiled_dampers_do(car: FullCar, fmus: list[DamperFmu]) -> None:
     road, inputs = Road("C", seed=2).heights(car, 80.0), drive(4.0, 1e-3)
-    with_fmus = drive_car_with_fmus(car, SingleFmus(fmus, car.dampers), road, SPACING, inputs, SPEED)
+    with_fmus = drive_car_with_fmus(car, SingleFmus(fmus, car.dampers), road, SPACING, inputs, speed=SPEED)
     assert_equal(with_fmus, drive_car(car, road, SPACING, inputs, SPEED))
 
 
@@ -83,7 +83,7 @@ def test_a_container_drives_as_the_compiled_dampers_do(car: FullCar, tmp_path: P
     assert all(output.dependencies == [] for output in description.outputs)
     road, inputs = Road("C", seed=2).heights(car, 80.0), drive(4.0, 1e-3)
     with ContainerFmu(file) as dampers:
-        run = drive_car_with_fmus(car, dampers, road, SPACING, inputs, SPEED)
+        run = drive_car_with_fmus(car, dampers, road, SPACING, inputs, speed=SPEED)
     assert_equal(run, drive_car(car, road, SPACING, inputs, SPEED))
     with ContainerFmu(file, **{"front_left.oil_level": 0.5, "front_left.gas_preload": 0}) as dampers:
         assert dampers.forces()[0] != run.force[0, 0]
@@ -119,5 +119,11 @@ def test_the_coupling_error_falls_with_the_communication_step(car: FullCar) -> N
 def test_the_end_of_the_road_is_named(car: FullCar, fmus: list[DamperFmu]) -> None:
     with pytest.raises(InputError, match="the road of 4 m ends"):
         drive_car_with_fmus(
-            car, SingleFmus(fmus, car.dampers), np.zeros((2, 201)), SPACING, drive(1.0, 1e-3), SPEED, preconditioned=False
+            car,
+            SingleFmus(fmus, car.dampers),
+            np.zeros((2, 201)),
+            SPACING,
+            drive(1.0, 1e-3),
+            speed=SPEED,
+            preconditioned=False,
         )

@@ -58,11 +58,11 @@ def test_growth_is_worn_over_intact_on_the_same_road_and_nan_where_it_was_not_dr
 
 def test_table_picture_and_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     few = (
-        plus("height", -0.05, 0.05, "m", "test", ["body"], "height"),
+        plus("height", -0.05, 0.05, "test", ["body"], "height", unit="m"),
         times("grip", 0.8, 1.0, "test", study.TYRES, *study.PEAK),
     )
     drives = (("braking", "smooth"), ("braking", "D"))
-    for module in ("twintube.vehicle.full.sensitivity", "twintube.report.car_sensitivity"):
+    for module in ("twintube.vehicle.full.sensitivity", "twintube.report.car.sensitivity"):
         monkeypatch.setattr(f"{module}.ASSUMED", few)
         monkeypatch.setattr(f"{module}.DRIVES", drives)
     file, out = tmp_path / "s.json", tmp_path / "page"

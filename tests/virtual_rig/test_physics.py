@@ -16,7 +16,7 @@ def sine(velocity, count=3, amplitude=0.045, samples=600):
 
 @cache
 def record(velocity, oil_level=1.0, gas_preload=True, count=3, name="SA8"):
-    return run(virtual_damper(name), *sine(velocity, count), oil_level, gas_preload)
+    return run(virtual_damper(name), *sine(velocity, count), oil_level, gas_preload=gas_preload)
 
 
 @cache
@@ -70,7 +70,7 @@ def test_intact_damper_reaches_the_forces_it_is_sized_for(name):
 
 def test_preload_makes_a_gas_spring():
     def slope(gas_preload):
-        r = run(DAMPER, *sine(0.001, 2), 1.0, gas_preload)
+        r = run(DAMPER, *sine(0.001, 2), 1.0, gas_preload=gas_preload)
         up, down = r.force[550:651], r.force[850:951][::-1]  # the same strokes in both directions
         return np.polyfit(r.stroke[550:651], (up + down) / 2, 1)[0]
 
@@ -104,7 +104,7 @@ def test_hot_oil_damps_less():
 @pytest.mark.parametrize(("oil_level", "gas_preload"), [(1.0, True), (0.4, False)])
 def test_force_does_not_depend_on_the_tolerance(oil_level, gas_preload):
     base = record(1.048, oil_level, gas_preload)
-    tight = run(DAMPER, *sine(1.048), oil_level, gas_preload, rtol=1e-9)
+    tight = run(DAMPER, *sine(1.048), oil_level, gas_preload=gas_preload, rtol=1e-9)
     assert np.abs(base.force - tight.force).max() < 0.01 * np.abs(tight.force).max()
 
 
@@ -138,7 +138,7 @@ def test_gas_loss_alone_costs_little():
 
 
 def test_without_oil_thrown_onto_the_walls_there_is_less_fade():
-    calm = run(virtual_damper(jet_width=1e-6), *sine(1.572, 19), 0.5, False)
+    calm = run(virtual_damper(jet_width=1e-6), *sine(1.572, 19), 0.5, gas_preload=False)
     assert calm.film.max() < 1e-8
     assert works(calm)[-1] > 1.5 * works(record(1.572, 0.5, False, 19))[-1]
 
@@ -146,7 +146,7 @@ def test_without_oil_thrown_onto_the_walls_there_is_less_fade():
 def test_oil_on_the_walls_runs_down():
     t, z = sine(1.572, 8)
     at_rest = np.arange(t[-1] + 0.01, t[-1] + 30, 0.01)
-    r = run(DAMPER, np.concatenate([t, at_rest]), np.concatenate([z, np.zeros(len(at_rest))]), 0.6, False)
+    r = run(DAMPER, np.concatenate([t, at_rest]), np.concatenate([z, np.zeros(len(at_rest))]), 0.6, gas_preload=False)
     assert r.film[len(t)] > 1e-5 and r.film[-1] < 0.5 * r.film[len(t)]
 
 

@@ -15,7 +15,7 @@ DT = 1e-3
 PIECES = {
     "swing": motions.swing(0.5, 0.04, 3, DT),
     "triangle": motions.triangle(0.5, 0.04, 12, DT, 0.014),
-    "sweep": motions.sweep(0.5, 0.04, 0.5, 8.0, 5.0, DT),
+    "sweep": motions.sweep(0.5, 0.04, 0.5, 8.0, seconds=5.0, dt=DT),
     "road": motions.road(np.random.default_rng(1), 0.5, 0.04, 5.0, DT),
     "rest": motions.rest(1.0, DT),
 }

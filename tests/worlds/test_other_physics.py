@@ -21,14 +21,14 @@ def test_wear_makes_the_loop_smaller_friction_larger_and_lost_gas_lifts_it() -> 
     n = round(2 * np.pi / omega * RATE)
     z = 0.03 * np.sin(omega * np.arange(4 * n) / RATE) * np.clip(np.arange(4 * n) / n, 0.0, 1.0)
     healthy = virtual_damper("SA8")
-    height, middle = loop(force(healthy, z, 1.0, True, 25.0, 0.0), n)
+    height, middle = loop(force(healthy, z, 1.0, preload=True, room=25.0, warmer=0.0), n)
     for key, change in INSIDE.items():
-        own, centre = loop(force(change(np.random.default_rng(2), healthy), z, 1.0, True, 25.0, 0.0), n)
+        own, centre = loop(force(change(np.random.default_rng(2), healthy), z, 1.0, preload=True, room=25.0, warmer=0.0), n)
         if key == "gas_leaked":
             assert centre > middle + 1.0
         else:
             assert (own > height + 1.0) == (key == "side_load"), key
-    hot, _ = loop(force(healthy, z, 1.0, True, 25.0, 30.0), n)
+    hot, _ = loop(force(healthy, z, 1.0, preload=True, room=25.0, warmer=30.0), n)
     assert hot < height
 
 

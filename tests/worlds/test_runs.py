@@ -51,7 +51,7 @@ def test_every_world_writes_a_truth_of_the_same_form(world: str, tmp_path: Path)
 )
 def test_truths_in_the_common_form(causes: list[str], kind: str, wanted: tuple[str, set[str], set[str]]) -> None:
     more = {"effect_over_noise": 0.4, "late_samples": 2.0}
-    truth = truth_of(told("challenge", 3, "SA1", causes, kind, more), "here")
+    truth = truth_of(told("challenge", 3, "SA1", causes, kind=kind, more=more), "here")
     assert (truth.kind, truth.wanted, truth.names) == wanted
     assert (truth.effect_over_noise, truth.late_samples) == (0.4, 2.0)
 
@@ -113,7 +113,7 @@ def collection(folder: Path) -> list[str]:
     """A folder with a dataset that nobody can read, and the arguments to run over it."""
     (folder / "datasets" / "broken").mkdir(parents=True)
     (folder / "datasets" / "broken" / "dataset.toml").write_text('title = "no records"\n')
-    truth = {"broken": told("w", 1, "SA1", ["unit_error"], "fault", {"effect_over_noise": 5.0})}
+    truth = {"broken": told("w", 1, "SA1", ["unit_error"], kind="fault", more={"effect_over_noise": 5.0})}
     (folder / "datasets" / "truth.json").write_text(json.dumps(truth))
     return ["run", "--datasets", str(folder / "datasets"), "--output", str(folder / "out")]
 

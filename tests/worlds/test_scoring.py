@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from worlds.__main__ import app
 from worlds.scoring import Pair, Truth, read_pairs, score, tables
 from worlds.scoring.answer import answer_of, contradictions, read_answer, smallest_set
-from worlds.scoring.figures import by_chance, calibration_error
+from worlds.scoring.figures import by_chance, calibration_error, groups
 from worlds.scoring.marks import (
     SUREST,
     accused,
@@ -285,3 +285,13 @@ def test_a_truth_that_cannot_be_read_is_refused(tmp_path: Path, entries: dict[st
     assert message in done.output
     assert "truth.json" in done.output
     assert CliRunner().invoke(app, ["score", str(tmp_path / "nowhere")]).exit_code == 2
+
+
+def test_where_only_the_fill_was_asked_nothing_is_said_of_causes() -> None:
+    content = filled(0.6, 0.5, 0.7, 0.98)
+    del content["hypotheses"], content["credible_set"]
+    pair = Pair("a", FILL, answer_of(content | {"verdict": "state"}))
+    assert pair.answer.given
+    figures = groups([pair])
+    assert set(figures) == {"unknown fill"}
+    assert figures["unknown fill"]["level inside its 90 % interval"].value == 1.0

@@ -7,7 +7,7 @@ Sources: data sheets of strain-gauge load cells (zero and span drift, overload),
 import numpy as np
 from scipy.signal import cont2discrete, lfilter, ss2tf
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench.plan import Channels, with_numba
 
 

@@ -13,8 +13,8 @@ import pyarrow.parquet
 import tomlkit
 from scipy.io import savemat
 
-from twintube.arrays import Array
-from twintube.files import replacing, write_text
+from twintube.common.arrays import Array
+from twintube.common.files import replacing, write_text
 
 Columns = Mapping[str, Array]  # by header: "time [s]", "stroke [mm]", "force [N]", and more
 # Of a logger, in those units; of the force so many that kilonewtons written as newtons still have their noise.
@@ -132,7 +132,7 @@ def write_truth(folder: Path, truth: dict[str, Any]) -> None:
     write_text(folder / "truth.json", json.dumps(rounded, indent=1) + "\n")
 
 
-def told(world: str, seed: int, damper: str, causes: Sequence[str], kind: str, more: Mapping[str, Any]) -> dict[str, Any]:
+def told(world: str, seed: int, damper: str, causes: Sequence[str], *, kind: str, more: Mapping[str, Any]) -> dict[str, Any]:
     """The entries of truth.json; `kind` is none, effect, fault or outside, of a pair that of its causes."""
     outside = "outside:" if kind == "outside" else ""  # before the name of a cause that no catalogue has
     filled = "oil_level_error" in causes  # another fill than the file states, whatever it is called

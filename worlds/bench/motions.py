@@ -9,7 +9,7 @@ slow strokes that settle the oil: Schramm et al. 2025; a road through body and w
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench.plan import RNG, Motion
 
 Piece = tuple[Array, Array, Array]
@@ -60,7 +60,7 @@ def triangle(speed: float, amplitude: float, quarters: int, dt: float, turn: flo
     return time, cumulative_trapezoid(velocity, time, initial=0.0), velocity
 
 
-def sweep(speed: float, amplitude: float, low: float, high: float, seconds: float, dt: float) -> Piece:
+def sweep(speed: float, amplitude: float, low: float, high: float, *, seconds: float, dt: float) -> Piece:
     """Frequency rising exponentially from `low` to `high` [Hz]; the amplitude falls where the speed would be exceeded."""
     time = grid(seconds, dt)
     hertz = low * (high / low) ** (time / seconds)

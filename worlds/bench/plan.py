@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 
 RNG = np.random.Generator
 
@@ -41,6 +41,11 @@ class Record:
 def span(rng: RNG, low: float, high: float) -> float:
     """Evenly over the logarithm."""
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+
+def chance(rng: RNG, share: float) -> bool:
+    """True in a `share` [1] of the draws."""
+    return bool(rng.random() < share)
 
 
 def sign(rng: RNG) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 from scipy.signal import butter, lfilter
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench.plan import RNG
 
 FINER = 16  # steps of the filter in a sample

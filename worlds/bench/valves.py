@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 
 

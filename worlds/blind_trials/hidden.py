@@ -12,6 +12,7 @@ import numpy as np
 
 from twintube.core.variables import Parameters
 from twintube.rig.signals import AMPLITUDE
+from worlds.bench.plan import chance
 from worlds.blind_trials.excitation import VELOCITIES, harmonic
 
 SMALLEST_STRENGTH = 1e-6  # [1] replaces strength 0 as a divisor
@@ -133,7 +134,7 @@ def end_stop(d: Dice, s: Secret) -> None:
 def side_load_friction(d: Dice, s: Secret) -> None:
     """Coulomb friction of a bent or side-loaded rod; the quasi-static record may be without the side load."""
     side = {"side": d.strength * d.uniform(0.03, 0.06) * d.force, "side_v": d.uniform(2e-3, 1e-2)}
-    also = float(d.rng.random() < 0.3)
+    also = float(chance(d.rng, 0.3))
     if also:
         side["side_v"] = 1e-4  # acts at 1 mm/s too
         s.always |= side
@@ -183,7 +184,7 @@ def fault(name: str, low: float, high: float, signed: bool = True) -> Callable[[
 def channel_delay(d: Dice, s: Secret) -> None:
     """A delay of one channel."""
     late = d.strength * d.uniform(4e-3, 5.3e-3)
-    s.measurement["force_late" if d.rng.random() < 0.5 else "stroke_late"] = late
+    s.measurement["force_late" if chance(d.rng, 0.5) else "stroke_late"] = late
 
 
 def unit_error(d: Dice, s: Secret) -> None:

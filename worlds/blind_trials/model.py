@@ -376,7 +376,9 @@ def begin(c: Tube, h: Hidden, y: Array, z: float) -> None:
 
 
 @compiled
-def run(c: Tube, h: Hidden, pieces: Array, times: Array, y: Array, dz: float, dt: float, out: Array) -> None:
+def run(  # noqa: PLR0915 - one step after the other, compiled by numba
+    c: Tube, h: Hidden, pieces: Array, times: Array, y: Array, dz: float, dt: float, out: Array
+) -> None:
     """Integrate over the excitation and write the columns at the `times` (n,) [s] to `out` (n, COLUMNS).
 
     A step is at most `dz` [m] of stroke and `dt` [s].

@@ -18,7 +18,7 @@ from twintube.dampers import Damper, load
 from twintube.data import LoadedDataset, load_dataset
 from twintube.rig.signals import AMPLITUDE
 from worlds.bench.files import FORCE, LAYOUTS, STROKE, TIME, write_dataset
-from worlds.bench.plan import RNG
+from worlds.bench.plan import RNG, chance
 from worlds.blind_trials.damper import march, tube
 from worlds.blind_trials.excitation import LONG_PAUSE, V_REST, VELOCITIES, Excitation, harmonic, quasi_static, recovery
 from worlds.blind_trials.hidden import EFFECTS, FAULTS, KINDS, OUTSIDE, Secret, secret
@@ -103,7 +103,7 @@ def plans(damper: Damper, blocks: Sequence[float], recover: Sequence[float] = ()
     return records
 
 
-def take(plan: Plan, damper: Damper, s: Secret, start: float, samples: float, jitter: float, rng: RNG) -> Channels:
+def take(plan: Plan, damper: Damper, s: Secret, *, start: float, samples: float, jitter: float, rng: RNG) -> Channels:
     """Simulate and sample a record; `samples` per oscillation, `jitter` as a share of the interval."""
     rate = QUASI_STATIC
     if plan.velocity > 0.0:
@@ -136,10 +136,13 @@ def trial(
     s, drawn = secret(kind, seed, loaded.parameters, strength)
     rng = np.random.default_rng([seed, crc32(kind.encode())])
     samples, jitter = rng.uniform(250, 400), rng.uniform(0.0, 0.2)
-    tolerance, with_velocity, phase = rng.uniform(-0.003, 0.003), rng.random() < 0.3, rng.uniform(0, 2 * np.pi)
+    tolerance, with_velocity, phase = rng.uniform(-0.003, 0.003), chance(rng, 0.3), rng.uniform(0, 2 * np.pi)
     room = WARM + rng.uniform(-1.5, 1.5)
     planned = plans(loaded, blocks, recover, seconds)
-    channels = [take(plan, loaded, s, room + rng.uniform(-0.5, 0.5), samples, jitter, rng) for plan in planned]
+    channels = [
+        take(plan, loaded, s, start=room + rng.uniform(-0.5, 0.5), samples=samples, jitter=jitter, rng=rng)
+        for plan in planned
+    ]
     peak = max(float(np.abs(record.force).max()) for record in channels)
     cell = max(float(np.abs(record.force).max()) for record in channels if not record.plan.preload)
     # The load cell is tared before every record, with an error.
@@ -149,12 +152,12 @@ def trial(
     for record, zero in zip(channels, zeros.tolist(), strict=True):
         noise = rng.uniform(0.005, 0.03) * float(np.abs(record.force).max())
         forces = (tolerance * peak + zero, peak, cell)
-        records.append(measured(record, s, forces, noise, bool(with_velocity), float(phase), rng))
+        records.append(measured(record, s, forces, noise=noise, speed=bool(with_velocity), phase=float(phase), rng=rng))
     return Trial(kind, seed, drawn, s.truth, name, records)
 
 
 def measured(
-    channels: Channels, s: Secret, forces: tuple[float, float, float], noise: float, speed: bool, phase: float, rng: RNG
+    channels: Channels, s: Secret, forces: tuple[float, float, float], *, noise: float, speed: bool, phase: float, rng: RNG
 ) -> TrialRecord:
     """The record with noise and the faults of the measurement; `forces`: offset, peak, peak of the degraded states [N]."""
     faults = s.measurement

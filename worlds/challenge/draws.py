@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from worlds.bench import faults
-from worlds.bench.plan import RNG, sign
+from worlds.bench.plan import RNG, chance, sign
 from worlds.challenge import mechanics
 from worlds.challenge.plan import Bench
 from worlds.model.run import Constants, Run
@@ -88,7 +88,7 @@ def rig(rng: RNG, bench: Bench) -> dict[str, Any]:
     """What the outside troubles need."""
     return {
         "hertz": rng.uniform(40, 150), "zeta": rng.uniform(0.02, 0.1), "mains": float(rng.choice([50.0, 60.0])),
-        "to_zero": bool(rng.random() < 0.5), "seed": int(rng.integers(1 << 30)), "largest": bench.largest,
+        "to_zero": chance(rng, 0.5), "seed": int(rng.integers(1 << 30)), "largest": bench.largest,
     }  # fmt: skip
 
 
@@ -137,7 +137,7 @@ def value(name: str, *, sign_: bool = True, more: float = 0.0) -> Truth:
 
 def carried(rng: RNG, bench: Bench) -> dict[str, Any]:
     """Whether the leak goes on between the records."""
-    return {"carried": bool(rng.random() < 0.5)}
+    return {"carried": chance(rng, 0.5)}
 
 
 def power(rng: RNG, bench: Bench) -> dict[str, Any]:

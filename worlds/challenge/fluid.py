@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
-from worlds.bench.plan import with_numba
+from twintube.common.arrays import Array
+from worlds.bench.plan import chance, with_numba
 from worlds.bench.valves import curve
 from worlds.model.run import Constants, Run, derived_of
 
@@ -20,9 +20,10 @@ HOTTEST = 150.0  # [degC]
 ROOM = 23.0  # [degC] at which the parameter sets hold
 KELVIN = 273.15
 OIL_HEAT = 0.87 * 1.9e6  # [J/(m3 K)]
+FEWEST, SHORTEST = 8, 1e-5  # samples and way [m] of a stroke in which a step is smoothed
 
 
-def warmed(time: Array, power: Array, oil: float, body: float, inner: float, outer: float, start: float) -> Array:
+def warmed(time: Array, power: Array, *, oil: float, body: float, inner: float, outer: float, start: float) -> Array:
     """Temperatures [degC] (n, 2) of oil and body with heat capacities [J/K] and conductances [W/K], room at ROOM."""
     out = np.empty((len(time), 2))
     oil_T, body_T = start, start
@@ -106,7 +107,9 @@ def lag_constants(rng: np.random.Generator) -> dict[str, Any]:
     return {"air": float(np.exp(rng.uniform(np.log(1e-3), np.log(3e-2)))), "bulk": rng.uniform(1.0e9, 1.7e9)}
 
 
-def compressed(t: Array, v: Array, z: Array, k: Array, table: Array, numbers: Array, out: Array) -> None:
+def compressed(  # noqa: PLR0917 - compiled by numba
+    t: Array, v: Array, z: Array, k: Array, table: Array, numbers: Array, out: Array
+) -> None:
     """Fluid force behind a compressible column: dF/dt = K (v - u), F = k f(u); implicit; `table`: v, F of both."""
     F, factors = 0.0, np.ones(2)  # of rebound and compression
     x, air, bulk, A_1, A_2, half, base = numbers
@@ -200,7 +203,7 @@ def sigmoid(run: Run, x: float, c: Constants) -> None:
     reach = 6.0 * x
     for i, j in zip([0, *bounds], [*bounds, len(z)], strict=True):
         way = np.abs(z[i:j] - z[i])
-        if j - i < 8 or way[-1] < 1e-5:
+        if j - i < FEWEST or way[-1] < SHORTEST:
             continue
         grid = np.linspace(0.0, way[-1], min(4 * (j - i), 4000))
         step = float(grid[1])
@@ -217,7 +220,7 @@ def wear_constants(rng: np.random.Generator) -> dict[str, Any]:
     """Which branch is worn how far relative to the other, and the sign: a shim stack can also be stiffened by varnish."""
     kind = rng.choice(["both", "rebound", "compression"])
     re, co = {"both": (1.0, rng.uniform(0.3, 1.0)), "rebound": (1.0, 0.0), "compression": (0.0, 1.0)}[str(kind)]
-    return {"re": re, "co": float(co), "sign": -1.0 if rng.random() < 0.8 else 1.0, "knee": rng.uniform(0.1, 0.4)}
+    return {"re": re, "co": float(co), "sign": -1.0 if chance(rng, 0.8) else 1.0, "knee": rng.uniform(0.1, 0.4)}
 
 
 def sides(run: Run, c: Constants) -> Array:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench.files import LAYOUTS, in_milliseconds, told, write_dataset, write_truth
 from worlds.bench.plan import RNG, rms, span
 from worlds.bench.sampler import coloured, converted, step_of
@@ -168,7 +168,7 @@ def save(seed: int, trial: Attempt, folder: Path, rng: RNG) -> None:
     samples = [sampled(run, bench.recorder, rng) for run in trial.runs]
     step = step_of(max(bench.largest, *(float(np.abs(s[2]).max()) for s in samples)), bench.bits)
     records = [
-        (run.record.name, entries_of(bench, run), logged(s, run, bench, sigma, step, noise_rng))
+        (run.record.name, entries_of(bench, run), logged(s, run, bench, sigma=sigma, step=step, rng=noise_rng))
         for s, run, sigma in zip(samples, trial.runs, trial.sigmas, strict=True)
     ]
     layout = LAYOUTS[bench.format]
@@ -176,7 +176,7 @@ def save(seed: int, trial: Attempt, folder: Path, rng: RNG) -> None:
     write_dataset(folder, title, bench.damper.name, in_milliseconds(layout) if bench.milliseconds else layout, records)
 
 
-def logged(samples: list[Array], run: Run, bench: Bench, sigma: float, step: float, rng: RNG) -> dict[str, Array]:
+def logged(samples: list[Array], run: Run, bench: Bench, *, sigma: float, step: float, rng: RNG) -> dict[str, Array]:
     """The columns of a record: samples with noise of `sigma` [N], a zero, and steps of the converter (force: `step` [N])."""
     time, stroke, force, velocity, *warm = samples
     n = len(time)
@@ -226,4 +226,4 @@ def truth_of(seed: int, names: list[str], trial: Attempt) -> dict[str, Any]:
         more["late_samples"] = min(delays)
     if names[0] == "odd_record":
         more["file"] = bench.records[trial.causes[0].constants["file"]].name
-    return told("challenge", seed, bench.damper.name, causes, CAUSES[names[0]].kind, more)
+    return told("challenge", seed, bench.damper.name, causes, kind=CAUSES[names[0]].kind, more=more)

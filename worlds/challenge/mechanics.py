@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench.plan import with_numba
 from worlds.model.march import Mount
 from worlds.model.run import Constants, Run, derived_of
@@ -87,7 +87,9 @@ def coulomb(run: Run, x: float, c: Constants) -> None:
     run.plus("friction", x * np.tanh(run.parts["velocity"] / c["soft"]))
 
 
-def lugre_force(z: Array, v: Array, F_c: float, F_s: float, stribeck: float, sigma: float, out: Array) -> None:
+def lugre_force(  # noqa: PLR0917 - compiled by numba
+    z: Array, v: Array, F_c: float, F_s: float, stribeck: float, sigma: float, out: Array
+) -> None:
     """LuGre's bristles without viscous part, exact over a step of constant sign of the velocity."""
     q = 0.0
     for i in range(len(z)):

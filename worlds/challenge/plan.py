@@ -6,7 +6,7 @@ import numpy as np
 
 from twintube.dampers import Damper, load
 from worlds.bench.motions import Piece, joined, rest, road, step_of, sweep, swing, triangle
-from worlds.bench.plan import RNG, Motion, Record, span
+from worlds.bench.plan import RNG, Motion, Record, chance, span
 from worlds.bench.sampler import Recorder
 
 SPEEDS = (0.052, 0.08, 0.131, 0.196, 0.262, 0.393, 0.524, 0.786, 1.048, 1.31, 1.572)  # [m/s]
@@ -17,6 +17,7 @@ SAMPLINGS = ("point", "mean", "filtered")
 FORMATS = ("csv", "parquet", "german", "tabs")
 STYLES = ("amplitude", "frequency", "triangle", "sweep", "random")
 HARMONIC = ("amplitude", "frequency")
+ONE_KIND = 0.12  # share of the campaigns with the intact state alone, and of those without it
 
 
 @dataclass(frozen=True)
@@ -83,7 +84,7 @@ def block(order: Order, v: float, dt: float) -> Piece:
         return triangle(v, order.reach, 4 * order.count, dt, order.reach / v / 6.0)
     if order.style == "sweep":
         top = max(v / (2 * np.pi * order.reach), 0.45)
-        return sweep(v, order.reach, 0.3, top, 4.0 + 1.5 * order.count, dt)
+        return sweep(v, order.reach, 0.3, top, seconds=4.0 + 1.5 * order.count, dt=dt)
     if order.style == "random":
         return road(np.random.default_rng(order.seed), v, order.reach, 6.0 + order.count, dt)
     return swing(v, v / (2 * np.pi * order.hertz) if order.style == "frequency" else order.reach, order.count, dt)
@@ -103,9 +104,9 @@ def levels_for(needs: frozenset[str], rng: RNG) -> list[float]:
     count = int(rng.integers(1, 4))
     degraded = sorted((float(x) for x in rng.choice(np.arange(35, 81), count, replace=False) / 100.0), reverse=True)
     draw = rng.random()
-    if draw < 0.12 and not needs & {"degraded", "foam", "cavitation"}:
+    if draw < ONE_KIND and not needs & {"degraded", "foam", "cavitation"}:
         return [1.0]
-    if draw > 0.88 and "intact" not in needs:
+    if draw > 1.0 - ONE_KIND and "intact" not in needs:
         return degraded
     return [1.0, *degraded]
 
@@ -119,17 +120,17 @@ def orders_for(damper: Damper, style: str, cut: bool, needs: frozenset[str], rng
         speeds = [float(rng.choice(SPEEDS[5:9]))]
     else:
         count = int(rng.integers(3, 9))
-        least = 3 if rng.random() < 0.3 else 0
+        least = 3 if chance(rng, 0.3) else 0
         speeds = sorted(float(v) for v in rng.choice(SPEEDS[least:], min(count, len(SPEEDS) - least), replace=False))
         if "fast" in needs and speeds[-1] < 1.2 * damper.parameters.v_cav:
             speeds[-1] = 1.572
     if style == "frequency":
         hertz = round(max(speeds) / (2 * np.pi * reach), 3)
-    slow = 0.05 if rng.random() < 0.5 else round(rng.uniform(0.03, 0.048), 3)
+    slow = 0.05 if chance(rng, 0.5) else round(rng.uniform(0.03, 0.048), 3)
     rest = float(rng.choice([0.0, rng.uniform(0.5, 5.0)]))
     if "rest" in needs:
         rest = rng.uniform(3.0, 20.0)
-    full = rng.random() < 0.6
+    full = chance(rng, 0.6)
     orders = []
     for v in speeds:
         own = style if style != "mixed" else "amplitude"
@@ -152,17 +153,17 @@ def bench_for(needs: frozenset[str], cut: bool | None, rng: RNG) -> Bench:
     style = str(rng.choice([*styles, "mixed"], p=[*(0.9 * weights / weights.sum()), 0.1]))
     if "single_speed" in needs:
         style = "amplitude"
-    cut = bool(rng.random() < 0.15) if cut is None else cut
+    cut = chance(rng, 0.15) if cut is None else cut
     levels = levels_for(needs, rng)
     if "single_speed" in needs:
-        levels = levels[:1] if rng.random() < 0.7 else levels[:2]
+        levels = levels[:1] if chance(rng, 0.7) else levels[:2]
     orders, reach = orders_for(damper, style, cut, needs, rng)
     pairs = [(level, order) for level in levels for order in orders][:MOST_RECORDS]
     if len(levels) > 1:  # of every state as many velocities, from the fastest on
         kept = orders[-max(2, MOST_RECORDS // len(levels)) :]
         pairs = [(level, order) for level in levels for order in kept]
-    given = bool(rng.random() < 0.5)
-    warm = rng.uniform(0.0, 15.0) if given and rng.random() < 0.5 else 0.0
+    given = chance(rng, 0.5)
+    warm = rng.uniform(0.0, 15.0) if given and chance(rng, 0.5) else 0.0
     records, began = [], 0.0
     for i, (level, order) in enumerate(pairs):
         m = motion(order, 0.01, 20.0)
@@ -176,14 +177,14 @@ def bench_for(needs: frozenset[str], cut: bool | None, rng: RNG) -> Bench:
     fastest = max(order.speed for order in orders) / reach
     enough = [fs for fs in allowed if fs > 12.0 * fastest / (2 * np.pi)] or allowed[-1:]
     recorder = Recorder(
-        float(rng.choice(enough)), str(rng.choice(SAMPLINGS)), both=bool(rng.random() < 0.7), late=bool(rng.random() < 0.5),
+        float(rng.choice(enough)), str(rng.choice(SAMPLINGS)), both=chance(rng, 0.7), late=chance(rng, 0.5),
         jitter=float(rng.choice([0.0, rng.uniform(0.0005, 0.008)])),
     )  # fmt: skip
     return Bench(
         damper, tuple(order for _, order in pairs), tuple(records), style, not cut, recorder,
-        noise=span(rng, 0.003, 0.03), by_record=bool(rng.random() < 0.3),
+        noise=span(rng, 0.003, 0.03), by_record=chance(rng, 0.3),
         colour=float(rng.choice([0.0, 0.0, 0.0, rng.uniform(0.5, 0.9)])), zero=rng.uniform(0.0, 0.003),
         bits=int(rng.choice([12, 14, 16, 16])), stroke_noise=float(rng.choice([0.0, 2e-6, 1e-5])),
-        format=str(rng.choice(FORMATS)), temperatures=given, velocity_column=bool(rng.random() < 0.15),
-        volumes=bool(rng.random() < 0.2), milliseconds=bool(rng.random() < 0.2),
+        format=str(rng.choice(FORMATS)), temperatures=given, velocity_column=chance(rng, 0.15),
+        volumes=chance(rng, 0.2), milliseconds=chance(rng, 0.2),
     )  # fmt: skip

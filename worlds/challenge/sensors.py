@@ -4,11 +4,13 @@ from twintube.dampers import Damper, load
 from worlds.model.march import march
 from worlds.model.run import Constants, Run
 
+LOWEST, HIGHEST = 0.25, 0.97  # oil levels [1] of a wrong state
+
 
 def odd_state(run: Run, x: float, c: Constants) -> None:
     """The file was taken in another state: `x` [1] more or less oil, without preload."""
     if run.record.number == c["file"]:
-        level = run.record.level - x if run.record.level - x >= 0.25 else min(run.record.level + x, 0.97)
+        level = run.record.level - x if run.record.level - x >= LOWEST else min(run.record.level + x, HIGHEST)
         forces_of(run, run.damper.with_(oil_level=level, gas_preload=0))
 
 

@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 from scipy.optimize import lsq_linear
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench import faults
 from worlds.bench.plan import rms
 from worlds.bench.sampler import Recorder

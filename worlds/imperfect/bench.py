@@ -6,12 +6,12 @@ from typing import Final
 import numpy as np
 from scipy.signal import iirpeak, lfilter
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench import faults
 from worlds.bench.motions import Piece, joined, swing
 from worlds.bench.motions import road as road_of
 from worlds.bench.motions import triangle as triangle_of
-from worlds.bench.plan import RNG, Channels, Motion, Record
+from worlds.bench.plan import RNG, Channels, Motion, Record, chance
 from worlds.bench.sampler import Recorder, channels, coloured
 from worlds.bench.valves import curve
 from worlds.imperfect.law import RATE, Law
@@ -19,6 +19,7 @@ from worlds.imperfect.law import RATE, Law
 SPEEDS: Final = (0.025, 0.05, 0.1, 0.131, 0.262, 0.393, 0.524, 0.786, 1.048, 1.572)  # [m/s], VDA style
 AMPLITUDES: Final = (0.02, 0.025, 0.03, 0.04, 0.045, 0.05)  # [m]
 FASTEST: Final = 7.0  # [Hz] that a bench drives
+BRISK: Final = 0.8  # [m/s] beyond which a record is shorter: the damper would get hot
 LONGEST: Final = 30.0  # [s] of a record
 V_SETTLING: Final = 0.05  # [m/s] of the slow oscillations that settle the oil before every record
 SETTLING: Final = 6
@@ -81,7 +82,7 @@ def draw_bench(rng: RNG) -> Bench:
         hum=float(rng.uniform(0.0, 3.0)), delay=float(rng.uniform(0.0, 0.5e-3)),
         stroke_noise=float(rng.uniform(2e-6, 15e-6)), compliance=float(1.0 / rng.uniform(5e6, 30e6)),
         heat=float(rng.uniform(*HEAT)),
-        temperature=str(rng.choice(["column", "start", "none"], p=[0.4, 0.3, 0.3])), slow_lead=bool(rng.random() < 0.5),
+        temperature=str(rng.choice(["column", "start", "none"], p=[0.4, 0.3, 0.3])), slow_lead=chance(rng, 0.5),
         style=int(rng.integers(0, 3)),
     )  # fmt: skip
 
@@ -95,7 +96,7 @@ def sine(bench: Bench, speed: float, amplitude: float, tag: str = "") -> Test:
     """A sine after slow oscillations, taken up within a second; 5 to 8 s of it where fast, five cycles where slow."""
     amplitude = max(amplitude, round(speed / (2 * np.pi * FASTEST), 3))
     before, period = settled(amplitude), 2 * np.pi * amplitude / speed
-    lasts = float(np.clip(5 * period, 5.0 if speed > 0.8 else 8.0, 22.0))
+    lasts = float(np.clip(5 * period, 5.0 if speed > BRISK else 8.0, 22.0))
     t, z, v = (part[:-RATE] for part in swing(speed, amplitude, (lasts + 1.0) / period, 1.0 / RATE, 1.0))
     steady = len(before[0]) - 1 + RATE
     slow = round(2 * np.pi * amplitude / V_SETTLING * RATE)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
-from worlds.bench.plan import RNG, sign, span
+from worlds.bench.plan import RNG, chance, sign, span
 from worlds.imperfect.law import Law
 
 Fields = dict[str, Any]  # of State or Fault
@@ -33,8 +33,8 @@ def evenly(rng: RNG, low: float, high: float) -> float:
 
 def either(rng: RNG, change: float) -> tuple[float, float]:
     """The change in rebound or in compression; in a quarter of the cases half of it on the other side, too."""
-    other = 0.5 * change if rng.random() < 0.25 else 0.0
-    return (change, other) if rng.random() < 0.5 else (other, change)
+    other = 0.5 * change if chance(rng, 0.25) else 0.0
+    return (change, other) if chance(rng, 0.5) else (other, change)
 
 
 def stop_contact(rng: RNG, law: Law, amplitude: float) -> Fields:
@@ -45,8 +45,8 @@ def stop_contact(rng: RNG, law: Law, amplitude: float) -> Fields:
 
 def leak(rng: RNG, law: Law, amplitude: float) -> Fields:
     """From full, or from what was lost before."""
-    begin = 1.0 if rng.random() < 0.5 else float(rng.uniform(0.6, 1.0))
-    return {"oil_level": begin, "oil_level_end": begin - span(rng, 0.02, 0.4), "gas_preload": int(rng.random() < 0.5)}
+    begin = 1.0 if chance(rng, 0.5) else float(rng.uniform(0.6, 1.0))
+    return {"oil_level": begin, "oil_level_end": begin - span(rng, 0.02, 0.4), "gas_preload": int(chance(rng, 0.5))}
 
 
 def aired(dead: float, remains: float) -> Fields:
@@ -73,7 +73,7 @@ CAUSES: Final = {item.key: item for item in (
         "erosion or dirt on the discs: 3 to 50 % less at low velocity; clogged notches: up to 50 % more",
         lambda rng, law, a: {"bleed": either(rng, sign(rng) * span(rng, 0.03, 0.5))}),
     Cause("blow_off_wear", "effect", "valve_wear", 1.5, "set or broken discs: 3 to 40 % above the knee, rarely more force",
-        lambda rng, law, a: {"blow_off": either(rng, (1 if rng.random() < 0.2 else -1) * span(rng, 0.03, 0.4))}),
+        lambda rng, law, a: {"blow_off": either(rng, (1 if chance(rng, 0.2) else -1) * span(rng, 0.03, 0.4))}),
     Cause("seal_friction", "outside", "outside:seal_friction", 1.5, "20 to 60 N when new; worn 40 % of it, dry 3 times",
         lambda rng, law, a: {"friction": span(rng, 0.4, 3.0)}, ("side_load_friction",)),
     Cause("side_load", "effect", "side_load_friction", 1.5,

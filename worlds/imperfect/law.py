@@ -9,7 +9,7 @@ import numpy as np
 from scipy.signal import bilinear, lfilter
 
 from twintube import Damper, simulate
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench.valves import curve, since_reversal
 
 RATE: Final = 2000  # [Hz] of everything before the recorder: 1 ms of lag is two samples, kept apart by interpolation
@@ -18,6 +18,7 @@ A_DISCS: Final = 15.0  # [m/s2] from which discs no longer follow: 0.4 m/s in 25
 T_PARAMETERS: Final = 25.0  # [degC] at which the parameter set holds
 P_GAS: Final = 6.0 / 5.0  # absolute over gauge pressure of 5 bar: the gauge pressure follows the absolute temperature
 LONGEST_LAG: Final = 1.5e-3  # [s] of valve discs and compressible oil, tenths of ms to 1 ms and a little more
+SHORTEST_LAG: Final = 1e-5  # [s] of which samples at RATE show nothing
 # Kernel runs and iterations in each, of a damper between hard clevises (the stroke then changes by micrometres) and of a
 # bush that gives way by a millimetre.
 HARD_MOUNT: Final = (1, 4)
@@ -102,7 +103,7 @@ def fluid_force(law: Law, state: State, z: Array, v: Array) -> Array:
 def lagged(law: Law, force: Array) -> Array:
     """The force behind oil columns and valve discs: a first- or second-order lag of the same delay."""
     delay = min(law.scale * law.lag, LONGEST_LAG)
-    if law.nominal or delay < 1e-5:
+    if law.nominal or delay < SHORTEST_LAG:
         return force
     damping = 0.7  # of the discs in oil
     omega = 2 * damping / delay

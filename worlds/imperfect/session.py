@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from scipy.signal import lfilter
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench.plan import RNG, Motion
 from worlds.bench.sampler import converted
 from worlds.imperfect.bench import COOLING, STROKE_STEP, THERMOCOUPLE, Bench, Fault, Test, noise, recorded, warmed
@@ -80,7 +80,7 @@ Damper = Callable[[int, Motion], Driven]  # the first argument is the number of 
 
 
 def session(
-    rng: RNG, bench: Bench, day: Day, tests: list[Test], fault: Fault, damper: Damper, *, reference: bool
+    rng: RNG, bench: Bench, day: Day, tests: list[Test], fault: Fault, *, damper: Damper, reference: bool
 ) -> list[Recording]:
     """Records one after the other on one day."""
     out: list[Recording] = []
@@ -104,7 +104,7 @@ def session(
 
 
 def specimen_on(
-    rng: RNG, law: Law, bench: Bench, day: Day, count: int, state: State, fault: Fault, levels: tuple[float, ...] = ()
+    rng: RNG, law: Law, bench: Bench, day: Day, *, count: int, state: State, fault: Fault, levels: tuple[float, ...] = ()
 ) -> Damper:
     """A specimen in a session of `count` records; `levels` are those for which `moved` is to be told."""
     oil = float(day.room + rng.uniform(0.0, 4.0))

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from twintube import load
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.imperfect.law import POSITIVE, RATE, T_PARAMETERS, TRAITS, Inside, Law, State, force, inside
 
 OFF: Final = (0.02, 0.06)  # RMS over peak, root of the mean square over the speeds below

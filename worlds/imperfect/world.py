@@ -8,7 +8,7 @@ import numpy as np
 
 from twintube.dampers import names
 from worlds.bench.files import FORCE, LAYOUTS, STROKE, TIME, write_dataset, write_truth
-from worlds.bench.plan import RNG
+from worlds.bench.plan import RNG, chance
 from worlds.imperfect.bench import AMPLITUDES, SPEEDS, Bench, Fault, Test, draw_bench, road, sine, triangle
 from worlds.imperfect.causes import CAUSES, Cause
 from worlds.imperfect.law import Law, State
@@ -38,8 +38,8 @@ def programme(rng: RNG, law: Law, bench: Bench, count: int) -> list[Test]:
     """What an operator drives who wants to see a damper: mostly sines, often a slow motion, sometimes a road."""
     most = 0.9 * law.damper.parameters.stroke_max
     amplitude = float(rng.choice([a for a in AMPLITUDES if a <= most]))
-    motions = [triangle(float(rng.choice([2e-3, 4e-3, 5e-3])), amplitude)] if rng.random() < 0.4 and count > 1 else []
-    if rng.random() < 0.25 and len(motions) + 1 < count:
+    motions = [triangle(float(rng.choice([2e-3, 4e-3, 5e-3])), amplitude)] if chance(rng, 0.4) and count > 1 else []
+    if chance(rng, 0.25) and len(motions) + 1 < count:
         motions.append(road(amplitude, rng))
     left = sorted(rng.choice(SPEEDS, count - len(motions), replace=False))
     if len(left) == 1:  # nobody looks at a damper at walking pace only
@@ -47,7 +47,7 @@ def programme(rng: RNG, law: Law, bench: Bench, count: int) -> list[Test]:
     return motions + [sine(bench, float(v), amplitude) for v in left]
 
 
-def truth(world: str, seed: int, name: str, off: float, law: Law, bench: Bench, state: State) -> dict[str, Any]:
+def truth(world: str, seed: int, name: str, off: float, *, law: Law, bench: Bench, state: State) -> dict[str, Any]:
     """What both worlds tell."""
     level = state.oil_level if state.oil_level_end is None else state.oil_level_end  # what is left at the end
     return {
@@ -70,7 +70,7 @@ def level_over_noise(recordings: list[Recording], bench: Bench) -> float:
 def begin(seed: int, world: int) -> tuple[RNG, str, Law, float, Bench, str]:
     """Generator, damper, specimen, deviation, bench and which kernel."""
     rng = np.random.default_rng([seed, world])
-    name, published = str(rng.choice(names())), bool(rng.random() < 0.3)
+    name, published = str(rng.choice(names())), chance(rng, 0.3)
     law, off = specimen(rng, name, as_published=published)
     return rng, name, law, off, draw_bench(rng), "as published" if published else "default"
 
@@ -78,14 +78,14 @@ def begin(seed: int, world: int) -> tuple[RNG, str, Law, float, Bench, str]:
 def unknown_fill(seed: int) -> World:
     """One to eight records of a damper at some oil level, with its gas or without, and nobody has looked."""
     rng, name, law, off, bench, kernel = begin(seed, 1)
-    level = 1.0 if rng.random() < 0.2 else float(rng.uniform(0.35, 1.0))
-    state = State(oil_level=level, gas_preload=int(rng.random() < 0.5))
+    level = 1.0 if chance(rng, 0.2) else float(rng.uniform(0.35, 1.0))
+    state = State(oil_level=level, gas_preload=int(chance(rng, 0.5)))
     motions = programme(rng, law, bench, int(rng.integers(1, MOST_RECORDS + 1)))
     levels = tuple(x for x in (level - LEVEL_STEP, level + LEVEL_STEP) if x <= 1.0)
     day = draw_day(rng)
-    damper = specimen_on(rng, law, bench, day, len(motions), state, Fault(), levels)
-    recordings = session(rng, bench, day, motions, Fault(), damper, reference=False)
-    told = truth("unknown_fill", seed, name, off, law, bench, state) | {"kernel": kernel}
+    damper = specimen_on(rng, law, bench, day, count=len(motions), state=state, fault=Fault(), levels=levels)
+    recordings = session(rng, bench, day, motions, Fault(), damper=damper, reference=False)
+    told = truth("unknown_fill", seed, name, off, law=law, bench=bench, state=state) | {"kernel": kernel}
     if state != State():
         told |= {"kind": "state", "causes": ["state"], "effect_over_noise": over_noise(recordings, bench)}
         told["parameters"] = {"oil_level": level, "gas_preload": state.gas_preload}
@@ -108,9 +108,9 @@ def before_after(seed: int) -> World:
     first = [triangle(slow, amplitude, "_a"), *(sine(bench, v, amplitude, "_a") for v in speeds)]
     again = sorted(float(v) for v in rng.choice(speeds, int(rng.integers(2, 4)), replace=False))
     later = [sine(bench, v, amplitude, "_b") for v in again]
-    if rng.random() < 0.3 and len(first) + len(later) < MOST_RECORDS:
+    if chance(rng, 0.3) and len(first) + len(later) < MOST_RECORDS:
         later.insert(0, triangle(slow, amplitude, "_b"))
-    elif rng.random() < 0.3 and len(first) + len(later) < MOST_RECORDS:
+    elif chance(rng, 0.3) and len(first) + len(later) < MOST_RECORDS:
         later.append(road(amplitude, rng, "_b"))
     cause: Cause | None = None
     drawn: dict[str, Any] = {}
@@ -122,11 +122,11 @@ def before_after(seed: int) -> World:
     state = State(**{key: value for key, value in drawn.items() if key not in channel})
     fault = Fault(**{key: value for key, value in drawn.items() if key in channel})
     days = draw_day(rng), draw_day(rng)
-    new = specimen_on(rng, law, bench, days[0], len(first), State(), Fault())
-    before = session(rng, bench, days[0], first, Fault(), new, reference=True)
-    used = specimen_on(rng, law, bench, days[1], len(later), state, fault)
-    after = session(rng, bench, days[1], later, fault, used, reference=False)
-    told = truth("before_after", seed, name, off, law, bench, state) | {"kernel": kernel}
+    new = specimen_on(rng, law, bench, days[0], count=len(first), state=State(), fault=Fault())
+    before = session(rng, bench, days[0], first, Fault(), damper=new, reference=True)
+    used = specimen_on(rng, law, bench, days[1], count=len(later), state=state, fault=fault)
+    after = session(rng, bench, days[1], later, fault, damper=used, reference=False)
+    told = truth("before_after", seed, name, off, law=law, bench=bench, state=state) | {"kernel": kernel}
     if cause is not None:
         told |= {"kind": cause.kind, "causes": [cause.name], "also_fits": list(cause.also), "source": cause.source}
         told |= {"parameters": drawn, "effect_over_noise": over_noise(after, bench)}

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.publishing import NAMES as COLUMNS
 from twintube.dampers import Damper
 from twintube.engine import compiled
@@ -18,6 +18,8 @@ from twintube.engine.simulate import at_rest, rows
 
 # Between two acts upon the volumes, whichever takes longer: a time [s], or a stroke [m] that a long time at rest cuts short.
 CHUNK, WAY, LONG = 0.004, 0.002, 0.05
+WIDEST = 100.0  # [m/s] around the expected velocity within which the piston is sought
+EXACT, FINEST = 1e-6, 1e-10  # [N] and [m/s] to which it is
 THETA = 0.55  # of the implicit step with a mount: above 0.5 the stiff mode is damped
 PARTS = {"k_degr": "k_degr", "fluid": "F_fluid", "friction": "F_friction", "gas": "F_gas"}
 
@@ -62,7 +64,7 @@ def collapsed(m: Moment, gone: Callable[[float, float], tuple[float, float]]) ->
 
 
 def march(
-    damper: Damper, time: Array, stroke: Array, velocity: Array, acts: Sequence[Act] = (), mount: Mount | None = None
+    damper: Damper, time: Array, stroke: Array, velocity: Array, acts: Sequence[Act] = (), *, mount: Mount | None = None
 ) -> dict[str, Array]:
     """Drive the damper over times [s], strokes [m] and velocities [m/s], (n,) each: its PARTS, stroke and velocity.
 
@@ -78,7 +80,7 @@ def march(
         found: dict[str, Array] = dict(zip((*PARTS, "stroke", "velocity"), values, strict=True))
     else:
         out = np.empty((n, len(COLUMNS)))
-        done = in_chunks(damper, time, stroke, velocity, acts, out)
+        done = in_chunks(damper, time, stroke, velocity, acts, out=out)
         found = {name: out[:, COLUMNS.index(column)].copy() for name, column in PARTS.items()}
         found |= {"stroke": stroke, "velocity": velocity}
     if done < n:
@@ -86,7 +88,7 @@ def march(
     return found
 
 
-def in_chunks(damper: Damper, t: Array, z: Array, v: Array, acts: Sequence[Act], out: Array) -> int:
+def in_chunks(damper: Damper, t: Array, z: Array, v: Array, acts: Sequence[Act], *, out: Array) -> int:
     """The kernel over a few samples, then the acts upon its volumes, and so on; returns the samples done."""
     p, d, s, f = (compiled.as_row(record)[0] for record in at_rest(damper, float(z[0])))
     run, n = compiled.module().run_record, len(t)
@@ -109,17 +111,21 @@ def in_chunks(damper: Damper, t: Array, z: Array, v: Array, acts: Sequence[Act],
     return n
 
 
-@cache
-def mounted() -> Any:
-    """The compiled loop with a mount; without a cache on disk, as numba's would not see a change of the kernel."""
+def njit(function: Any) -> Any:
+    """Compiled by numba; without a cache on disk, which would not see a change of the kernel."""
     import numba
 
+    return numba.njit(error_model="numpy", nogil=True)(function)
+
+
+@cache
+def balance() -> Any:
+    """The compiled balance of mount and damper."""
     kernel = compiled.module()
-    step, dahl, stribeck, fluid_force = kernel.step, kernel.dahl, kernel.stribeck, kernel.fluid_force
-    njit = numba.njit(error_model="numpy", nogil=True)
+    dahl, stribeck, fluid_force = kernel.dahl, kernel.stribeck, kernel.fluid_force
 
     @njit
-    def mount_force(m: Any, e: Any, rate: Any, e_turn: Any, F_turn: Any, direction: Any) -> Any:
+    def mount_force(m: Any, e: Any, rate: Any, e_turn: Any, F_turn: Any, direction: Any) -> Any:  # noqa: PLR0917 - compiled
         elastic = m[0] * e + m[1] * e * e * e + m[2] * rate
         if m[3] <= 0.0:
             return elastic, 0.0
@@ -130,7 +136,9 @@ def mounted() -> Any:
         return elastic + rub, rub
 
     @njit
-    def surplus(p: Any, d: Any, s: Any, m: Any, trial: Any, before: Any, dt: Any, z: Any, speed: Any, k: Any, h: Any) -> Any:
+    def surplus(  # noqa: PLR0913, PLR0917 - compiled
+        p: Any, d: Any, s: Any, m: Any, trial: Any, before: Any, dt: Any, z: Any, speed: Any, k: Any, h: Any
+    ) -> Any:
         """Force of the mount less that of the damper [N] at the piston's velocity `trial`, deflection, its way, friction.
 
         `k` are the factors out and in, `h` the mount's last deflection, its last turn and the force there, friction, way.
@@ -144,8 +152,18 @@ def mounted() -> Any:
         held, rubbing = mount_force(m, now, speed - trial, turn, F_from, way)
         return held - F, now, way, rubbing
 
+    return surplus
+
+
+@cache
+def mounted() -> Any:
+    """The compiled loop with a mount."""
+    step, surplus = compiled.module().step, balance()
+
     @njit
-    def run(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, m: Any, out: Any) -> Any:
+    def run(  # noqa: PLR0913, PLR0917 - compiled
+        p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, m: Any, out: Any
+    ) -> Any:
         before = v[0]
         k, h = np.ones(2), np.array([0.0, 0.0, 0.0, 0.0, 1.0])
         for i in range(len(t)):
@@ -157,7 +175,7 @@ def mounted() -> Any:
                 low, high = guess - width, guess + width
                 G_low = surplus(p, d, s, m, low, before, dt, z[i], speed, k, h)[0]
                 G_high = surplus(p, d, s, m, high, before, dt, z[i], speed, k, h)[0]
-                while (G_low < 0.0 or G_high > 0.0) and width < 100.0:
+                while (G_low < 0.0 or G_high > 0.0) and width < WIDEST:
                     width *= 4.0
                     low, high = (guess - width, high) if G_low < 0.0 else (low, guess + width)
                     G_low = surplus(p, d, s, m, low, before, dt, z[i], speed, k, h)[0]
@@ -166,7 +184,7 @@ def mounted() -> Any:
                 for _ in range(60):
                     trial = 0.5 * (low + high) if G_low == G_high else (low * G_high - high * G_low) / (G_high - G_low)
                     G, now, way, rubbing = surplus(p, d, s, m, trial, before, dt, z[i], speed, k, h)
-                    if abs(G) < 1e-6 or high - low < 1e-10:
+                    if abs(G) < EXACT or high - low < FINEST:
                         break
                     if G > 0.0:
                         low, G_low = trial, G

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.engine.simulate import at_rest
 from worlds.bench.plan import Channels, Motion, Record
@@ -75,7 +75,7 @@ def finished(run: Run, steps: Sequence[Step] = ()) -> Run:
     if not run.parts:
         z, m = run.motion.stroke if run.path is None else run.path, run.motion
         v = m.velocity if run.path is None else np.gradient(z, m.time)
-        run.parts = march(run.damper, m.time, z, v, run.acts, run.mount)
+        run.parts = march(run.damper, m.time, z, v, run.acts, mount=run.mount)
         run.stroke = m.stroke
     for step in steps:
         if step.stage == "forces":

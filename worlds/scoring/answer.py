@@ -46,6 +46,11 @@ class Answer:
         return self.verdict not in ("refused", "failed", "timeout")
 
     @property
+    def only_fill(self) -> bool:
+        """Whether nothing but the fill was asked: of causes nothing is said then."""
+        return self.verdict == "state" and not self.probabilities
+
+    @property
     def alone(self) -> bool:
         """Whether the verdict stands by one answer."""
         return self.given and self.verdict != "ambiguous"
@@ -80,7 +85,7 @@ def fill_of(entry: Mapping[str, Any]) -> Fill:
 def answer_of(content: Mapping[str, Any]) -> Answer:
     """The answer in the entries of diagnosis.json; raises KeyError, TypeError or ValueError where it is none."""
     verdict = str(content["verdict"])
-    probabilities = {str(item["name"]): float(item["probability"]) for item in content["hypotheses"]}
+    probabilities = {str(item["name"]): float(item["probability"]) for item in content.get("hypotheses", [])}
     if not all(0.0 <= p <= 1.0 for p in probabilities.values()):  # NaN is not, either
         raise ValueError("a probability is not between 0 and 1")
     credible = tuple(content.get("credible_set") or smallest_set(probabilities))

@@ -141,20 +141,21 @@ def of_probabilities(rows: Rows) -> Figures:
 
 def groups(rows: Rows) -> dict[str, Figures]:
     """The figures of some datasets, under what they are of."""
-    hidden = [p for p in rows if p.truth.kind != "none" and p.truth.effect_over_noise is not None]
+    told = [p for p in rows if not marks.fill_alone(p)]  # of causes
+    hidden = [p for p in told if p.truth.kind != "none" and p.truth.effect_over_noise is not None]
     sizes = [(p, p.truth.effect_over_noise or 0.0) for p in hidden]
     beyond = [p for p in hidden if p.truth.effect_beyond_bench is not None and p.truth.kind != "outside"]
     beyond = [p for p in beyond if min(p.truth.effect_beyond_bench or 0.0, p.truth.effect_over_noise or 0.0) >= SMALL]
     late = [p for p in beyond if p.truth.late_samples is None or p.truth.late_samples >= 1.0]
     found = {
         "unknown fill": of_fill(rows),
-        "nothing hidden": of_nothing(rows),
+        "nothing hidden": of_nothing(told),
         f"effect of {CLEAR:g} of the noise or more": of_causes([p for p, size in sizes if size >= CLEAR]),
         f"effect of {SMALL:g} of the noise or more": of_causes([p for p, size in sizes if size >= SMALL]),
         f"effect below {SMALL:g} of the noise": of_causes([p for p, size in sizes if size < SMALL]),
         "beyond a careful bench": of_causes(beyond),
         "the same, no delay below a sample": of_causes(late) if len(late) < len(beyond) else {},
-        "all": of_probabilities(rows),
+        "all": of_probabilities(told),
     }
     return {name: figures for name, figures in found.items() if figures}
 

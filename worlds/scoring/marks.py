@@ -18,6 +18,7 @@ NOTHING: Final = frozenset({"none", UNKNOWN})  # names that accuse nothing
 SUREST: Final = 1e-3
 NARROW: Final = 0.1  # [1] widest interval of an oil level that is of use, where the force tells it
 FULL: Final = Fill(1.0, 1.0, 1.0, 0.0)
+EVEN: Final = 0.5  # probability of the one and the other
 
 
 def holds(names: Iterable[str], pair: Pair) -> bool:
@@ -41,6 +42,11 @@ def wrong_alone(pair: Pair) -> bool:
 def missed(pair: Pair) -> bool:
     """The verdict is that nothing has changed."""
     return pair.answer.verdict == "none"
+
+
+def fill_alone(pair: Pair) -> bool:
+    """Whether the fill was asked, and nothing else was asked or hidden: its figures say how that was answered."""
+    return pair.answer.only_fill or (pair.truth.kind == "state" and pair.truth.stated_as_full is False)
 
 
 def accused(pair: Pair) -> bool:
@@ -86,7 +92,7 @@ def fill(pair: Pair) -> Fill | None:
 def preload_right(pair: Pair) -> bool:
     """Whether the gas is where the answer says."""
     told = fill(pair)
-    return told is not None and (told.gas_lost < 0.5) == pair.truth.gas_preload
+    return told is not None and (told.gas_lost < EVEN) == pair.truth.gas_preload
 
 
 def level_inside(pair: Pair) -> bool:

@@ -5,12 +5,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from worlds.bench.valves import curve
 from worlds.model.run import Run
 
 Acts = Callable[[Run], None]
 LAMINAR, BEND = 0.35, 0.3  # laminar share of the pressure drop at small speeds, and [m/s] where it has halved
+FEWEST, SHORTEST = 4, 1e-4  # samples and way [m] of a stroke in which a rise is spread
 
 
 def viscosity(kelvin: Array | float) -> Array:
@@ -103,7 +104,7 @@ def tilted_surface(run: Run, height: float) -> None:
     for part in np.split(np.arange(len(side)), np.flatnonzero(np.diff(side) != 0) + 1):
         s, own = np.abs(z[part] - z[part[0]]), k[part]
         rising = np.maximum.accumulate(own)
-        if len(part) < 4 or side[part[0]] == 0 or rising[-1] <= rising[0] or np.ptp(s) < 1e-4:
+        if len(part) < FEWEST or side[part[0]] == 0 or rising[-1] <= rising[0] or np.ptp(s) < SHORTEST:
             continue
         total = np.append(0.0, np.cumsum(0.5 * (rising[1:] + rising[:-1]) * np.diff(s)))
         low, high = s - 0.5 * height, s + 0.5 * height

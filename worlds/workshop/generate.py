@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from twintube import simulate
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from worlds.bench.files import FORCE, LAYOUTS, STROKE, TIME, told, write_dataset, write_truth
 from worlds.bench.plan import Record, rms
@@ -52,7 +52,7 @@ def effect(day: Day, with_it: list[Samples], without: list[Samples]) -> float:
     return rms(parts)
 
 
-def save(seed: int, day: Day, samples: Sequence[Samples], noise_N: float, zero: float, folder: Path) -> str:
+def save(seed: int, day: Day, samples: Sequence[Samples], *, noise_N: float, zero: float, folder: Path) -> str:
     """Nuisance, noise and files; returns the layout."""
     draw = np.random.default_rng((seed, 5))
     layout = str(draw.choice(DRAWN))
@@ -75,7 +75,7 @@ def write(seed: int, folder: Path) -> dict[str, Any]:
     noise_N, draw = day.noise_share * largest, np.random.default_rng((seed, 3))
     drawn = {key: SIZES[key].draw(draw, day) for key in case.keys}
     with_it = measured(day, [step for key, values in drawn.items() for step in SIZES[key].steps(values)])
-    layout = save(seed, day, with_it, noise_N, day.zero * largest, folder / "dataset")
+    layout = save(seed, day, with_it, noise_N=noise_N, zero=day.zero * largest, folder=folder / "dataset")
     values = {f"{SIZES[key].name}.{name}": value for key, some in drawn.items() for name, value in some.items()}
     if len(drawn) > 1:
         for key, some in drawn.items():
@@ -86,6 +86,6 @@ def write(seed: int, folder: Path) -> dict[str, Any]:
         "effect_over_noise": effect(day, with_it, without) / noise_N if drawn else 0.0, "largest_N": largest,
         "recorder": vars(day.recorder), "noise_memory": day.noise_memory, "excitation": day.style, "format": layout,
     }  # fmt: skip
-    truth = told("workshop", seed, day.damper.name, case.causes, case.kind, more)
+    truth = told("workshop", seed, day.damper.name, case.causes, kind=case.kind, more=more)
     write_truth(folder, truth)
     return truth

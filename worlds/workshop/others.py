@@ -4,12 +4,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.kernel.forces import stribeck
 from worlds.model.march import Moment, collapsed
 from worlds.model.run import Run
 
 AIR = 1.013e5  # [Pa]
+FULL = 0.995  # oil level [1] that is written as 100 %
 
 
 def wrong_preload(run: Run, ratio: float) -> None:
@@ -68,7 +69,7 @@ def bent_rod(run: Run, extra: float, overhang: float) -> None:
 def refilled(run: Run, shift: float, level: float | None = None) -> None:
     """Other oil in the damper than recorded: `shift` [share of the intact volume] in all degraded states, or at a level."""
     own = run.record.level
-    if not run.record.preload and own < 0.995 and level in (None, own):
+    if not run.record.preload and own < FULL and level in (None, own):
         run.damper = run.damper.with_(oil_level=min(1.0, max(0.0, own + shift)))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from twintube import load
 from twintube.dampers import Damper
 from worlds.bench.motions import V_SLOW, Piece, joined, rest, road, sweep, swing, triangle
-from worlds.bench.plan import RNG, Motion, Record, span
+from worlds.bench.plan import RNG, Motion, Record, chance, span
 from worlds.bench.sampler import Recorder
 
 FINE = 4000.0  # least rate of the fine grid [Hz]
@@ -17,6 +17,10 @@ RATES = (200.0, 250.0, 400.0, 500.0, 500.0, 1000.0, 1000.0, 1000.0, 2000.0)
 MOST = 16  # records
 SETTLED = 4.5  # [s] that slow strokes may take; they are faster where they would take longer
 PEAK = 3.0  # of the speed on a road, over its RMS
+LOW = 0.52  # oil level [1]: one state is below it where a low one is wished
+SLOW = 3.0  # [s] of a cycle that need not be repeated
+CALM = 0.1  # [m/s] up to which no strokes go before, and a record lasts longer
+FILTERING = 500.0  # [Hz] from which a recorder has a filter
 
 
 @dataclass(frozen=True)
@@ -70,15 +74,15 @@ def states_of(damper: Damper, draw: RNG, least: int, low: bool) -> list[tuple[fl
     """Intact, then one to three degraded states (a few campaigns have none), the preload lost in all of them."""
     count = max(least, int(draw.choice([0, 1, 2, 2, 3])))
     states = [(1.0, True)]
-    if draw.random() < 0.5:
+    if chance(draw, 0.5):
         levels = [float(x) for x in draw.choice([0.8, 0.65, 0.5], size=min(count, 3), replace=False)]
     else:
         levels = [round(x, 2) for x in damper.measured_levels][:count]
         levels += [0.75][: count - len(levels)]
-    if low and min(levels) > 0.52:
+    if low and min(levels) > LOW:
         levels[levels.index(min(levels))] = 0.5
     states += [(level, False) for level in sorted(levels, reverse=True)]
-    if count and draw.random() < 0.2 and len(states) < 4:
+    if count and chance(draw, 0.2) and len(states) < 4:
         states.insert(1, (1.0, False))
     return states
 
@@ -95,11 +99,11 @@ def speeds_of(draw: RNG, count: int, fastest: float) -> list[float]:
 def cycles_of(speed: float, amplitude: float, block: float) -> int:
     """Cycles of about `block` [s], two at least where they are not slow."""
     period = 2 * np.pi * amplitude / speed
-    return max(2 if period < 3.0 else 1, round(block / period))
+    return max(2 if period < SLOW else 1, round(block / period))
 
 
 def excitations(
-    style: str, amplitude: float, fastest: float, draw: RNG, states: int, dt: float, strokes: int
+    style: str, amplitude: float, fastest: float, *, draw: RNG, states: int, dt: float, strokes: int
 ) -> list[tuple[str, str, Motion]]:
     """Name, kind and motion of the excitations that each state is given."""
     count = int(draw.integers(3, 6)) if states < 3 else int(draw.integers(2, 5))
@@ -119,7 +123,7 @@ def excitations(
     plan: list[tuple[str, str, Motion]] = []
     if style in ("velocities", "mixed", "triangles", "recovery"):
         for v in speeds_of(draw, count if style != "mixed" else max(2, count - 1), fastest):
-            before, seconds = strokes if v > 0.1 else 0, max(block, 6.0 if v < 0.1 else 0.0)
+            before, seconds = strokes if v > CALM else 0, max(block, 6.0 if v < CALM else 0.0)
             quarters = 4 * cycles_of(v, 2 * amplitude / np.pi, seconds)
             sharp = style == "triangles"
             motion = settled(triangle(v, amplitude, quarters, dt, 0.014), before) if sharp else sine(v, seconds, before)
@@ -137,7 +141,9 @@ def excitations(
             plan.append((f"{hertz:.1f}Hz".replace(".", "p"), "harmonic", motion))
     if style == "sweep":
         for i, share in enumerate(np.linspace(1.0, 0.35, max(2, count))):
-            plan.append((f"sw{i + 1}", "stochastic", settled(sweep(fastest * share, amplitude, 0.6, 12.0, 5.5, dt))))
+            plan.append(
+                (f"sw{i + 1}", "stochastic", settled(sweep(fastest * share, amplitude, 0.6, 12.0, seconds=5.5, dt=dt)))
+            )
     if style == "road":
         for i in range(max(2, count)):
             plan.append((f"rd{i + 1}", "stochastic", uneven(fastest * (0.2 + 0.06 * i), 6.0)))
@@ -151,14 +157,16 @@ def plan_day(seed: int, wish: Wish) -> Day:
     style = str(draw.choice(wish.styles))
     fs = float(draw.choice([x for x in wish.rates if x >= (500 if style in ("triangles", "road") else 200)]))
     largest = damper.parameters.stroke_max
-    wide = wish.wide or draw.random() < 0.3
+    wide = wish.wide or chance(draw, 0.3)
     amplitude = round(float(largest * draw.uniform(0.82, 0.92) if wide else draw.uniform(0.02, 0.6 * largest)), 3)
     tube = 0.5 * (damper.parameters.h_l - damper.parameters.dead_length)
     amplitude = min(amplitude, 0.9 * tube, 0.06)
     fastest = max(wish.speed, float(draw.choice([0.524, 0.786, 1.05, 1.05, 1.31])))
     states = states_of(damper, draw, wish.states, wish.low)
     strokes = int(draw.choice([0, 2, 2, 2, 3]))
-    plan = excitations(style, amplitude, fastest, draw, len(states), 1.0 / (fs * np.ceil(FINE / fs)), strokes)
+    plan = excitations(
+        style, amplitude, fastest, draw=draw, states=len(states), dt=1.0 / (fs * np.ceil(FINE / fs)), strokes=strokes
+    )
     records: list[tuple[Record, Motion]] = []
     begin, pause = 0.0, float(draw.uniform(3.0, 20.0))
     for level, preload in states:
@@ -166,7 +174,7 @@ def plan_day(seed: int, wish: Wish) -> Day:
             name = f"{len(records) + 1:02d}_{100 * level:.0f}{'' if preload else 'n'}_{label}"
             records.append((Record(name, len(records), kind, level, preload, 20.0, begin), motion))
             begin += float(motion.time[-1]) + pause
-    kind = str(draw.choice(["point", "point", "mean", "filtered"] if fs >= 500 else ["point", "point", "mean"]))
+    kind = str(draw.choice(["point", "point", "mean", "filtered"] if fs >= FILTERING else ["point", "point", "mean"]))
     recorder = Recorder(fs, kind, float(draw.uniform(0.3, 0.42)), both=kind == "filtered", late=True)
     return Day(
         damper, style, records, recorder, span(draw, 0.002, 0.015), float(draw.choice([0.0, 0.0, 0.0, 0.6, 0.85])),

@@ -9,11 +9,13 @@ import numpy as np
 
 from twintube.dampers import load, names
 from worlds.bench import faults
-from worlds.bench.plan import RNG, sign, span
+from worlds.bench.plan import RNG, chance, sign, span
 from worlds.model.march import Mount
 from worlds.model.run import Run, Step
 from worlds.workshop import fluid, others
 from worlds.workshop.plan import Day
+
+MIDDLE = 0.5  # of the range of a share: towards it there is room
 
 Values = dict[str, Any]
 
@@ -71,7 +73,7 @@ def uniform(draw: RNG, low: float, high: float) -> float:
 
 def hot_or_cold(draw: RNG, day: Day) -> Values:
     """Mostly warmer than at identification."""
-    return {"kelvin": uniform(draw, 15.0, 60.0) if draw.random() < 0.8 else -uniform(draw, 12.0, 22.0)}
+    return {"kelvin": uniform(draw, 15.0, 60.0) if chance(draw, 0.8) else -uniform(draw, 12.0, 22.0)}
 
 
 def linear_mount(draw: RNG, day: Day) -> Values:
@@ -96,14 +98,14 @@ def scaled_by(draw: RNG, day: Day) -> Values:
 def bled_by(draw: RNG, day: Day) -> Values:
     """Rebound, and often compression."""
     re = span(draw, 0.02, 0.12)
-    return {"rebound": re, "compression": 0.0 if draw.random() < 0.4 else re * uniform(draw, 0.5, 1.5)}
+    return {"rebound": re, "compression": 0.0 if chance(draw, 0.4) else re * uniform(draw, 0.5, 1.5)}
 
 
 def other_laws(draw: RNG, day: Day) -> Values:
     """The flows of the degradation laws moved by 0.1 to 0.3."""
     old = {name: float(getattr(day.damper.parameters, name)) for name in ("X_Re", "X_Co1", "X_Co2", "G_PV")}
     sizes = {name: uniform(draw, 0.1, 0.3) for name in old}
-    return {name: round(v + sizes[name] if v < 0.5 else v - sizes[name], 3) for name, v in old.items()}
+    return {name: round(v + sizes[name] if v < MIDDLE else v - sizes[name], 3) for name, v in old.items()}
 
 
 def drifting(draw: RNG, day: Day) -> Values:
@@ -115,7 +117,7 @@ def drifting(draw: RNG, day: Day) -> Values:
 def odd_one(draw: RNG, day: Day) -> Values:
     """Not the first record."""
     only = 1 + int(draw.integers(1, len(day.records)))
-    if draw.random() < 0.5:
+    if chance(draw, 0.5):
         return {"record": only, "gain": 0.5}
     own = day.damper.name
     return {"record": only, "damper": str(draw.choice([x for x in names() if x != own and (int(x[2]) + int(own[2])) % 2]))}
@@ -127,8 +129,10 @@ def wear(draw: RNG, day: Day) -> Values:
     return {"rebound": b, "compression": b}
 
 
-def case(name: str, key: str, formulation: str, practice: str, draw: Callable[[RNG, Day], Values], stage: str,
-         act: Callable[..., Any], *more: tuple[str, Callable[..., Any]], remembers: bool = False) -> Sized:  # fmt: skip
+def case(  # noqa: PLR0917 - a row of the table
+    name: str, key: str, formulation: str, practice: str, draw: Callable[[RNG, Day], Values], stage: str,
+    act: Callable[..., Any], *more: tuple[str, Callable[..., Any]], remembers: bool = False,
+) -> Sized:  # fmt: skip
     """A cause that acts at one stage, or at more."""
     return Sized(key, name, formulation, practice, draw, ((stage, act), *more), remembers)
 

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, with_freed_gas
 from twintube.engine.simulate import simulate, work_between
@@ -134,6 +134,7 @@ def run(
     oil_level: float,
     velocity: float,
     bench: Bench = BENCH,
+    *,
     preload: int | None = None,
     samples: int = 400,
 ) -> tuple[Signal, Simulation]:

@@ -13,6 +13,7 @@ from twintube.rig.signals import STARTS
 POSITIONS = (-0.015, 0.015)  # [m]
 AMPLITUDES = (0.040,)  # [m] instead of 45 mm; 50 mm would be the whole assumed stroke
 LOSSES = (0.0, 0.05, 0.1, 0.28, 0.4)  # of cavitation_loss; 0.28: the highest state to which Y was fitted
+SHOWN = 0.005  # relative change [1] of a number that is shown
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ def effects(base: list[Claim], choice: Alternative) -> list[Change]:
         a, b = (dict(numbers(c.figures, "")) for c in (claim, varied))
         moves = [(abs(a[k] - b[k]) / max(abs(a[k]), abs(b[k]), 1.0), k) for k in a if k in b]
         size, key = max(moves, default=(0.0, ""))
-        text = f"{key.strip('.')} {a[key]:g} -> {b[key]:g}" if size > 0.005 else ""
+        text = f"{key.strip('.')} {a[key]:g} -> {b[key]:g}" if size > SHOWN else ""
         changes.append(Change(claim.id, varied.holds, varied.holds != claim.holds, text))
     return changes
 

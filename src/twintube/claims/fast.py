@@ -34,6 +34,8 @@ SIGNIFICANTLY_LOWER = 0.5 * FASTEST  # "significantly lower maximum velocities":
 GROUPS = {"degradation": "Table 6", "foam": "Table 7", "cavitation": "Table 8"}
 FINE = 6000  # samples per oscillation: resolves 0.05 mm; the rise moves by tenths of a millimetre
 PROBED = (0.04, 0.05, 0.131, 0.524, 0.655, 1.048, 1.572)  # [m/s]
+UNCAVITATED = 0.7  # [m/s] below the "approximately 0.8 m/s" of the paper
+MIDDLE = 0.5  # of the range of a share: towards it there is room for a change
 
 
 def travel_to_rise(damper: Damper, oil_level: float, bench: Bench = BENCH) -> dict[str, tuple[float, float]]:
@@ -170,7 +172,7 @@ def influence(damper: Damper, group: str, velocity: float, bench: Bench) -> floa
     for item in fields(Parameters):
         if item.metadata["group"] == group and item.name not in ("v_foam", "v_cav", "E"):
             value = getattr(damper.parameters, item.name)
-            varied = damper.with_(**{item.name: value + 0.1 if value <= 0.5 else value - 0.1})
+            varied = damper.with_(**{item.name: value + 0.1 if value <= MIDDLE else value - 0.1})
             largest = max(largest, float(np.abs(works(varied, level, velocity, bench) / base - 1).max()))
     return largest
 
@@ -187,7 +189,7 @@ def c10(dampers: Dampers, bench: Bench = BENCH) -> Claim:
     violations += ["Table 7 acts up to 0.05 m/s"] * (max(t7[0.04], t7[0.05]) > 0.0)
     violations += ["Table 7 does not act above 0.05 m/s"] * (t7[0.131] == 0.0)
     violations += ["the effect of Table 7 does not rise with the velocity"] * (not t7[0.131] < t7[0.524] < t7[1.572])
-    violations += ["Table 8 acts below 0.7 m/s"] * (max(t8[v] for v in PROBED if v < 0.7) > 0.0)
+    violations += ["Table 8 acts below 0.7 m/s"] * (max(t8[v] for v in PROBED if v < UNCAVITATED) > 0.0)
     violations += ["Table 8 does not act at 1 m/s"] * (t8[1.048] == 0.0)
     return Claim(
         id="C10",

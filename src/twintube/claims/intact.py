@@ -51,7 +51,7 @@ def losses(damper: Damper, velocity: float, bench: Bench) -> tuple[float, float]
     without_gas_force = damper.with_(F_0=0.0, c_gas=0.0, c_gas_lost=0.0)
     peaks = []
     for preload in (1, 0):
-        signal, result = run(without_gas_force, 1.0, velocity, bench, preload)
+        signal, result = run(without_gas_force, 1.0, velocity, bench, preload=preload)
         first, count = int(signal.marks[0]), len(signal.marks) - 1
         loops = result.force[first : int(signal.marks[-1])].reshape(count, -1)
         peaks.append((loops.max(axis=1), -loops.min(axis=1), np.diff(result.work[signal.marks])))

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from twintube.arrays import Array
 from twintube.claims.claim import (
     BENCH,
     DEAD,
@@ -21,6 +20,7 @@ from twintube.claims.claim import (
     run,
 )
 from twintube.claims.lengths import dead_lengths_that_hold, starts_in_words, starts_that_hold
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.rig.plan import oil_levels
 from twintube.rig.signals import SLOWEST, Signal
@@ -29,6 +29,7 @@ DIRECTIONS = ("rebound", "compression")
 STEPPED = 0.08  # maximum velocity [m/s] of Figure 27
 SHARP, STEP = 5e-3, 1e-3  # travel [m] of a sharp rise and of a step
 JUDGED = 0.9  # share of the amplitude that is evaluated; beyond it the piston is slow and the friction reverses
+STILL = 1e-9  # [m/s] rounding of a velocity at rest
 HALF = 0.5  # a force above half of the intact one is not "very low"
 
 
@@ -37,7 +38,7 @@ def strokes(signal: Signal, direction: str) -> list[slice]:
     first = int(signal.marks[0])
     period = int(signal.marks[1]) - first
     sign = 1.0 if direction == "rebound" else -1.0
-    moving = np.concatenate([[False], sign * signal.velocity[first:] > 1e-9, [False]])
+    moving = np.concatenate([[False], sign * signal.velocity[first:] > STILL, [False]])
     edges = np.flatnonzero(np.diff(moving.astype(int)))
     return [slice(first + a, first + b) for a, b in edges.reshape(-1, 2) if b - a >= 0.45 * period]
 

@@ -11,11 +11,11 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.models import CommandFunctionType
 
-from twintube import __version__
-from twintube.caches import lend
+from twintube.common.caches import lend
+from twintube.common.extras import missing
+from twintube.common.words import printable
 from twintube.errors import InputError, InputWarning, UserError
-from twintube.extras import missing
-from twintube.words import printable
+from twintube.version import __version__
 
 # No rich text: it takes longer to import than all else that the help needs.
 STYLE: dict[str, Any] = {

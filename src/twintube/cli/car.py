@@ -1,7 +1,7 @@
 """The command about the whole car."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,9 +10,31 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FRONT, JSON_FILE, MANEUVERS, REAR, ROADS, WORN_AT, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
+from twintube.common.files import write_bytes, write_text
+from twintube.common.words import counted
 from twintube.errors import InputError
-from twintube.files import write_bytes, write_text
-from twintube.words import counted
+
+MANEUVER = Annotated[
+    list[str] | None,
+    one_of(
+        (*MANEUVERS, "table3"),
+        metavar="NAME",
+        help=f"{', '.join(MANEUVERS)}, or table3 for the ten drives of the paper; repeatable.",
+    ),
+]
+OIL_LEVELS = Annotated[list[float] | None, typer.Option(metavar="0..1", help="Oil of the worn dampers; repeatable.")]
+SPEEDS = Annotated[list[float] | None, typer.Option(metavar="KM/H", help="Speed, else the manoeuvre's own; repeatable.")]
+ROAD_CLASSES = Annotated[
+    list[str] | None,
+    one_of(("smooth", *ROADS), help="Road: smooth, or a class of ISO 8608; repeatable."),
+]
+GRIP = Annotated[
+    str, typer.Option(metavar="0..1", help="Grip over that of a dry road: 0.7 for a wet one; 1,0.3 left, right.")
+]
+INSPECTION = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="A file of `twintube inspect --json`: what it sees stands beside on the page."),
+]
 
 
 @app.command(
@@ -20,36 +42,17 @@ from twintube.words import counted
     epilog="Example: twintube car --maneuver braking --speed 80 --worn all --oil-level 0.5 --output car",
 )
 def car(
-    maneuver: Annotated[
-        list[str] | None,
-        one_of(
-            (*MANEUVERS, "table3"),
-            metavar="NAME",
-            help=f"{', '.join(MANEUVERS)}, or table3 for the ten drives of the paper; repeatable.",
-        ),
-    ] = None,
+    maneuver: MANEUVER = None,
     front: FRONT = "SA7",
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
-    oil_level: Annotated[
-        list[float] | None, typer.Option(metavar="0..1", help="Oil of the worn dampers; repeatable.")
-    ] = None,
-    speed: Annotated[
-        list[float] | None, typer.Option(metavar="KM/H", help="Speed, else the manoeuvre's own; repeatable.")
-    ] = None,
-    road_class: Annotated[
-        list[str] | None,
-        one_of(("smooth", *ROADS), help="Road: smooth, or a class of ISO 8608; repeatable."),
-    ] = None,
-    grip: Annotated[
-        str, typer.Option(metavar="0..1", help="Grip over that of a dry road: 0.7 for a wet one; 1,0.3 left, right.")
-    ] = "1",
+    oil_level: OIL_LEVELS = None,
+    speed: SPEEDS = None,
+    road_class: ROAD_CLASSES = None,
+    grip: GRIP = "1",
     seeds: Annotated[int, typer.Option(metavar="N", help="Roads of each class.", min=1, max=1000)] = 5,
     car_file: CAR = "passat_b8",
-    inspection: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="A file of `twintube inspect --json`: what it sees stands beside on the page."),
-    ] = None,
+    inspection: INSPECTION = None,
     json_file: JSON_FILE = None,
     output: Annotated[Path | None, typer.Option(metavar="FOLDER", help="Write a page and pictures to this folder.")] = None,
 ) -> None:
@@ -58,13 +61,11 @@ def car(
     A car with a scalar factor in place of the worn dampers drives, too.
     """
     from twintube import dampers
-    from twintube.report.car import page, picture
-    from twintube.report.car_courses import pictures
-    from twintube.report.conclusion import read_inspection
+    from twintube.report.car.conclusion import read_inspection
+    from twintube.report.car.courses import pictures
+    from twintube.report.car.page import page, picture
     from twintube.vehicle.cars import load_car
-    from twintube.vehicle.full.catalogue import MANEUVERS
-    from twintube.vehicle.full.maneuvers import CLASSES, checked_speed
-    from twintube.vehicle.full.study import FULL, USUAL, cases, compared, dampers_of, drive_all
+    from twintube.vehicle.full.study import USUAL, cases, compared, dampers_of, drive_all
 
     if output is not None:
         check_folder(output, ("car.html",), of_options())
@@ -73,13 +74,8 @@ def car(
     both = dampers.load(front), dampers.load(rear)
     names, levels = maneuver or list(USUAL), oil_level or [0.7, 0.5, 0.3]
     roads, speeds = road_class or ["smooth", "C", "D"], speed or None
-    for name in names:
-        known("maneuver", name, MANEUVERS)
-    for road in roads:
-        known("road class", road, CLASSES)
-    for value in speeds or ():
-        checked_speed(value)
-    wanted = cases(names, speeds, roads, levels, seeds, grips_of(grip))
+    check_drives(names, roads, speeds or ())
+    wanted = cases(names, speeds, roads, levels, seeds=seeds, grips=grips_of(grip))
     for case in wanted[:2]:
         dampers_of(*both, worn, case)
     entries = drive_all(loaded, *both, worn, wanted)
@@ -96,29 +92,52 @@ def car(
         output.mkdir(exist_ok=True)
         mark_folder(output, of_options())
         courses = {name: pictures(loaded, both, worn, wanted, name) for name in names}
-        write_text(output / "car.html", page(loaded, conditions, rows, entries, seen, courses))
+        write_text(output / "car.html", page(loaded, conditions, rows, entries, seen=seen, courses=courses))
         if shown := picture(rows):
             write_bytes(output / "car.png", shown)
         typer.echo(f"{output / 'car.html'}")
-    width = max(10, *map(len, names))
+    for line in lines(rows):
+        typer.echo(line)
+    for reason in dict.fromkeys(entry["failed"] for entry in entries if "failed" in entry):
+        typer.echo(f"not driven: {reason}", err=True)
+
+
+def check_drives(names: Sequence[str], roads: Sequence[str], speeds: Sequence[float]) -> None:
+    """Raise InputError for a manoeuvre, a class of the road or a speed [km/h] that there is not."""
+    from twintube.vehicle.full.catalogue import MANEUVERS
+    from twintube.vehicle.full.maneuvers import CLASSES, checked_speed
+
+    for name in names:
+        known("maneuver", name, MANEUVERS)
+    for road in roads:
+        known("road class", road, CLASSES)
+    for value in speeds:
+        checked_speed(value)
+
+
+def lines(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """The change of each drive for the terminal, and what changes beside it."""
+    from twintube.vehicle.full.catalogue import MANEUVERS
+    from twintube.vehicle.full.study import FULL
+
+    width, found = max(10, *(len(row["maneuver"]) for row in rows)), []
     for row in rows:
         drive = f"{row['maneuver']:{width}} {row['road']:7}{row['speed_kmh']:4.0f} km/h"
         if row["change"] is None:
-            typer.echo(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}{MANEUVERS[row['maneuver']].without}")
+            found.append(f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}{MANEUVERS[row['maneuver']].without}")
             continue
         low, high = row["change_band"]
         unit = "" if row["unit"] == "1" else f" {row['unit']}"
         others = " and all ways of the freed gas" if row["model"] == FULL else ""
-        typer.echo(
+        found.append(
             f"{drive} {row['oil_level']:5.0%} oil, {row['model']:14}"
             f"{row['figure']}: {row['intact']:.3g} -> {row['worn']:.3g}{unit} ({row['change']:+.0%}, "
             f"{low:+.0%} to {high:+.0%} over {counted(row['seeds'], 'seed')}{others})"
         )
         known_beside = [beside(item) for item in row["beside"] if item["worn"] is not None]
         if known_beside:
-            typer.echo("    " + "; ".join(known_beside))
-    for reason in dict.fromkeys(entry["failed"] for entry in entries if "failed" in entry):
-        typer.echo(f"not driven: {reason}", err=True)
+            found.append("    " + "; ".join(known_beside))
+    return found
 
 
 @app.command(
@@ -144,7 +163,7 @@ def car_sensitivity(
     It says how the effect of the worn dampers moves.
     """
     from twintube import dampers
-    from twintube.report.car_sensitivity import as_json, page, text, tornado
+    from twintube.report.car.sensitivity import as_json, page, text, tornado
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.catalogue import Case
     from twintube.vehicle.full.run import full_car

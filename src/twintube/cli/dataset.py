@@ -9,8 +9,8 @@ import typer
 
 from twintube.cli.base import BENCH, app
 from twintube.cli.options import damper_option
+from twintube.common.extras import extra_of
 from twintube.errors import InputError
-from twintube.extras import extra_of
 
 EXAMPLE = "bench_SA8"
 DRIVE_EXAMPLE = "drive"  # `twintube drive --speed 80 --road-class C --minutes 0.5`, worn: rear left, 40 % oil, no gas
@@ -52,10 +52,10 @@ def new_dataset(
     """
     from twintube.data import check_dataset, report
     from twintube.data.findings import UNCONFIRMED
-    from twintube.data.template import State, new_dataset
+    from twintube.data.sniff.template import Fill, new_dataset
 
     preload = None if gas_lost is None else not gas_lost
-    remarks = new_dataset(folder, source or [], damper, State(oil_level, preload), reference or [])
+    remarks = new_dataset(folder, source or [], damper, Fill(oil_level, preload), reference or [])
     typer.echo(f"{folder / 'dataset.toml'} is written.")
     for doubt, records in remarks.items():
         typer.echo(f"not sure: {doubt} ({', '.join(records)})" if records else f"not sure: {doubt}")
@@ -85,7 +85,7 @@ def example(
 
     They are from a simulated bench, and `twintube diagnose` finds a cause in them.
     """
-    from twintube.files import write_bytes
+    from twintube.common.files import write_bytes
 
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise InputError(f"{folder} is there already and not an empty folder; nothing is overwritten")

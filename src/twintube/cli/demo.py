@@ -8,7 +8,7 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, SEED, STEP_MS, damper_option
 from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
-from twintube.files import write_text
+from twintube.common.files import write_text
 
 DAMPER = Annotated[str, damper_option("A named damper or a parameter file.")]
 

@@ -7,7 +7,7 @@ import typer
 
 from twintube.cli.base import MODEL, app
 from twintube.cli.outputs import keep_other
-from twintube.files import write_text
+from twintube.common.files import write_text
 
 
 @app.command(rich_help_panel=MODEL, epilog="Example: twintube explore --output explorer.html")

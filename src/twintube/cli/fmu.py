@@ -9,8 +9,8 @@ import typer
 from twintube.cli.base import MODEL, app
 from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, PLATFORM_OF_VERSION, SSP
 from twintube.cli.outputs import keep_other, refuse_other
-from twintube.files import write_text
-from twintube.words import printable
+from twintube.common.files import write_text
+from twintube.common.words import printable
 
 if TYPE_CHECKING:
     from twintube.dampers import Damper
@@ -99,7 +99,7 @@ def fmu(
     target = target_file(output, file_name(model_name(chosen), fmi))
     if target != output:
         refuse_other(target, same=start_values(target) == {v.name: v.start for v in variables(chosen)})
-    built = build_fmu(chosen, target, kind, platform, progress, fmi)
+    built = build_fmu(chosen, target, kind, platform, progress=progress, fmi=fmi)
     typer.echo(
         f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI {fmi}.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"

@@ -11,8 +11,8 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FREED_GAS, INSPECTIONS, JSON_FILE, dampers, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
+from twintube.common.files import write_text
 from twintube.errors import InputError
-from twintube.files import write_text
 
 if TYPE_CHECKING:
     from twintube.dampers import Damper
@@ -32,51 +32,65 @@ def at_dead_lengths(damper: "Damper", lengths_mm: Sequence[float] | None) -> "li
     return changed or [damper]
 
 
+def wanted_dampers(names: Sequence[str], lengths_mm: Sequence[float]) -> "list[Damper]":
+    """Each damper once, with each dead length once; raises InputError."""
+    from twintube.dampers import load
+
+    chosen, lengths = [load(name) for name in dict.fromkeys(names)], list(dict.fromkeys(lengths_mm))
+    return [each for damper in chosen for each in at_dead_lengths(damper, lengths)]
+
+
+NAMES = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="DAMPER", autocompletion=dampers, help="Names or parameter files; SA8 if left out."),
+]
+METHODS = Annotated[
+    list[str] | None,
+    one_of(
+        INSPECTIONS,
+        "--method",
+        metavar="NAME",
+        help=f"{', '.join(INSPECTIONS)}; repeatable; if left out all but tiring, which takes as long as they do.",
+    ),
+]
+LEVELS = Annotated[
+    list[float] | None,
+    typer.Option("--oil-level", metavar="0..1", help="Oil, share of the intact volume; 1.0 to 0.3 if left out."),
+]
+GAS_LOST = Annotated[
+    bool | None, typer.Option("--gas-lost/--with-preload", help="Gas preload; lost below 100 % oil if left out.")
+]
+DEAD_LENGTHS = Annotated[
+    list[float] | None,
+    typer.Option(
+        "--dead-length", metavar="MM", help="Dead length in place of the damper's, 60 to 110; several are compared."
+    ),
+]
+WAY = Annotated[
+    str | None,
+    one_of(FREED_GAS, metavar="WAY", help=f"What freed gas does: {', '.join(FREED_GAS)}; several as a band if left out."),
+]
+PLATES = Annotated[
+    list[float] | None,
+    typer.Option(metavar="MM", help="Amplitude of the plate of tiring; several in turn; 6, 8 and 10 if left out."),
+]
+SCATTER = Annotated[int, typer.Option(metavar="N", help="Cars and testers drawn for the detection; 0 for none.", min=0)]
+
+
 @app.command(
     rich_help_panel=VEHICLE,
     epilog="Example: twintube inspect SA8 SA1 --method eusama --oil-level 1 --oil-level 0.5 --json inspect.json",
 )
 def inspect(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="DAMPER", autocompletion=dampers, help="Names or parameter files; SA8 if left out."),
-    ] = None,
-    methods: Annotated[
-        list[str] | None,
-        one_of(
-            INSPECTIONS,
-            "--method",
-            metavar="NAME",
-            help=f"{', '.join(INSPECTIONS)}; repeatable; if left out all but tiring, which takes as long as they do.",
-        ),
-    ] = None,
-    levels: Annotated[
-        list[float] | None,
-        typer.Option("--oil-level", metavar="0..1", help="Oil, share of the intact volume; 1.0 to 0.3 if left out."),
-    ] = None,
-    gas_lost: Annotated[
-        bool | None, typer.Option("--gas-lost/--with-preload", help="Gas preload; lost below 100 % oil if left out.")
-    ] = None,
-    dead_lengths: Annotated[
-        list[float] | None,
-        typer.Option(
-            "--dead-length", metavar="MM", help="Dead length in place of the damper's, 60 to 110; several are compared."
-        ),
-    ] = None,
+    names: NAMES = None,
+    methods: METHODS = None,
+    levels: LEVELS = None,
+    gas_lost: GAS_LOST = None,
+    dead_lengths: DEAD_LENGTHS = None,
     car: CAR = "passat_b8",
-    freed_gas: Annotated[
-        str | None,
-        one_of(
-            FREED_GAS, metavar="WAY", help=f"What freed gas does: {', '.join(FREED_GAS)}; several as a band if left out."
-        ),
-    ] = None,
-    plate: Annotated[
-        list[float] | None,
-        typer.Option(metavar="MM", help="Amplitude of the plate of tiring; several in turn; 6, 8 and 10 if left out."),
-    ] = None,
-    scatter: Annotated[
-        int, typer.Option(metavar="N", help="Cars and testers drawn for the detection; 0 for none.", min=0)
-    ] = 100,
+    freed_gas: WAY = None,
+    plate: PLATES = None,
+    scatter: SCATTER = 100,
     seed: Annotated[int, typer.Option(metavar="N", help="Seed of the scatter.", min=0)] = 1,
     processes: Annotated[int | None, typer.Option(metavar="N", help="Processes; all cores if left out.", min=1)] = None,
     json_file: JSON_FILE = None,
@@ -88,13 +102,13 @@ def inspect(
     """
     from tqdm import tqdm
 
-    from twintube.dampers import load
     from twintube.dampers.freed_gas import VARIED, known
-    from twintube.inspection import LEVELS, USUAL, Setting, conditions, inspected, method, study
+    from twintube.inspection import LEVELS as USUAL_LEVELS
+    from twintube.inspection import USUAL, Setting, conditions, inspected, method, study
     from twintube.inspection.detection import check_count
     from twintube.inspection.tiring import AMPLITUDES, shaker
-    from twintube.report.inspected import Inspection, summary, terminal
-    from twintube.report.inspection import write_report
+    from twintube.report.inspection.page import write_report
+    from twintube.report.inspection.summary import Inspection, summary, terminal
     from twintube.vehicle.cars import load_car
 
     if output is not None:
@@ -105,10 +119,8 @@ def inspect(
     if plate and "tiring" not in wanted:
         raise InputError("--plate: is the plate of --method tiring, which is not among the methods")
     plates = shaker(sorted(x * 1e-3 for x in dict.fromkeys(plate)) if plate else AMPLITUDES)
-    chosen = [load(name) for name in dict.fromkeys(names or ["SA8"])]
-    lengths = list(dict.fromkeys(dead_lengths or []))
-    loaded, vehicle = [each for damper in chosen for each in at_dead_lengths(damper, lengths)], load_car(car)
-    steps = sorted(dict.fromkeys(levels or LEVELS), reverse=True)
+    loaded, vehicle = wanted_dampers(names or ["SA8"], dead_lengths or []), load_car(car)
+    steps = sorted(dict.fromkeys(levels or USUAL_LEVELS), reverse=True)
     states = conditions(steps, None if gas_lost is None else int(not gas_lost))
     ways = VARIED if freed_gas is None else (known(freed_gas, "--freed-gas").name,)
     setting = Setting(shaker=plates)
@@ -117,17 +129,9 @@ def inspect(
     if scatter:
         with tqdm(total=scatter * len(loaded), unit="car", leave=False) as bar:
             detections = study(
-                loaded,
-                vehicle,
-                states,
-                wanted,
-                count=scatter,
-                seed=seed,
-                ways=ways,
-                plates=plates,
-                processes=processes,
-                progress=bar.update,
-            )
+                loaded, vehicle, states, wanted,
+                count=scatter, seed=seed, ways=ways, plates=plates, processes=processes, progress=bar.update,
+            )  # fmt: skip
     result = Inspection(loaded, vehicle, entries, detections, ways, seed, [each.amplitude for each in plates])
     if json_file is not None:
         write_text(json_file, json.dumps(summary(result), indent=1) + "\n")

@@ -3,17 +3,21 @@
 import json
 import os
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from twintube.cli.base import BENCH, MODEL, app
 from twintube.cli.options import DATASET, PROCESSES, SEARCHES, one_of
 from twintube.cli.outputs import check_folder, mark_folder, named, refuse_other
+from twintube.common.files import write_text
+from twintube.common.words import counted
 from twintube.errors import InputError
-from twintube.files import write_text
-from twintube.words import counted
+
+if TYPE_CHECKING:
+    from twintube.identification.dataset import Result
 
 
 @app.command(rich_help_panel=BENCH, epilog="Example: twintube check my_dataset")
@@ -60,6 +64,10 @@ def study(
     scalar: Annotated[
         bool, typer.Option("--scalar", help="Of driving: worn dampers as scalar factors, too, on the same roads.")
     ] = False,
+    freed_gas: Annotated[
+        bool,
+        typer.Option("--freed-gas", help="Of driving: worn dampers with the other ways of the freed gas, too."),
+    ] = False,
     signals: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Of driving: write the signals of every drive to this folder.")
     ] = None,
@@ -74,16 +82,16 @@ def study(
     if definition == "driving":
         from twintube.driving.study import Plan, run, summary
 
-        plan = Plan(drives, minutes, seed, scalar, None if signals is None else str(signals.resolve()))
+        plan = Plan(drives, minutes, seed, scalar, freed_gas, None if signals is None else str(signals.resolve()))
         if not named():
             refuse_other(output, same=studies.definition_of(output) == plan.text)
         count = (os.cpu_count() or 1) if processes is None else processes
         counts = run(plan, output, processes=count, cluster=cluster)
         typer.echo(summary(plan, output, counts))
         return
-    for name in ("drives", "minutes", "seed", "scalar", "signals"):
+    for name in ("drives", "minutes", "seed", "scalar", "freed_gas", "signals"):
         if named(name):
-            raise InputError(f"--{name}: only with the study driving, not with {definition}")
+            raise InputError(f"--{name.replace('_', '-')}: only with the study driving, not with {definition}")
     loaded = studies.load(definition)
     if not named():
         refuse_other(output, same=studies.definition_of(output) == loaded.text)
@@ -102,7 +110,7 @@ def identify(
         one_of(
             SEARCHES,
             help="de: all parameters together, by differential evolution and least squares; before that, pso (the paper's "
-            "swarms) or cma take the paper's third and fourth step.",
+            "swarms) takes the paper's third and fourth step.",
         ),
     ] = "de",
     quick: Annotated[
@@ -119,7 +127,7 @@ def identify(
 
     from twintube.dampers import to_toml
     from twintube.data import load_dataset
-    from twintube.identification import METHODS, PAPER, QUICK, headline, identify_dataset, require_known, summary, table
+    from twintube.identification import METHODS, PAPER, QUICK, identify_dataset, require_known, summary
 
     if method not in METHODS:
         raise InputError(f"--method {method}: must be one of {', '.join(METHODS)}")
@@ -139,24 +147,31 @@ def identify(
             bar.update()
 
         result = identify_dataset(read, method=method, budget=budget, seed=seed, journal=journal, progress=progress)
-    from twintube.report.identification import write_report
+    from twintube.report.identification.page import write_report
 
     write_text(output / "identified.toml", to_toml(result.identification.damper))
     figures = summary(result, str(output))
     write_text(output / "identification.json", json.dumps(figures, indent=1) + "\n")
-    write_report(result, output)
+    files = write_report(result, output)
     shutil.rmtree(journal)
-    for remark in result.remarks:
-        typer.echo(f"note: {remark}")
-    for line in table(result):
+    for line in identified_lines(result, figures):
         typer.echo(line)
-    for kind, text in (("fit", "fitted"), ("heldout", "held out")):
-        if figures[kind] is not None:
-            typer.echo(f"{text}: {headline(figures[kind])}")
-    for sentence in figures["judgement"]:
-        typer.echo(sentence)
-    typer.echo(f"Next: {figures['next_step']}.")
-    typer.echo(f"{output}: identified.toml, identification.json, fv_table.csv, report.html")
+    tables = ", ".join(file.name for file in files if file.stem == "fv_table")
+    typer.echo(f"{output}: identified.toml, identification.json, {tables}, report.html")
+
+
+def identified_lines(result: "Result", figures: Mapping[str, Any]) -> list[str]:
+    """An identification for the terminal."""
+    from twintube.identification import headline, table
+
+    kinds = (("fit", "fitted"), ("heldout", "held out"))
+    return [
+        *(f"note: {remark}" for remark in result.remarks),
+        *table(result),
+        *(f"{text}: {headline(figures[kind])}" for kind, text in kinds if figures[kind] is not None),
+        *figures["judgement"],
+        f"Next: {figures['next_step']}.",
+    ]
 
 
 @app.command(rich_help_panel=BENCH, epilog="Example: twintube diagnose my_dataset --output diagnosis")
@@ -176,8 +191,8 @@ def diagnose(
     from twintube import evidence
     from twintube.dampers import to_toml
     from twintube.evidence.contract import as_json
-    from twintube.report.answered import lines, write_report
-    from twintube.report.engineering import in_words
+    from twintube.report.common.titles import in_words
+    from twintube.report.diagnosis.page import lines, write_report
 
     made_from = {"command": "diagnose", "dataset": str(dataset.resolve())}
     check_folder(output, ("diagnosis.json",), made_from)

@@ -2,26 +2,21 @@
 
 import json
 import re
-import warnings
-from dataclasses import fields, replace
+from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
 
+from twintube.cli import simulated
 from twintube.cli.base import BENCH, MODEL, app
 from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, SEED
 from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
-from twintube.errors import InputError, InputWarning
-from twintube.files import write_bytes, write_text
-
-if TYPE_CHECKING:
-    from twintube.data.motion import Motion
+from twintube.common.files import write_bytes, write_text
 
 FOR_FMU = Annotated[
     bool, typer.Option("--for-fmu", help="Columns as the FMU names them, in SI units: for fmpy simulate --input-file.")
 ]
-ASSUMED = " (assumed, it is unknown there)"
 
 
 @app.command("dampers", rich_help_panel=MODEL, epilog="Example: twintube dampers SA8")
@@ -51,132 +46,91 @@ def list_dampers(damper: Annotated[str | None, DAMPER_ARGUMENT] = None) -> None:
     )
 
 
+RECORD = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="A record in any format of a dataset. If the dataset.toml of its folder names it, damper, oil level, "
+        "preload, columns and signs come from there; else it needs 'time [s]' and 'stroke [mm]'.",
+    ),
+]
+BLOCK = Annotated[
+    int | None,
+    typer.Option(metavar="N", min=1, help="Of a text file with several tables: the number of the one, from 1."),
+]
+VELOCITY = Annotated[float, typer.Option(metavar="M/S", help="Without a record: maximum velocity of a harmonic block.")]
+AMPLITUDE = Annotated[float, typer.Option(metavar="MM", help="Without a record: amplitude of the block.")]
+OIL_LEVEL = Annotated[
+    float | None, typer.Option(metavar="0..1", help="Oil, share of the intact volume; 1 if no dataset states it.")
+]
+GAS_LOST = Annotated[
+    bool | None,
+    typer.Option("--gas-lost/--gas-present", help="Whether the gas preload is lost; present if no dataset states it."),
+]
+CSV = Annotated[Path, typer.Option(metavar="FILE", help="CSV file for the result.")]
+PLOT = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="PNG file for a picture: stroke, force over stroke and velocity."),
+]
+
+
 @app.command(
     rich_help_panel=MODEL,
     epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv",
 )
 def simulate(
     damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
-    record: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="A record in any format of a dataset. If the dataset.toml of its folder names it, damper, oil level, "
-            "preload, columns and signs come from there; else it needs 'time [s]' and 'stroke [mm]'.",
-        ),
-    ] = None,
-    block: Annotated[
-        int | None,
-        typer.Option(metavar="N", min=1, help="Of a text file with several tables: the number of the one, from 1."),
-    ] = None,
-    velocity: Annotated[
-        float, typer.Option(metavar="M/S", help="Without a record: maximum velocity of a harmonic block.")
-    ] = 1.048,
-    amplitude_mm: Annotated[float, typer.Option(metavar="MM", help="Without a record: amplitude of the block.")] = 45.0,
-    oil_level: Annotated[
-        float | None, typer.Option(metavar="0..1", help="Oil, share of the intact volume; 1 if no dataset states it.")
-    ] = None,
-    gas_lost: Annotated[
-        bool | None,
-        typer.Option("--gas-lost/--gas-present", help="Whether the gas preload is lost; present if no dataset states it."),
-    ] = None,
+    record: RECORD = None,
+    block: BLOCK = None,
+    velocity: VELOCITY = 1.048,
+    amplitude_mm: AMPLITUDE = 45.0,
+    oil_level: OIL_LEVEL = None,
+    gas_lost: GAS_LOST = None,
     published: AS_PUBLISHED = False,
     for_fmu: FOR_FMU = False,
-    output: Annotated[Path, typer.Option(metavar="FILE", help="CSV file for the result.")] = Path("simulation.csv"),
-    plot: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="PNG file for a picture: stroke, force over stroke and velocity."),
-    ] = None,
+    output: CSV = Path("simulation.csv"),
+    plot: PLOT = None,
 ) -> None:
     """Simulate a block or a record; write forces and volumes.
 
     The damper may be left out for a record of a dataset. Without a record a harmonic block with its preconditioning is
     simulated. A force in the record is compared with the simulated one.
     """
-    import numpy as np
-
-    from twintube import dampers
-    from twintube.core.variables import Outputs, fmi_name
     from twintube.dampers.freed_gas import acting, as_published
-    from twintube.data import listed_record
-    from twintube.data.motion import Motion, read_moved
-    from twintube.engine.simulate import disagreement, simulate_quietly
-    from twintube.fitting import prediction
+    from twintube.data.records.motion import read_moved
 
-    if record is not None and not record.exists():
-        raise InputError(f"{record}: the file does not exist")
-    entry = None if record is None else listed_record(record, block)
-    if damper is None and entry is None:
-        where = "" if record is None else f"no dataset.toml in the folder of {record} names it; "
-        raise InputError(f"{where}name a damper, e.g. twintube simulate SA8")
-    chosen = dampers.load(damper) if damper is not None else entry[0] if entry else dampers.load("SA8")
-    level = oil_level if oil_level is not None else entry[1].oil_level if entry else None
-    preload = not gas_lost if gas_lost is not None else entry[1].gas_preload if entry else None
-    assumed = [ASSUMED if value is None else "" for value in (level, preload)]
-    level, preload = 1.0 if level is None else level, preload is not False
-    chosen = chosen.with_(oil_level=level, gas_preload=int(preload))
+    entry = simulated.listed(record, block)
+    chosen, measured, state = simulated.filled(simulated.named(damper, record, entry), entry, oil_level, gas_lost)
     # A record of a bench is simulated as it is identified from: by the paper's equations, which are fitted to such records.
     chosen = as_published(chosen) if published or entry else chosen
-    if entry is not None:
-        measured = replace(entry[1], oil_level=level, gas_preload=preload)
-        motion = Motion(measured.time, measured.stroke, measured.velocity, measured.force)
-        usable = measured.usable
-        state = f"{100 * level:.4g} % of the oil{assumed[0]}, gas {'present' if preload else 'lost'}{assumed[1]}"
+    if measured is not None:
+        motion = simulated.motion_of(measured)
         typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}")
     else:
-        motion = block_motion(velocity, amplitude_mm) if record is None else read_moved(record, block)
-        for finding in motion.findings:
-            typer.echo(str(finding))
-        usable = np.ones(len(motion.time), dtype=bool)
-    time = motion.time
-    if entry is None:
-        result = simulate_quietly(chosen, motion.stroke, motion.velocity, time)
-    else:
-        result = prediction.driven(chosen, prediction.calm(measured))
-    doubtful = disagreement(time, motion.stroke, motion.velocity)
-    if doubtful:
-        warnings.warn(f"{'' if record is None else f'{record}: '}{doubtful}", InputWarning, stacklevel=1)
-    head = ["time [s]", "stroke [m]", "velocity [m/s]"]
-    columns: list[Any] = [time, result.stroke, result.velocity]
-    for name, values in result.columns.items():
-        head.append(f"{name} [{result.units[name]}]")
-        columns.append(values)
-    if motion.force is not None:
-        head.append("measured_force [N]")
-        columns.append(motion.force)
-    if for_fmu:
-        fmu_names = {item.name: fmi_name(item) for item in fields(Outputs)}
-        head = [fmu_names.get(name, name) for name in (title.partition(" ")[0] for title in head)]
-    lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-    text = "\n".join(lines) + "\n"
+        motion = simulated.block_motion(velocity, amplitude_mm) if record is None else read_moved(record, block)
+    for finding in motion.findings:
+        typer.echo(str(finding))
+    result = simulated.run(chosen, motion, measured)
+    simulated.warn(motion, record)
+    text = simulated.as_csv(result, motion, for_fmu=for_fmu)
     keep_other(output, text.encode())
     write_text(output, text)
     typer.echo(
-        f"{output}: {len(time)} samples, {result.work[-1]:.1f} J dissipated, "
+        f"{output}: {len(motion.time)} samples, {result.work[-1]:.1f} J dissipated, "
         f"force from {result.force.min():.0f} to {result.force.max():.0f} N; freed gas: {acting(chosen)}"
     )
     if motion.force is not None:
-        from twintube.report.simulated_record import deviation
-
-        against = motion.stroke, motion.force, result.force, usable
-        against = against if entry is None else prediction.compared(chosen, measured, result)
-        typer.echo(deviation(*against).sentence)
+        typer.echo(simulated.against_measured(chosen, motion, measured, result))
     if plot is not None:
         from twintube.report.simulated_record import picture
 
         name = f"{chosen.name}, {record.name if record else 'harmonic block'}"
-        drawn = picture(name, time, motion.stroke, result.velocity, result.force, motion.force, usable)
+        drawn = picture(
+            name, motion.time, motion.stroke, result.velocity,
+            simulated=result.force, measured=motion.force, usable=simulated.usable(motion, measured),
+        )  # fmt: skip
         write_bytes(plot, drawn)
         typer.echo(f"{plot}: stroke and force over time, force over stroke and velocity")
-
-
-def block_motion(velocity: float, amplitude_mm: float) -> "Motion":
-    """A harmonic block with its preconditioning; raises InputError."""
-    from twintube.data.motion import Motion
-    from twintube.rig import signals
-
-    signal = signals.harmonic_block(velocity, amplitude_mm * 1e-3)
-    return Motion(signal.time, signal.stroke, signal.velocity, None)
 
 
 @app.command(rich_help_panel=BENCH, epilog="Example: twintube rig SA8 --output excitations")

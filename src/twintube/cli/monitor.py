@@ -8,8 +8,8 @@ import typer
 
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import JSON_FILE
+from twintube.common.files import write_text
 from twintube.errors import InputError
-from twintube.files import write_text
 
 
 @app.command(

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from twintube.cli.base import RUNNING
+from twintube.common.files import write_text
 from twintube.errors import InputError
-from twintube.files import write_text
 
 MARK = "made_from.json"
 # Parameters of commands that do not change what is computed.

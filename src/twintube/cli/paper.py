@@ -11,8 +11,8 @@ import typer
 from twintube.cli.base import PAPER, STYLE, App, Group, app
 from twintube.cli.options import DAMPER, FREED_GAS, PROCESSES, START, STARTS, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
+from twintube.common.files import write_text
 from twintube.errors import ParameterError
-from twintube.files import write_text
 
 paper = App(**STYLE, cls=Group, no_args_is_help=True)
 app.add_typer(paper, name="paper", rich_help_panel=PAPER)
@@ -42,7 +42,7 @@ def figures(
     Each stands beside the paper's statement, and whether it holds. The paper's measured curves are unpublished. The virtual
     rig replaces them; the pictures are marked.
     """
-    from twintube.report.reproduce import reproduce
+    from twintube.report.paper.reproduce import reproduce
 
     check_folder(output, ("reproduce.json",), of_options())
     report = reproduce(output, figures=figure, quick=not paper_budget, processes=processes, report=typer.echo)

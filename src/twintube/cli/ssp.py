@@ -62,7 +62,7 @@ def ssp(
     whole = full_car(load_car(car_file), four(front, rear, worn, oil_level, published))
     if not named():
         refuse_other(output, same=members(output) == described(whole, checked_speed(speed), version))
-    built = build_ssp(whole, checked_speed(speed), output, platform, progress(), version)
+    built = build_ssp(whole, checked_speed(speed), output, platform, progress=progress(), ssp=version)
     typer.echo(
         f"{built}: {whole.name} with {front} and {rear}, {worn} at {oil_level:.0%} oil; {built.stat().st_size // 1024} kB"
     )

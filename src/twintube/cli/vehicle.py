@@ -1,14 +1,15 @@
 """Commands about the car around the damper."""
 
 import json
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 import typer
 
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import AS_PUBLISHED, CAR, DAMPER, FREED_GAS, JSON_FILE, ROADS, SEED, one_of
+from twintube.common.files import write_text
 from twintube.errors import ParameterError
-from twintube.files import write_text
 
 
 @app.command(
@@ -37,7 +38,7 @@ def ride(
     from twintube import dampers
     from twintube.dampers.freed_gas import acting, known, with_freed_gas
     from twintube.vehicle.cars import axle, load_car
-    from twintube.vehicle.ride import WINDOW, measures, track
+    from twintube.vehicle.ride import measures, track
     from twintube.vehicle.ride import ride as run
     from twintube.vehicle.road import GD_N0
 
@@ -66,14 +67,22 @@ def ride(
     figures |= {"intact": measures(intact, corner)}
     if json_file is not None:
         write_text(json_file, json.dumps(conditions | figures, indent=1) + "\n")
-    failed = figures["time_to_failure_s"]
     typer.echo(f"{loaded.name}, {oil_level:.0%} oil, {'no ' if gas_lost else ''}preload; freed gas: {acting(state)}")
-    typer.echo(
-        f"DLC {figures['dlc']:.3f} (intact {figures['intact']['dlc']:.3f}), wheel off the road "
-        f"{figures['contact_loss_share']:.2%} of the time, {figures['damping_work_share']:.0%} of the intact work"
-    )
-    typer.echo(f"DLC in windows of {WINDOW:.0f} s: " + " ".join(f"{value:.3f}" for value in figures["dlc_window"]))
+    for line in lines(figures):
+        typer.echo(line)
+
+
+def lines(figures: Mapping[str, Any]) -> list[str]:
+    """The figures of a ride for the terminal."""
+    from twintube.vehicle.ride import WINDOW
+
+    failed = figures["time_to_failure_s"]
     verdict = "does at least half of the intact work in every window" if failed is None else (
         f"does less than half of the intact work from {failed:.0f} s on"
     )  # fmt: skip
-    typer.echo(f"The damper {verdict}.")
+    return [
+        f"DLC {figures['dlc']:.3f} (intact {figures['intact']['dlc']:.3f}), wheel off the road "
+        f"{figures['contact_loss_share']:.2%} of the time, {figures['damping_work_share']:.0%} of the intact work",
+        f"DLC in windows of {WINDOW:.0f} s: " + " ".join(f"{value:.3f}" for value in figures["dlc_window"]),
+        f"The damper {verdict}.",
+    ]

@@ -64,7 +64,9 @@ def curve_rule(p: Parameters, after: int, violation: Violation) -> int:
     return rule + 3 if rule > 0 else 0
 
 
-def fit_rule(p: Parameters, d: Derived, after: int, violation: Violation) -> int:
+def fit_rule(  # noqa: PLR0911 - a return for each rule
+    p: Parameters, d: Derived, after: int, violation: Violation
+) -> int:
     """Number of the first rule beyond `after`, 7 to 15, that the dimensions, the oil or the gas break, else 0.
 
     All parameters must be within their bounds. `d` is overwritten. Where the dimensions do not fit into each other, the

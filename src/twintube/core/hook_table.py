@@ -60,7 +60,7 @@ HOOKS = {
 TABLE = re.compile(r"^\| hook \|.*\n(?:\|.*\n)*", re.MULTILINE)
 
 
-def page(text: str) -> str:
+def with_hooks(text: str) -> str:
     """A page of Markdown with the table of the present hooks in the place of its own."""
     rows = ["| hook | arguments | several give | does |", "|---|---|---|---|"]
     for name, hook in HOOKS.items():

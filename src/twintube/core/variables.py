@@ -16,7 +16,7 @@ from twintube.core.units import NOMINAL, UNITS
 FV_POINTS = 20
 
 
-def var(
+def var(  # noqa: PLR0913 - a column of the table each
     group: str,
     symbol: str,
     unit: str,

@@ -2,11 +2,11 @@
 
 from typing import Any
 
+from twintube.common.words import shown
 from twintube.core import messages
 from twintube.core.checks import VELOCITY
 from twintube.core.variables import FV_POINTS
 from twintube.dampers.quantity import quantity
-from twintube.words import shown
 
 BRANCHES = {"rebound": ("v_re", "F_re"), "compression": ("v_co", "F_co")}
 CURVE_UNITS = {"velocity": "m/s", "force": "N"}

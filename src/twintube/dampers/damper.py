@@ -7,15 +7,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import Field, dataclass, fields, replace
 from typing import Any
 
+from twintube.common.words import shown
 from twintube.core.checks import problems
 from twintube.core.effects import Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers.quantity import quantity
 from twintube.errors import ParameterError as ParameterError  # noqa: PLC0414  # others have it from here
-from twintube.words import shown
 
 MOST_MESSAGES = 20
 LONGEST_NAME = 60  # characters, of names that are compared
+PERCENT = (2.0, 100.0)  # of a share between 0 and 1: what was meant as a percentage
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,7 +88,11 @@ def explained(messages: list[str], p: Parameters) -> list[str]:
     """The messages about a parameter set, with the share where somebody gave a percentage."""
     for item in fields(p):
         value, meta = getattr(p, item.name), item.metadata
-        if meta["size"] == 1 and (meta["unit"], meta["lower"], meta["upper"]) == ("1", 0.0, 1.0) and 2.0 <= value <= 100.0:
+        if (
+            meta["size"] == 1
+            and (meta["unit"], meta["lower"], meta["upper"]) == ("1", 0.0, 1.0)
+            and PERCENT[0] <= value <= PERCENT[1]
+        ):
             head = f"{fmi_name(item)} = "
             messages = [text + f" ({value:g} % is {value / 100:g})" * text.startswith(head) for text in messages]
     return messages

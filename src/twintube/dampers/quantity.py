@@ -9,7 +9,7 @@ from typing import Any
 
 import pint
 
-from twintube.words import shown
+from twintube.common.words import shown
 
 LONGEST = 60  # characters of a quantity
 MOST_TOKENS = 20

@@ -11,6 +11,8 @@ from typing import Any
 
 import tomlkit
 
+from twintube.common.reading import ReadError, read_toml
+from twintube.common.words import listed, short, shown
 from twintube.core import effects
 from twintube.core.checks import outside, problems
 from twintube.core.effects import Parameters
@@ -22,8 +24,6 @@ from twintube.dampers.dead_length import beyond_parts, collapse_level
 from twintube.dampers.doubts import doubts
 from twintube.dampers.quantity import quantity
 from twintube.errors import InputWarning
-from twintube.reading import ReadError, read_toml
-from twintube.words import listed, short, shown
 
 FOLDER = Path(__file__).parent
 FEW_UNKNOWN = 5  # keys that are named

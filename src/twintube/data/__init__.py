@@ -6,15 +6,22 @@
     report          findings as text
     require_fills   the door of whatever needs records of a known fill
 
-Reading: manifest.py (dataset.toml), raw.py (any file), text.py (CSV, text), blocks.py (several tables in a text), lvm.py
-(LabVIEW), binary.py and its child read_binary.py (Parquet, MATLAB, MDF), table.py (units). Judging: checks.py,
-fills.py (states of filling), reference.py.
+A room for each step:
+
+    read          a file of any format becomes columns by name
+    convert       columns become quantities in SI units
+    check         what is wrong with them
+    records       a folder becomes a Dataset of Records
+    dataset_toml  what dataset.toml may say and what it says
+    sniff         guesses from the files, for a new dataset.toml and for columns that it does not name
+
+`formats.py` and `findings.py` are the words that all steps speak: how a file is to be read, and what is wrong with it.
 """
 
-from twintube.data.dataset import Dataset, LoadedDataset, check_dataset, listed_record, load_dataset
 from twintube.data.findings import DataError, Finding, report
-from twintube.data.motion import read_motion
-from twintube.data.record import (
+from twintube.data.records.dataset import Dataset, LoadedDataset, check_dataset, listed_record, load_dataset
+from twintube.data.records.motion import read_motion
+from twintube.data.records.record import (
     GIVEN,
     GRADIENT,
     MEASURED,

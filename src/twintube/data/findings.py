@@ -5,8 +5,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
+from twintube.common.words import listed, printable, shown
 from twintube.engine.simulate import InputError
-from twintube.words import listed, printable, shown
 
 # A number of a message, but none in a name; a quoted name, which stays; the count of further places.
 NUMBER = re.compile(r"'[^']*'|\"[^\"]*\"|(?<![\w.])[+-]?\d[\d.]*(?:e[+-]?\d+)?|\([^()]* such [^()]*\)")

@@ -9,11 +9,11 @@ from typing import Any
 
 from tqdm import tqdm
 
+from twintube.common.readable import unit_of
 from twintube.dampers import Damper, ParameterError, freed_gas
 from twintube.dampers.dead_length import bounds
 from twintube.dampers.freed_gas import DEFAULT, P_GASES, VARIED, WAYS, condition
 from twintube.dampers.variants import rear_curve
-from twintube.readable import unit_of
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import Drive
 from twintube.vehicle.ride import Track, measures, ride, track

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.demo.four_dampers import FourDampers, precondition_four
 from twintube.engine import compiled
 from twintube.engine.simulate import InputError
@@ -11,8 +11,8 @@ from twintube.vehicle.full.loop import BODY_COLUMNS, WHEEL_COLUMNS
 from twintube.vehicle.full.run import DT, CarRun, FullCar, as_run, started, together
 
 
-def drive_car_with_fmus(
-    car: FullCar, dampers: FourDampers, road: Array, spacing: float, inputs: Array, speed: float, *,
+def drive_car_with_fmus(  # noqa: PLR0913 - as `drive_car`
+    car: FullCar, dampers: FourDampers, road: Array, spacing: float, inputs: Array, *, speed: float,
     grips: tuple[float, float] = (1.0, 1.0), dt: float = DT, preconditioned: bool = True,
 ) -> CarRun:  # fmt: skip
     """As `drive_car`, but the dampers are FMUs, just initialised; of `car.dampers` only preload and stroke are used.

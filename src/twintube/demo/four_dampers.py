@@ -18,7 +18,7 @@ from numba import float64, int32, int64, uintp
 from numba.core.errors import NumbaExperimentalFeatureWarning
 from numba.core.types import WrapperAddressProtocol
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper, elements
 from twintube.demo.damper_fmu import INPUTS, DamperFmu
 from twintube.engine import compiled

@@ -10,6 +10,8 @@ from typing import Any
 import fmpy
 from tqdm import tqdm
 
+from twintube.common.files import write_text
+from twintube.common.processes import pool
 from twintube.core import effects
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
@@ -18,9 +20,7 @@ from twintube.demo.bands import SPEEDS, Rides, Setting, bands, everything
 from twintube.demo.moments import SPAN, Moment, moments
 from twintube.demo.ride import Ride, RideCase, ride
 from twintube.demo.words import sentences
-from twintube.files import write_text
 from twintube.fmu import build_fmu
-from twintube.processes import pool
 from twintube.vehicle import road
 from twintube.vehicle.cars import CarSet, axle
 from twintube.vehicle.quarter_car import Car, static_load
@@ -51,15 +51,15 @@ def cases(off: tuple[str, ...]) -> list[RideCase]:
     ]
 
 
-def run(fmu: Path, car: Car, case: RideCase, seconds: float, dt: float, seed: int) -> Ride:
+def run(fmu: Path, car: Car, case: RideCase, *, seconds: float, dt: float, seed: int) -> Ride:
     """One ride; runs in a worker process."""
     return ride(fmu, car, case, track(case.speed_kmh, seconds, seed=seed, dt=dt))
 
 
-def run_all(fmu: Path, car: Car, todo: list[RideCase], seconds: float, dt: float, seed: int) -> dict[RideCase, Ride]:
+def run_all(fmu: Path, car: Car, todo: list[RideCase], *, seconds: float, dt: float, seed: int) -> dict[RideCase, Ride]:
     """All cases on all cores."""
     with pool() as workers:
-        futures = {workers.submit(run, fmu, car, case, seconds, dt, seed): case for case in todo}
+        futures = {workers.submit(run, fmu, car, case, seconds=seconds, dt=dt, seed=seed): case for case in todo}
         bar = tqdm(as_completed(futures), total=len(todo), unit="ride", desc="quarter car with the FMU")
         return {futures[future]: future.result() for future in bar}
 
@@ -74,7 +74,7 @@ def development(figures: dict[str, Any]) -> list[dict[str, float]]:
 
 
 def entry(
-    speed: float, level: float | None, rides_by_case: dict[RideCase, Ride], rides: Rides, car: Car, off: tuple[str, ...]
+    speed: float, level: float | None, rides_by_case: dict[RideCase, Ride], rides: Rides, car: Car, *, off: tuple[str, ...]
 ) -> dict[str, Any]:
     """All figures of one state at one speed for JSON; `level` None is the intact damper."""
     case = RideCase(speed, 1.0 if level is None else level, int(level is None))
@@ -162,13 +162,13 @@ def moment_figures(lossy: Ride, shown: list[Moment], dt: float) -> dict[str, Any
 
 
 def summary(
-    damper: Damper, car: CarSet, rides_by_case: dict[RideCase, Ride], rides: Rides, off: tuple[str, ...], seed: int
+    damper: Damper, car: CarSet, rides_by_case: dict[RideCase, Ride], rides: Rides, *, off: tuple[str, ...], seed: int
 ) -> tuple[dict[str, Any], tuple[Ride, Ride, list[Moment]]]:
     """The content of summary.json, and the ride whose moments are shown."""
     corner = car.corner(damper)
     speeds: list[dict[str, Any]] = []
     for speed in SPEEDS:
-        states = [entry(speed, level, rides_by_case, rides, corner, off) for level in (None, *LEVELS)]
+        states = [entry(speed, level, rides_by_case, rides, corner, off=off) for level in (None, *LEVELS)]
         speeds.append({"speed_kmh": speed, "intact": states[0], "oil_levels": states[1:]})
     lossy, intact, moments_shown = ride_to_show(rides_by_case, speeds)
     result = {
@@ -246,10 +246,10 @@ def main_job(
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         fmu = build_fmu(damper, Path(folder), platforms=(fmpy.platform,))
-        rides_by_case = run_all(fmu, car.corner(damper), cases(off), seconds, dt, seed)
+        rides_by_case = run_all(fmu, car.corner(damper), cases(off), seconds=seconds, dt=dt, seed=seed)
     rides = Rides(damper, car, seconds, dt, seed)
     rides.drive_all(SPEEDS, LEVELS, [*everything(rides), Setting(freed_gas=SCALAR)], "bands")
-    result, shown = summary(damper, car, rides_by_case, rides, off, seed)
+    result, shown = summary(damper, car, rides_by_case, rides, off=off, seed=seed)
     pictures = draw(output, result, rides_by_case, shown)
     write_text(output / "summary.json", json.dumps(result, indent=1))
     return result, pictures

@@ -5,7 +5,7 @@ from typing import Any
 
 from twintube.demo.style import drawn
 from twintube.demo.words import NO_RISE, percent, verdict
-from twintube.report.framed import oil
+from twintube.report.common.framed import oil
 from twintube.vehicle.ride import WINDOW
 
 Span = tuple[float, float]

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.demo import messages
 from twintube.demo.ride import EVERY, Ride
 from twintube.demo.style import conditions, save
-from twintube.report.framed import INTACT, OTHER, WIDTH, oil, worn
-from twintube.report.style import PHASES, canvas, title
+from twintube.report.common.framed import INTACT, OTHER, WIDTH, oil, worn
+from twintube.report.common.style import PHASES, canvas, title
 from twintube.vehicle.ride import SETTLED, WINDOW
 
 SPAN = 2.0  # [s] that a moment shows
@@ -75,7 +75,7 @@ def loops(folder: Path, result: dict[str, Any], ride: Ride, intact: Ride, when: 
         row[0].set_ylabel("damper force [kN]")
     told = f"Power: mean of {MEAN * SPAN:.0f} s over that of the intact damper on the same road. Rebound is positive."
     sentence = messages.loops([moment.power_share for moment in when], where(result, ride))
-    return save(figure, folder, "loops.png", sentence, conditions(result, told), axes[0][0])
+    return save(figure, folder, "loops.png", sentence, conditions(result, told), key=axes[0][0])
 
 
 def both(ride: Ride, intact: Ride) -> tuple[tuple[Ride, str, str], ...]:
@@ -107,7 +107,7 @@ def volumes(folder: Path, result: dict[str, Any], ride: Ride) -> Path:
     at_first, at_last = (float(1 - volume[[0, 3]].sum() / volume.sum()) for volume in filled)
     told = "Volumes of oil, foam and gas in the three chambers."
     sentence = messages.volumes((at_first, at_last), where(result, ride))
-    return save(figure, folder, "volumes.png", sentence, conditions(result, told), axes[0][0])
+    return save(figure, folder, "volumes.png", sentence, conditions(result, told), key=axes[0][0])
 
 
 def wheel_load(folder: Path, result: dict[str, Any], ride: Ride, intact: Ride, when: list[Moment]) -> Path:
@@ -129,4 +129,4 @@ def wheel_load(folder: Path, result: dict[str, Any], ride: Ride, intact: Ride, w
     lossy, new = (float((run.wheel_load[run.time >= SETTLED] <= 0.0).mean()) for run in (ride, intact))
     told = f"Three spans of {SPAN:.0f} s: the load of the wheel on the same road with both dampers."
     sentence = messages.off_road((lossy, new), where(result, ride))
-    return save(figure, folder, "wheel_load.png", sentence, conditions(result, told), axes[0][0])
+    return save(figure, folder, "wheel_load.png", sentence, conditions(result, told), key=axes[0][0])

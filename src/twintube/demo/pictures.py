@@ -12,8 +12,8 @@ from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, MEAN_RETURN
 from twintube.demo import messages
 from twintube.demo.ride import Ride
 from twintube.demo.style import ALSO, LEVELS, conditions, drawn, name_of, save, settled
-from twintube.report.framed import INTACT, OIL, SCALAR, SMALL, WIDTH, colour_of, name_lines, oil, worn
-from twintube.report.style import canvas, plain, title
+from twintube.report.common.framed import INTACT, OIL, SCALAR, SMALL, WIDTH, colour_of, name_lines, oil, worn
+from twintube.report.common.style import canvas, plain, title
 from twintube.vehicle.ride import FAILED, SETTLED, WINDOW
 
 WAYS = {  # of the freed gas, as headings
@@ -23,6 +23,8 @@ WAYS = {  # of the freed gas, as headings
 }
 BAND = "Band: five roads, and each assumption at both ends, alone and the main ones together."
 BETWEEN = 5.0  # [Hz], between the resonances of the body (1 to 2 Hz) and of the wheels (10 to 15 Hz) of cars
+LOWEST, HIGHEST = 0.3, 40.0  # [Hz] of the spectrum: the body, the wheels, and what the road still holds
+DARK = 0.5  # share of the colour on which white is read
 
 
 def dlc(folder: Path, result: dict[str, Any]) -> Path:
@@ -59,7 +61,7 @@ def dlc(folder: Path, result: dict[str, Any]) -> Path:
     axes[0][0].set_ylim(bottom=0)  # after all lines: it ends the scaling of the shared axis
     axes[0][0].set_ylabel("dynamic load coefficient (DLC) [1]")
     return save(figure, folder, "dlc_over_oil_level.png", messages.over_oil_level(result),
-                conditions(result, f"{BAND} {settled(result)}"), axes[0][0])  # fmt: skip
+                conditions(result, f"{BAND} {settled(result)}"), key=axes[0][0])  # fmt: skip
 
 
 def relative_to(intact: float) -> tuple[Any, Any]:
@@ -117,7 +119,7 @@ def cells(ax: Axes, rows: list[list[float | None]], longest: float) -> None:
     for (i, j), dark in np.ndenumerate(soon):
         time = rows[i][j]
         text = "–" if time is None else f"{time:.0f}"
-        ax.text(j, i, text, ha="center", va="center", size=SMALL, color="white" if dark > 0.5 else "black")
+        ax.text(j, i, text, ha="center", va="center", size=SMALL, color="white" if dark > DARK else "black")
     ax.set_xticks(np.arange(len(rows[0]) - 1) + 0.5, minor=True)
     ax.set_yticks(np.arange(len(rows) - 1) + 0.5, minor=True)
     ax.grid(visible=False, which="major")
@@ -169,7 +171,7 @@ def spectrum(folder: Path, result: dict[str, Any], rides: list[Ride]) -> Path:
     for ride in shown:
         rate = 1 / ride.time[1]
         f, density = signal.welch(ride.wheel_load[ride.time > SETTLED], rate, nperseg=int(8 * rate))
-        inside = (f > 0.3) & (f < 40)
+        inside = (f > LOWEST) & (f < HIGHEST)
         f, case = f[inside], ride.case
         densities[case] = density[inside]
         colour, dashes = colour_of(case.gas_preload, case.oil_level), "--" if case.gas_preload else "-"
@@ -184,4 +186,4 @@ def spectrum(folder: Path, result: dict[str, Any], rides: list[Ride]) -> Path:
         grown.append((name, float(f[band][top]), float(densities[worst][band][top] / densities[intact][band].max())))
     where = f"{result['damper']} with {oil(worst.oil_level)} at {worst.speed_kmh:.0f} km/h"
     told = f"Power spectral density of the wheel load, {SETTLED:.0f} to {result['seconds']:.0f} s."
-    return save(figure, folder, "spectrum.png", messages.spectrum(grown, where), conditions(result, told), ax)
+    return save(figure, folder, "spectrum.png", messages.spectrum(grown, where), conditions(result, told), key=ax)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.variables import blank
 from twintube.demo.damper_fmu import VOLUMES, DamperFmu
 from twintube.vehicle.drive import CONDITIONING_STEP, Drive, conditioning

@@ -6,9 +6,9 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from twintube.files import write_bytes
-from twintube.report.framed import framed, oil
-from twintube.report.style import VIOLET, png
+from twintube.common.files import write_bytes
+from twintube.report.common.framed import framed, oil
+from twintube.report.common.style import VIOLET, png
 from twintube.vehicle.ride import SETTLED
 
 NOTE = "Assumed, not published: F-v curve, friction, gas spring, dead length of the chambers, car, and what freed gas does."
@@ -37,7 +37,7 @@ def settled(result: dict[str, Any]) -> str:
     return f"DLC: standard deviation of the wheel load over its static load, {SETTLED:.0f} to {result['seconds']:.0f} s."
 
 
-def save(figure: Figure, folder: Path, name: str, sentence: str, told: str, key: Axes | None = None) -> Path:
+def save(figure: Figure, folder: Path, name: str, sentence: str, told: str, *, key: Axes | None = None) -> Path:
     """Add sentence, conditions, the key of an axes and what is assumed to the figure and write it to a file."""
     framed(figure, sentence, told, NOTE, key)
     write_bytes(folder / name, png(figure))

@@ -7,6 +7,7 @@ from twintube.dampers.freed_gas import AS_PUBLISHED
 from twintube.vehicle.ride import WINDOW
 
 NO_RISE = 1.10  # DLC relative to intact [1] up to which no rise is claimed
+SHOWN = 0.6  # oil level [1] of the sentence about models
 
 
 def verdict(entry: dict[str, Any]) -> str:
@@ -63,13 +64,14 @@ def failure_sentence(block: dict[str, Any]) -> str:
 
 
 def model_sentence(block: dict[str, Any]) -> str:
-    """The default, the bare paper model and a scalar factor, at 60 % oil."""
-    entry = next(e for e in block["oil_levels"] if e["oil_level"] == 0.6)
+    """The default, the bare paper model and a scalar factor, at the oil level SHOWN."""
+    entry = next(e for e in block["oil_levels"] if e["oil_level"] == SHOWN)
     ratios = [v / block["intact"]["dlc"] for v in (entry["dlc"], entry["bands"]["freed_gas"][AS_PUBLISHED],
                                                  entry["scalar_factor"]["dlc"])]  # fmt: skip
     return (
-        f"{block['speed_kmh']:.0f} km/h, 60 % oil: {percent(ratios[0])} when the gas dissolves again, {percent(ratios[1])} "
-        f"with the bare paper model, {percent(ratios[2])} with the oil level as a factor of the damper's fluid force."
+        f"{block['speed_kmh']:.0f} km/h, {100 * SHOWN:.0f} % oil: {percent(ratios[0])} when the gas dissolves again, "
+        f"{percent(ratios[1])} with the bare paper model, {percent(ratios[2])} with the oil level as a factor of the "
+        "damper's fluid force."
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import lsq_linear
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.records.seen import SeenRecords

@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 from scipy import stats
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving.channels import PLACES
 from twintube.driving.model import AXLES, FLEET, REFERENCE, Model

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.driving.channels import CHANNELS, PLACES
 from twintube.driving.sensors import INERTIAL, RASTER, STEERING, VERTICAL, Encoder, resolutions, rounded, sensed, wheel_speed
 from twintube.driving.signals import Signals

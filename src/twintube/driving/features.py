@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.driving.channels import PLACES
 from twintube.driving.physical import wheel_hop
 from twintube.driving.signals import Signals

@@ -14,9 +14,9 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any, Final
 
+from twintube.common.words import listed
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, OF_A_WHEEL, mean_of, of_the_damper
-from twintube.words import listed
 
 FILE: Final = "monitor.json"
 MOST: Final = 4.0  # scales that a feature counts at most: no good damper is further off, and no damper is surer worn

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.driving import plausible
 from twintube.driving.channels import NAMES, PLACES
 from twintube.driving.features import OF_A_WHEEL, OF_THE_BODY, minutes

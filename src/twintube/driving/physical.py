@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.driving.spectra import within
 
 FITTED: Final = (7.0, 19.0)  # [Hz] the hop and both its flanks, below the Nyquist frequency of the coarsest raster

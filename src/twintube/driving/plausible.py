@@ -1,10 +1,14 @@
 """Whether a drive can be judged, and whether its channels are what their names say: each doubt ends with one line."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
+from scipy import signal
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
+from twintube.common.words import counted
 from twintube.driving.channels import PLACES
 from twintube.driving.features import LEAST
 from twintube.driving.signals import Signals
@@ -20,10 +24,11 @@ from twintube.driving.spectra import (
     density,
     mean_shown,
     taken,
+    thinned,
+    windows,
     within,
 )
 from twintube.errors import InputError
-from twintube.words import counted
 
 LEAST_COHERENCE: Final = 0.25  # of front and rear wheel: the road then makes half of the power of each, 0.5 squared
 UNITS: Final = {"km/h": 3.6, "m/s": 1.0}  # numbers of a wheel speed over those in rad/s, times the radius
@@ -36,12 +41,16 @@ GROSS: Final = 2.5
 SURE: Final = 4.0  # standard errors
 LEAST_GAIN: Final = 0.2  # [m/s2] root mean square: below, the wheels' own noise has a part in what they gain
 DIFFERS: Final = 0.08  # of the speed: tyres are worn and pressed by 4 %, km/h for rad/s is 12 %
+ORDERS: Final = (1, 2, 3, 4)  # of a wheel: at 90 km/h below the Nyquist frequency of 10 ms
+BESIDE: Final = (4, 5, 6)  # steps of 1 / WINDOW beside an order, outside of its main lobe
+ASIDE: Final = 0.06  # of the rotation: half way from km/h to rad/s
 
 
 def check_channels(signals: Signals) -> None:
     """Raise InputError where a sensor stands still, or a channel is another than its name says."""
     check_alive(signals)
     check_units(signals)
+    check_turns(signals)
 
 
 def check_drive(some: Spectra) -> None:
@@ -110,6 +119,49 @@ def unit_of(ratio: float, radius: float) -> str:
     near = {name: abs(np.log(ratio / (factor * radius))) for name, factor in UNITS.items() if ratio > 0.0}
     name = min(near, key=lambda each: near[each], default="")
     return f", as if they were in {name}" if name and near[name] < DIFFERS else ""
+
+
+def check_turns(signals: Signals) -> None:
+    """Raise InputError where the wheels' orders lie at another speed of rotation than the wheel speeds say.
+
+    What is uneven in an encoder, a rim or a tyre repeats with each turn: it draws lines, whatever the dampers do.
+    """
+    for unit, factor in UNITS.items():
+        ratio = factor * float(signals.car["wheel_radius_m"])
+        found, *others = orders(signals, [1.0 / ratio, 1.0, (1.0 - ASIDE) / ratio, (1.0 + ASIDE) / ratio])
+        # A resonance near an order stands above its surroundings as well, but no more than it does aside of the order.
+        more = found - others
+        if len(found) > 2 and (more.mean(axis=1) > SURE * more.std(axis=1, ddof=1) / np.sqrt(len(found))).all():
+            raise InputError(
+                f"wheel speeds: {ratio:.2f} times the rotation of the wheels, by what repeats with each turn, "
+                f"as if they were in {unit}; must be rad/s"
+            )
+
+
+def orders(signals: Signals, turns: Sequence[float]) -> Array:
+    """How far the power at the orders is above that beside them: natural logarithms, mean of wheels and ORDERS.
+
+    `turns` (n,) are speeds of rotation over the wheel speeds; the result is (n, windows). Windows in which a wheel stands
+    or does not change its speed are left out.
+    """
+    first = signals.time < signals.time[0] + 0.5 * WINDOW * ENOUGH
+    values = {name: each[first] for name, each in signals.values.items()}
+    interval, values = thinned(replace(signals, time=signals.time[first], values=values))
+    count = round(WINDOW / interval)
+    if len(next(iter(values.values()))) < count:
+        return np.empty((len(turns), 0))
+    speeds = np.array([windows(values[f"wheel_speed_{place}_rad_per_s"], count) for place in PLACES])
+    moves = (speeds > 0.5 * speeds.mean(axis=2, keepdims=True)) & (np.ptp(speeds, axis=2, keepdims=True) > 0.0)
+    speeds = speeds[:, moves.all(axis=(0, 2))]
+    uneven = signal.detrend(speeds / speeds.mean(axis=2, keepdims=True)) * signal.windows.hann(count, sym=False)
+    angle = np.cumsum(speeds, axis=2) * interval
+    above = np.zeros((len(turns), speeds.shape[1]))
+    for i, share in enumerate(turns):
+        for order in ORDERS:
+            around = np.abs(np.fft.fft(uneven * np.exp(-1j * order * share * angle))) ** 2
+            beside = around[:, :, [*BESIDE, *(-step for step in BESIDE)]].mean(axis=2)
+            above[i] += np.log(around[:, :, 0] / beside).mean(axis=0) / len(ORDERS)
+    return above
 
 
 def check_length(some: Spectra) -> None:

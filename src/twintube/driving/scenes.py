@@ -22,7 +22,7 @@ from twintube.vehicle.full.run import FullCar, full_car
 from twintube.vehicle.full.sensitivity import scaled
 
 PRESSURE: Final = 2.3e5  # [Pa] of the tyres over ambient, at which the car's file holds: assumed
-# Vertical stiffness over pressure, PFZ1 of the Magic Formula 6.1 for the passenger car tyre of `rolling.py` (from memory).
+# Vertical stiffness over pressure, PFZ1 of the Magic Formula 6.1 for the tyre of `rolling.py`, from the same source.
 STIFFER: Final = 0.7098
 PERSON: Final = 75.0  # [kg], two of them in the car's file
 # Share of the front axle of what is loaded: front seats, rear seats, luggage (assumed).

@@ -2,10 +2,11 @@
 
 Sources. Bus of the Volkswagen MQB platform, of which the Passat B8 is one: scaling of each signal in `vw_mqb_2010.dbc`
 (commaai/opendbc), messages of 10 and 20 ms as openpilot checks them. Inertial sensor Bosch SMI700, product sheet: noise 6 mg
-and 0.1 deg/s root mean square, corner frequency 11, 18, 21 or 77 Hz. Encoder: 48 teeth, usual 43 to 48 (Bosch Automotive
-Handbook, from memory); its errors repeat with each turn of the wheel (N. Persson, F. Gustafsson and M. Drevö, "Indirect tire
-pressure monitoring using sensor fusion", SAE 2002-01-1250). Assumed: size of these errors, clock of the controller, order of
-the filters, ratio of the steering, and the vertical accelerometers of cars with controlled dampers.
+and 0.1 deg/s root mean square, corner frequency 11, 18, 21 or 77 Hz. Encoder: its errors repeat with each turn of the wheel
+(N. Persson and F. Gustafsson, "Event Based Sampling with Application to Vibration Analysis in Pneumatic Tires", Linköping
+2001, LiTH-ISY-R-2374). Assumed: 48 teeth (a Hyundai Tiburon of 2007 has 44, by its service manual), size of their errors,
+clock of the controller, order of the filters, ratio of the steering, and the vertical accelerometers of cars with controlled
+dampers.
 
 Left out: offsets and their drift, which the controller takes away, misalignment, delays and lost messages of the bus.
 """
@@ -17,7 +18,7 @@ from typing import Final
 import numpy as np
 from scipy import signal
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.driving.channels import PLACES
 from twintube.vehicle.quarter_car import GRAVITY
 

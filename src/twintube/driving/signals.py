@@ -13,17 +13,17 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array, read_only
+from twintube.common.arrays import Array, read_only
+from twintube.common.files import replacing
+from twintube.common.reading import ReadError, check_regular
+from twintube.common.words import listed, shown
 from twintube.core.checks import outside
 from twintube.dampers.damper import suggestion
-from twintube.data.binary import check_package, read_binary
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import BINARY_BYTES, Format, Raw
+from twintube.data.read.binary import check_package, read_binary
 from twintube.driving.channels import CHANNELS, SHEET, TIME
 from twintube.errors import InputError
-from twintube.files import replacing
-from twintube.reading import ReadError, check_regular
-from twintube.words import listed, shown
 
 KEY = "twintube"  # of the metadata in Parquet; the attachment of an MDF file is KEY.json
 PARTS = ("car", "drive", "channels", "labels")

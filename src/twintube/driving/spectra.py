@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from scipy import signal
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.driving.channels import PLACES
 from twintube.driving.signals import Signals
 from twintube.errors import InputError

@@ -12,8 +12,9 @@ from typing import Any, Final
 
 from tqdm import tqdm
 
-from twintube import __version__
-from twintube.dampers.freed_gas import DEFAULT, SCALAR
+from twintube.common.files import replacing
+from twintube.common.words import counted
+from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED
 from twintube.driving.channels import PLACES
 from twintube.driving.draws import Drawn, draw
 from twintube.driving.drives import driven
@@ -21,11 +22,10 @@ from twintube.driving.features import table
 from twintube.driving.scenes import scene
 from twintube.driving.signals import write
 from twintube.errors import InputError
-from twintube.files import replacing
 from twintube.provenance import fingerprint
 from twintube.studies.definition import StudyError
 from twintube.studies.execute import Work, column, locally, on_cluster
-from twintube.words import counted
+from twintube.version import __version__
 
 DRIVES: Final = (1, 100_000)
 MINUTES: Final = (1.0, 60.0)
@@ -41,15 +41,17 @@ FIXED: Final = {
 
 @dataclass(frozen=True)
 class Plan:
-    """What is driven: drives of some minutes from a seed, and whether worn dampers do it as scalar factors, too.
+    """What is driven: drives of some minutes from a seed.
 
-    Raises StudyError.
+    Worn dampers drive again on the same roads with the other ways of the freed gas (`freed_gas`), and as scalar factors
+    (`scalar`). Raises StudyError.
     """
 
     drives: int
     minutes: float
     seed: int = 1
     scalar: bool = False
+    freed_gas: bool = False
     signals: str | None = None  # folder that receives the signals of every drive
 
     def __post_init__(self) -> None:
@@ -61,7 +63,13 @@ class Plan:
             raise StudyError(f"seed = {self.seed}: must not be below 0")
 
     def __len__(self) -> int:
-        return self.drives * (2 if self.scalar else 1)
+        return self.drives * len(self.models)
+
+    @property
+    def models(self) -> tuple[str, ...]:
+        """What the worn dampers of a drive are, one after the other; DEFAULT first."""
+        others = tuple(way for way in VARIED if way != DEFAULT)
+        return (DEFAULT, *(others if self.freed_gas else ()), *((SCALAR,) if self.scalar else ()))
 
     @property
     def text(self) -> str:
@@ -85,16 +93,22 @@ def work(plan: Plan, start: int, stop: int, expected: str) -> list[list[dict[str
 
 def rows(plan: Plan, number: int) -> list[dict[str, Any]]:
     """A row for each minute of a case; one that says why where it could not be driven, none for a twin without wear."""
-    several = 2 if plan.scalar else 1
-    twin = number % several == 1
-    drawn = draw(number // several, 60.0 * plan.minutes, plan.seed, SCALAR if twin else DEFAULT)
-    if twin and min(drawn.wear.oil_level) == 1.0 and min(drawn.wear.gas_preload) == 1:
+    number, which = divmod(number, len(plan.models))
+    model = plan.models[which]
+    drawn = draw(number, 60.0 * plan.minutes, plan.seed, model)
+    if model != DEFAULT and min(drawn.wear.oil_level) == 1.0 and min(drawn.wear.gas_preload) == 1:
         return []
+    name = f"drive_{number:06d}{'' if model == DEFAULT else '_' + model.split()[0]}.parquet"
+    return minutes_of(drawn, None if plan.signals is None else Path(plan.signals) / name)
+
+
+def minutes_of(drawn: Drawn, file: Path | None = None) -> list[dict[str, Any]]:
+    """A row for each minute of a drive, or one that says why there is none; its signals are written to `file`."""
     about = described(drawn)
     try:
         signals = driven(scene(drawn.vehicle, drawn.conditions, drawn.wear, {"drive": drawn.number, "group": drawn.group}))
-        if plan.signals is not None:
-            write(signals, Path(plan.signals) / f"drive_{drawn.number:06d}{'_scalar' if twin else ''}.parquet")
+        if file is not None:
+            write(signals, file)
         minutes = table(signals)
     except InputError as error:
         return [about | {"failed": str(error), "minute": 0}]

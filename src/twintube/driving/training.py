@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, of_the_damper
@@ -135,11 +135,11 @@ def fitted_table(
     A feature whose weight has the wrong sign says nothing that the others do not; it is left out, and the rest fitted anew.
     """
     from sklearn.linear_model import LogisticRegression
-    from sklearn.model_selection import GridSearchCV, GroupKFold, cross_val_predict
+    from sklearn.model_selection import GridSearchCV, StratifiedGroupKFold, cross_val_predict
 
     scale = np.std(values[~worn], axis=0)
     used = list(range(len(names)))
-    folds = list(GroupKFold(FOLDS).split(values, worn, cars))
+    folds = list(StratifiedGroupKFold(FOLDS).split(values, worn, cars))
     while True:
         x = np.clip(values / scale, -MOST, MOST)[:, used]
         # Even odds, however many dampers of the training are worn.

@@ -11,8 +11,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from twintube.caches import cache_folder
-from twintube.files import write_text
+from twintube.common.caches import cache_folder
+from twintube.common.files import write_text
 
 VOUCHED = ".sha256"
 

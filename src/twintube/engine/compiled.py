@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
+from twintube.common.parsing import parsed
 from twintube.core import sources
 from twintube.core.hooks import NEEDED
 from twintube.core.variables import FV_POINTS
 from twintube.engine.code_cache import CodeCache
-from twintube.parsing import parsed
 
 PACKAGE = Path(__file__).parents[1]
 LOOPS = (

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.agreement import parted
 from twintube.core.effects import effects_parts, effects_remember, effects_scale_valve
 from twintube.core.frame import stroke_limit
@@ -21,6 +21,7 @@ from twintube.core.publishing import publish_row
 # A longer step [s] that goes less than this share of the way its velocities say is a rest, where a cubic would swing.
 REST = 0.3
 UNMOVED = 0.05
+NO_WAY = 1e-9  # [m] by which no work is divided: the quotient would be rounding
 NOTHING = 1e-30  # k_degr of no force, by which none is divided
 
 
@@ -177,7 +178,7 @@ def interval_means(
         way = goal - at
         if d.extended > 0 and dt > 0.0:
             total += (s.impulse - from_impulse) / dt
-        elif d.extended == 0 and abs(way) > 1e-9:
+        elif d.extended == 0 and abs(way) > NO_WAY:
             # The work over the stroke is the mean force, wherever in the step it jumped.
             total += ((s.work - from_work) / way + gas_rise(p, d.F_0, d.c_gas, 0.5 * (at + goal)) - d.F_0) / n
         else:

@@ -9,7 +9,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import effects, messages, model
 from twintube.core.agreement import Agreement, ways
 from twintube.core.checks import VELOCITY, bad_input, problems

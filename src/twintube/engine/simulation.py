@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.common.arrays import Array, freeze_arrays
+from twintube.common.showing import data_frame, picture
 from twintube.core.publishing import NAMES
 from twintube.core.variables import Outputs
-from twintube.showing import picture, table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -46,7 +46,7 @@ class Simulation(Outputs[Array]):
         Raises UserError where pandas is not installed.
         """
         given = {name: getattr(self, name) for name in INPUTS if name != "time" or self.time is not None}
-        return table(given | self.columns, self.units, index=None if self.time is None else "time")
+        return data_frame(given | self.columns, self.units, index=None if self.time is None else "time")
 
     def plot(self) -> Figure:
         """Draw force over stroke, velocity and time as a figure of pyplot."""

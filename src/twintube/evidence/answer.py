@@ -12,10 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
+from twintube.common.showing import data_frame, picture
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset, Record, has_reference, load_dataset
+from twintube.diagnosis.measurement.edges import with_edges
 from twintube.diagnosis.measurement.faults import Fault, read
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.put_right import Measured, put_right
 from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.rules import RULES
@@ -26,7 +29,6 @@ from twintube.evidence.numbers import NUMBERS
 from twintube.evidence.search import Found
 from twintube.evidence.sizes import Sizes, chance_of_more
 from twintube.evidence.state import Stated, StatePosterior, state
-from twintube.showing import picture, table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -162,8 +164,8 @@ class Answer:
         if self.changes is not None:
             several = self.changes.hypotheses
             rows = [{"name": h.name, "kind": h.kind, "probability": h.probability} for h in several]
-            return table(rows, index="name")
-        return table([one.row() for one in self.states], index="state")
+            return data_frame(rows, index="name")
+        return data_frame([one.row() for one in self.states], index="state")
 
     def plot(self) -> Figure:
         """Draw the probabilities as a figure of pyplot."""
@@ -290,11 +292,21 @@ def compared_with_reference(dataset: LoadedDataset, progress: Progress) -> Answe
         several.append(state_of(bench, dataset.records, own, progress))
         which = np.array([record.state == own[0].state for record in dataset.records])
         bench.in_state(which, *several[-1].posterior.best)
+    bench.with_edges(edges(bench))
     times = zip(dataset.records, bench.records, strict=True)
     acting = np.concatenate([~in_reference(record, r.time) for record, r in times])
     later = {record.name for record in dataset.records if not record.reference}
     told = [one for one in several if one.records[0] in later]
-    return concluded(dataset, dataset.records, bench, acting, several, told, None, progress)
+    return concluded(dataset, dataset.records, bench, acting, several=several, told=told, measured=None, progress=progress)
+
+
+def edges(bench: Bench) -> list[Array]:
+    """What the steps of the force leave open in each record (n,) [N]: where in its interval a step falls nobody knows."""
+    filled = [
+        replace(record, oil_level=float(level), gas_preload=int(gas))
+        for record, (level, gas, *_) in zip(bench.records, bench.states, strict=True)
+    ]
+    return [record.edges for record in with_edges(Problem(bench.given, filled)).records]
 
 
 def bench_of(measured: Measured) -> Bench:
@@ -314,10 +326,10 @@ def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress) -> A
     records = [record for record in dataset.records if record.name not in measured.odd]
     several = [state_of(bench, records, own, progress) for own in fillings(records)]
     for one in several:
-        if one.posterior.as_stated < 0.5:
+        if one.posterior.rather_misstated:
             bench.in_state(np.array([record.state == one.state for record in records]), *one.posterior.best)
     acting = np.ones(len(bench.z), dtype=bool)
-    return concluded(dataset, records, bench, acting, several, several, measured, progress)
+    return concluded(dataset, records, bench, acting, several=several, told=several, measured=measured, progress=progress)
 
 
 def concluded(
@@ -325,6 +337,7 @@ def concluded(
     records: Sequence[Record],
     bench: Bench,
     acting: Array,
+    *,
     several: Sequence[StateAnswer],
     told: Sequence[StateAnswer],
     measured: Measured | None,

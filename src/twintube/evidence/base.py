@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.evidence.bench import Bench
 from twintube.evidence.frame import Frame
 from twintube.evidence.mechanisms import Mechanism

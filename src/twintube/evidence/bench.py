@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.diagnosis.records.noise import colour, noise
 from twintube.diagnosis.records.record import PreparedRecord
@@ -59,6 +59,11 @@ class Bench(SeenRecords):
         """Take `noise` (n,) [N] for that of the mean forces."""
         edges = np.concatenate([r.edges for r in self.records])
         self.sigma = np.sqrt(noise**2 + edges**2 + (NUMBERS.model_noise * self.peak) ** 2)
+
+    def with_edges(self, edges: Sequence[Array]) -> None:
+        """Take errors (n,) [N] at the steps of the force of each record for further noise."""
+        self.records = [replace(r, edges=own) for r, own in zip(self.records, edges, strict=True)]
+        self.noisy(np.concatenate([r.noise for r in self.records]))
 
     def noise_in(self, left: Array) -> Array:
         """Noise (n,) [N] of the mean forces, from what does not repeat in the errors (n,) [N] that a model leaves."""

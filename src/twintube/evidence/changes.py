@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import lsq_linear
 from scipy.stats import norm
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.evidence.base import Base
 from twintube.evidence.bench import CHANNELS, Bench
 from twintube.evidence.mechanisms import Mechanism, both, effects, faults, unit_of
@@ -97,9 +97,13 @@ def changes(
         evidence[name] = float(np.logaddexp.reduce(some, initial=-np.inf)) - search.none.log_z
     prior = priors(singles, list(evidence))
     log_p = {name: z + float(np.log(prior[name])) for name, z in evidence.items()}
-    # What is too slight for the channels is nothing.
+    # What is too slight for the channels is nothing, in the fill that is stated and in another.
     nothing = [weight(f) - search.none.log_z + np.log(prior[m.effect]) for m, f in found.items() if slight[m]]
-    log_p[NONE] = float(np.logaddexp.reduce([log_p[NONE], *nothing]))
+    with_slight = float(np.logaddexp.reduce([log_p[NONE], *nothing])) - log_p[NONE]
+    for name in (NONE, STATE):
+        if name in log_p:
+            log_p[name] += with_slight
+            evidence[name] += with_slight
     total = float(np.logaddexp.reduce(list(log_p.values())))
     offset = log_p[NONE] - float(np.log(prior[NONE]))  # so that probability is prior times evidence for each
     several = []

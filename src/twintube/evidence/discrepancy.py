@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.evidence.memory import lagged
 from twintube.evidence.numbers import NUMBERS
 

@@ -10,13 +10,14 @@ integrated out in closed form. Everything follows from the inner products of the
 sizes of the contributions cost no pass over the samples (Woodbury; Rasmussen and Williams 2006, equations 2.43 and A.3).
 """
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag, cho_factor, cho_solve, cholesky, solve_triangular
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.evidence.bench import Bench
 from twintube.evidence.memory import innovations
 from twintube.evidence.numbers import NUMBERS
@@ -64,6 +65,7 @@ class Part:
     sigma: Array  # [N]
     lasts: Array  # [N] of size one
     kept: Array
+    known: dict[int, White] = field(default_factory=dict, init=False, compare=False)
 
     def innovations(self, values: Array, lasting_at: int) -> tuple[Array, float]:
         """Values (n, c) [N] without noise, and half the logarithm of its determinant."""
@@ -71,6 +73,13 @@ class Part:
         out = np.empty_like(some)
         log_noise = innovations(some, self.sigma, NUMBERS.lasting_sizes[lasting_at] * self.lasts, self.kept, out)
         return out, float(log_noise)
+
+    def white(self, lasting_at: int) -> White:
+        """The columns without noise, of which the lasting part has one of the sizes tried."""
+        if lasting_at not in self.known:
+            out, log_noise = self.innovations(self.columns, lasting_at)
+            self.known[lasting_at] = White(out, out.T @ out, log_noise)
+        return self.known[lasting_at]
 
 
 class Frame:
@@ -95,7 +104,16 @@ class Frame:
         self.still = STILL + more.shape[1]
         self.k = self.still - STILL + several[0][0].shape[1]
         self.parts = [self.part(group, several, noise, more) for group in bench.motions()]
-        self.known: dict[int, list[White]] = {}
+
+    def hiding(self, at: slice, noise: float) -> "Frame":
+        """The same contributions, with a further noise [N] in the samples `at`."""
+        other = copy(self)
+        inside = [(part.rows >= at.start) & (part.rows < at.stop) for part in self.parts]
+        other.parts = [
+            replace(part, sigma=np.hypot(part.sigma, noise * some)) if some.any() else part
+            for part, some in zip(self.parts, inside, strict=True)
+        ]
+        return other
 
     def part(self, group: list[int], several: list[tuple[Array, Array, Array]], noise: Array, more: Array) -> Part:
         """The records of one motion."""
@@ -117,13 +135,7 @@ class Frame:
 
     def white(self, lasting_at: int) -> list[White]:
         """The columns of all records without noise, of which the lasting part has one of the sizes tried."""
-        if lasting_at not in self.known:
-            every = []
-            for part in self.parts:
-                out, log_noise = part.innovations(part.columns, lasting_at)
-                every.append(White(out, out.T @ out, log_noise))
-            self.known[lasting_at] = every
-        return self.known[lasting_at]
+        return [part.white(lasting_at) for part in self.parts]
 
     def whitened(self, values: Array, lasting_at: int) -> list[Array]:
         """Errors (n, c) [N] of all records without noise."""

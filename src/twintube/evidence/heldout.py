@@ -4,11 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import lsq_linear
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.evidence.changes import Changes
 from twintube.evidence.frame import Frame
-from twintube.evidence.search import Found, Search
+from twintube.evidence.search import Found
 from twintube.evidence.sizes import Sizes
 
 UNSEEN = 1e6  # [N] noise of a record that is not to tell anything
@@ -29,25 +30,37 @@ def held_out(changes: Changes, found: Found | None) -> list[HeldOut]:
     """Each record in which something may have happened, predicted from all others."""
     search = changes.search
     bench = search.bench
+    changed = None if found is None else search.derivatives(found.mechanism, found.at)
     out = []
     for record, at in zip(bench.records, bench.slices, strict=True):
         if not search.acting[at].any():
             continue
-        hidden = np.zeros(len(bench.z))
-        hidden[at] = UNSEEN
-        frame = Frame(bench, bench.states, steps=hidden, more=search.more)
+        frame = search.frame.hiding(at, UNSEEN)
         rows = at.start + np.flatnonzero(bench.used[at])
-        apart = Search(bench, frame, search.acting, search.more)
         extended = gain = None
-        if found is not None:
-            u = apart.optimum(found.mechanism, found.evidence.sizes, found.at)
-            errors = bench.measured - apart.force(found.mechanism, u)
+        if found is not None and changed is not None:
+            u = known_by_others(frame, found, search.bench.measured - found.force, changed)
+            errors = bench.measured - search.force(found.mechanism, u)
             extended = rms(frame.left(errors, found.evidence.sizes)[rows], bench.sigma[rows])
             gain = density(search.frame, frame, errors, found.evidence.sizes)
             gain -= density(search.frame, frame, bench.measured - search.base, search.none.sizes)
         without = rms(frame.left(bench.measured - search.base, search.none.sizes)[rows], bench.sigma[rows])
         out.append(HeldOut(record.name, without, extended, rms(bench.sigma[rows], bench.sigma[rows]), gain))
     return out
+
+
+def known_by_others(frame: Frame, found: Found, errors: Array, changed: Array) -> Array:
+    """Coordinates (k,) of a cause that `frame` gives, by a step of Gauss and Newton from those of all records.
+
+    `errors` (n,) [N] and the derivatives `changed` (n, k) [N] of the forces are those of all records.
+    """
+    columns = frame.residuals(np.column_stack([errors, changed]), found.evidence.sizes)
+    low, high = found.mechanism.ends
+    step = lsq_linear(
+        np.vstack([columns[:, 1:], np.eye(len(found.at))]), np.concatenate([columns[:, 0], -found.at]),
+        (low - found.at, high - found.at),
+    )  # fmt: skip
+    return np.asarray(found.at + step.x)
 
 
 def density(whole: Frame, apart: Frame, errors: Array, sizes: Sizes) -> float:

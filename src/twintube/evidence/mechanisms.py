@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from scipy.stats import norm
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.effects import EFFECTS
 from twintube.diagnosis.records.seen import AS_RECORDED
 

@@ -7,7 +7,7 @@ filter (Rasmussen and Williams 2006, appendix B; Särkkä and Solin 2019, sectio
 import numba
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 
 
 @numba.njit(nogil=True)

@@ -7,12 +7,12 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import norm
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.evidence.bench import Bench
 from twintube.evidence.frame import Evidence, Frame
 from twintube.evidence.mechanisms import Mechanism
 from twintube.evidence.numbers import NUMBERS
-from twintube.evidence.sizes import Sizes
+from twintube.evidence.sizes import USUAL, Sizes
 
 # Numerics.
 TRIED = (
@@ -26,6 +26,7 @@ EVALUATIONS = 12
 MOVED = (0.5, 0.8, 0.95, 1.05, 1.25, 2.0)  # times a strength, that are tried beside an optimum
 BETTER = 1.0  # twice the logarithm of the odds that is worth another search
 SLOPE = 0.02  # step of a derivative, of the coordinate
+NO_FORCE = 1e-9  # [N] a change that is rounding
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Search:
     def found(self, m: Mechanism, near: Found | None = None) -> Found:
         """The best strengths of a mechanism, and its evidence; sought from those that were found `near`."""
         m = m.about(self.bench.usual)
-        u, evidence = self.start(m) if near is None else near.at, self.none
+        u, evidence = self.begun(m) if near is None else (near.at, self.none)
         for _ in range(ROUNDS):
             u, before = self.optimum(m, evidence.sizes, u), evidence.sizes
             evidence = self.frame.evidence(self.bench.measured - self.force(m, u), before)
@@ -79,14 +80,26 @@ class Search:
     def inexact(self, force: Array, evidence: Evidence) -> float:
         """Evidence of forces (n,) [N] with a law of the mechanism that is exact, or off as laws are: each as likely."""
         change = force - self.base
-        if not np.any(np.abs(change) > 1e-9):
+        if not np.any(np.abs(change) > NO_FORCE):
             return evidence.log_z
         columns = off_its_law(self.bench, change)
         off = self.frame.evidence(np.column_stack([self.bench.measured - force, columns]), evidence.sizes)
         return float(np.logaddexp(evidence.log_z, off.log_z) - np.log(2.0))
 
-    def start(self, m: Mechanism) -> Array:
-        """The coordinates (k,) from which the best are sought."""
+    def begun(self, m: Mechanism) -> tuple[Array, Evidence]:
+        """Coordinates (k,) and their evidence, near the best.
+
+        Errors of the model as large as without a cause may explain all that a strength does but the best one. So it is
+        sought with errors of the usual size, too.
+        """
+        several = []
+        for sizes in dict.fromkeys((self.none.sizes, USUAL)):
+            u = self.optimum(m, sizes, self.start(m, sizes))
+            several.append((u, self.frame.evidence(self.bench.measured - self.force(m, u), sizes)))
+        return max(several, key=lambda one: one[1].log_z - 0.5 * float(one[0] @ one[0]))
+
+    def start(self, m: Mechanism, sizes: Sizes) -> Array:
+        """The coordinates (k,) from which the best are sought, with given sizes of the model's own errors."""
         low, high = m.ends
         k = len(m.strengths)
         unit = np.eye(k)
@@ -99,7 +112,7 @@ class Search:
         for i in set(range(k)) - set(acting):
             tried += [t + unit[i] * x for t in tried for x in (-1.0, 1.0)]
         tried = [np.clip(t, low, high) for t in [np.zeros(k), *tried]]
-        return np.asarray(tried[int(np.argmin(self.costs(m, tried)))])
+        return np.asarray(tried[int(np.argmin(self.costs(m, sizes, tried)))])
 
     def moved(self, m: Mechanism, sizes: Sizes, u: Array) -> Array:
         """Better coordinates (k,) farther off: where forces step, derivatives do not show the way (Kolda et al. 2003)."""
@@ -112,19 +125,15 @@ class Search:
             ),
         ]
 
-        def cost(v: Array) -> float:
-            r = self.residuals(m, sizes, v)
-            return float(r @ r)
-
-        costs = list(self.bench.threads.map(cost, several))
+        costs = self.costs(m, sizes, several)
         best = int(np.argmin(costs))
         return several[best] if costs[best] < costs[0] - BETTER else u
 
-    def costs(self, m: Mechanism, several: Sequence[Array]) -> list[float]:
+    def costs(self, m: Mechanism, sizes: Sizes, several: Sequence[Array]) -> list[float]:
         """Twice the negative logarithm of the posterior at coordinates (k,), up to a constant."""
 
         def cost(u: Array) -> float:
-            r = self.residuals(m, self.none.sizes, u)
+            r = self.residuals(m, sizes, u)
             return float(r @ r)
 
         return list(self.bench.threads.map(cost, several))
@@ -136,6 +145,10 @@ class Search:
 
     def slopes(self, m: Mechanism, sizes: Sizes, u: Array) -> Array:
         """Derivatives (q, k) of the errors, whose inner products are those under the model."""
+        return self.frame.residuals(self.derivatives(m, u), sizes)
+
+    def derivatives(self, m: Mechanism, u: Array) -> Array:
+        """Derivatives (n, k) [N] of the forces by the coordinates (k,)."""
         low, high = m.ends
 
         def one(i: int) -> Array:
@@ -144,7 +157,7 @@ class Search:
             a[i], b[i] = max(low[i], u[i] - step), min(high[i], u[i] + step)
             return np.asarray((self.force(m, a) - self.force(m, b)) / (b[i] - a[i]))
 
-        return self.frame.residuals(np.column_stack(list(self.bench.threads.map(one, range(len(u))))), sizes)
+        return np.column_stack(list(self.bench.threads.map(one, range(len(u)))))
 
     def optimum(self, m: Mechanism, sizes: Sizes, u: Array) -> Array:
         """The most probable coordinates (k,) with given sizes of the model's own errors."""

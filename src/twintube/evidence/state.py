@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.special import expit, logsumexp
 from scipy.stats import norm
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.evidence.bench import Bench
 from twintube.evidence.frame import Evidence, Frame
 from twintube.evidence.numbers import NUMBERS
@@ -29,6 +29,7 @@ LOOKED_AT = 3  # levels at least, with and without preload, that are looked at a
 SHOWN = 0.0025  # step of the oil level in the answer
 WIDEST = 4.0  # standard deviations of the tolerance
 ENOUGH = 8.0  # logarithm of the odds below which a cell of the grid is not refined
+EVEN = 0.5  # probability of the one and the other
 
 
 @dataclass(frozen=True)
@@ -63,9 +64,19 @@ class StatePosterior:
         return float(expit(self.log_odds_stated + np.log(1.0 / NUMBERS.misstated - 1.0)))
 
     @property
+    def rather_misstated(self) -> bool:
+        """Whether what a file says is more likely wrong than right."""
+        return self.as_stated < EVEN
+
+    @property
     def gas_lost(self) -> float:
         """Probability that the preload is lost."""
         return float(self.probability[0].sum())
+
+    @property
+    def rather_lost(self) -> bool:
+        """Whether the preload is more likely lost than there."""
+        return self.gas_lost > EVEN
 
     def interval(self, share: float = 0.9) -> tuple[float, float]:
         """The shortest interval of the oil level [1] that holds a `share` of the probability."""

@@ -8,10 +8,11 @@ from importlib.resources import files
 
 import jinja2
 
-from twintube import __version__, web
+from twintube import web
 from twintube.dampers import Damper
 from twintube.explorer.content import content
 from twintube.explorer.module import module
+from twintube.version import __version__
 
 FOLDER = files("twintube.explorer")
 # In the order in which they are joined: what a file uses at once stands before it.

@@ -6,7 +6,7 @@ Developers run `python -m twintube.explorer.translate` after a change of that fi
 from importlib.resources import files
 from pathlib import Path
 
-from twintube.files import write_text
+from twintube.common.files import write_text
 from twintube.fmu.equations import Equations, joined_source, marked
 from twintube.fmu.translate import converted
 from twintube.vehicle import quarter_car

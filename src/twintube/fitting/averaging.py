@@ -15,7 +15,7 @@ from scipy.fft import rfft
 from scipy.integrate import cumulative_trapezoid
 from scipy.optimize import lsq_linear
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.rule import JUDGEMENT, METHOD, NUMERICS, Section
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array, freeze_arrays
-from twintube.data.condition import is_intact
+from twintube.common.arrays import Array, freeze_arrays
+from twintube.data.records.condition import is_intact
 from twintube.fitting.intervals import impulse, means
 
 

@@ -7,7 +7,7 @@ with the parameters of a model.
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 
 SHORTEST = 1e-9  # [s] intervals of repeated times are not divided by less
 

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
-from twintube.files import write_text
+from twintube.common.arrays import Array
+from twintube.common.files import write_text
 
 Objective = Callable[[Array], Array]
 

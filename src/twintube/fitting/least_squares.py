@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 
 STEP = 1e-3  # of a parameter's range: smaller steps meet the kinks of the model
 EXACT = 1e-8  # scipy's relative change of cost or parameters at which a fit ends

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.data import MEASURED, Record
 from twintube.engine.simulate import InputError
 from twintube.fitting.harmonic import Harmonic

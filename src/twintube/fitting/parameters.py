@@ -5,7 +5,7 @@ from dataclasses import fields
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import effects
 
 TABLE_6 = ("X_Re", "L_PV", "G_PV", "X_Co1", "X_Co2")

@@ -4,13 +4,15 @@ import csv
 import io
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
+from datetime import datetime
 
 import numpy as np
 
 from twintube.fitting.harmonic import Harmonic
 
 WINDOW = 0.1  # of the largest velocity: the usual width
+SAME_TIME = datetime(1980, 1, 1)  # as zip files without a time have it, so that equal sheets are equal files
 COLUMNS = ("record", "direction", "oscillations", "velocity_m_s", "force_peak_N", "force_window_N", "force_crossing_N")
 
 
@@ -66,3 +68,19 @@ def as_csv(rows: Sequence[PeakVelocity]) -> str:
         numbers = (f"{x:.6g}" for x in (row.velocity, row.at_peak, row.window, row.crossing))
         lines.writerow([row.record, row.direction, row.oscillations, *numbers])
     return text.getvalue()
+
+
+def as_xlsx(rows: Sequence[PeakVelocity]) -> bytes:
+    """The same rows as a sheet; needs the package xlsxwriter."""
+    import xlsxwriter
+
+    file = io.BytesIO()
+    # The names of records are words, whatever they begin with.
+    with xlsxwriter.Workbook(file, {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False}) as book:
+        book.set_properties({"created": SAME_TIME})
+        sheet = book.add_worksheet("force over velocity")
+        for i, line in enumerate([COLUMNS, *map(astuple, rows)]):
+            sheet.write_row(i, 0, line)
+        sheet.freeze_panes(1, 0)
+        sheet.autofit()
+    return file.getvalue()

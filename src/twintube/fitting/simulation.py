@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import effects
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper
@@ -71,6 +71,10 @@ class SimulatedRecords:
         self.warm = np.concatenate([getattr(r, "warm", np.zeros(len(r.time))) for r in records])
         self.workers = os.cpu_count() or 1
         self.threads = ThreadPoolExecutor(self.workers)
+        # Records that run side by side are shared out by their samples; their own threads, as a set may wait for them.
+        self.runners = ThreadPoolExecutor(self.workers)
+        shares = np.linspace(0, self.starts[-1], min(self.workers, len(records)) + 1)
+        self.spans: list[int] = sorted({int(np.abs(self.starts - share).argmin()) for share in shares})
 
     def rows(self) -> list[Any]:
         """The compiled model's records with the given parameters; each thread needs its own."""
@@ -88,18 +92,33 @@ class SimulatedRecords:
         changes: Iterable[tuple[str, float]],
         motion: tuple[Array, Array, Array] | None = None,
         states: Array | None = None,
+        side_by_side: bool = False,
     ) -> tuple[Array, Array, Array]:
         """As `run`, with the means of the forces at the measured samples alone [N] between force and work.
 
         `motion` are times [s], strokes [m] and velocities [m/s] (n,) and `states` (r, 4) in place of those of the records.
+        Records run on all cores where they may run `side_by_side`.
         """
         for name, value in changes:
             rows[0][name] = value
         t, z, v = motion or (self.t, self.z, self.v)
         given = self.states if states is None else states
-        records = Records(given, self.starts, t, z, v, self.warm, self.samples, self.parts)
         means = Means(*np.empty((3, len(z))))
-        done = compiled.module().run_means(*rows, records, means)
-        for some in (means.force, means.point):
-            some[self.starts[done] :] = self.failed
+
+        def run(first: int, last: int) -> int:
+            """Drive the records from `first` to before `last`; returns how many it could."""
+            a, b = self.starts[first], self.starts[last]
+            records = Records(
+                given[first:last], self.starts[first : last + 1] - a, t[a:b], z[a:b], v[a:b], self.warm[a:b],
+                self.samples[a:b], self.parts,
+            )  # fmt: skip
+            own = [row.copy() for row in rows] if side_by_side else rows
+            return int(compiled.module().run_means(*own, records, Means(*(x[a:b] for x in means))))
+
+        ends = self.spans if side_by_side else [0, len(given)]
+        counts = list(self.runners.map(run, ends[:-1], ends[1:])) if len(ends) > 2 else [run(*ends)]
+        for first, last, count in zip(ends[:-1], ends[1:], counts, strict=True):
+            if count < last - first:
+                for some in (means.force, means.point):
+                    some[self.starts[first + count] :] = self.failed
         return means

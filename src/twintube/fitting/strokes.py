@@ -18,8 +18,8 @@ from scipy.ndimage import uniform_filter1d
 from scipy.optimize import isotonic_regression
 from scipy.signal import oaconvolve, savgol_coeffs, savgol_filter
 
-from twintube.arrays import Array
-from twintube.data.defects import resolution
+from twintube.common.arrays import Array
+from twintube.data.check.defects import resolution
 
 ORDER = 6  # of the differences that show noise: those of a sine with 50 samples per oscillation are below 1e-7 of it
 LAGS = (1, 2, 4, 8, 16)  # samples between the values of a difference: filtered noise shows at some distance only

@@ -10,10 +10,10 @@ import uuid
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from twintube.common.files import replacing
 from twintube.core.checks import problems
 from twintube.dampers import Damper, load
 from twintube.errors import UserError
-from twintube.files import replacing
 from twintube.fmu import (
     archive,
     binaries,
@@ -57,7 +57,9 @@ def native_content(model: Model, platforms: Sequence[str], date: str, progress: 
     content |= binaries.binaries(texts, model.name, platforms, progress, standard)
     if fmi == 2:
         capabilities = sources.capabilities(model)
-        xml = description.described_model(model, guid, date, capabilities, [standard.compiled], sources.LOG_CATEGORIES)
+        xml = description.described_model(
+            model, guid, date, capabilities, sources=[standard.compiled], categories=sources.LOG_CATEGORIES
+        )
     else:
         xml = description3.described_model(model, guid, date, sources.LOG_CATEGORIES)
         content[description3.BUILD] = description3.build_description(model)
@@ -65,7 +67,7 @@ def native_content(model: Model, platforms: Sequence[str], date: str, progress: 
 
 
 def contents(
-    damper: Damper, kind: Kind, platforms: Sequence[str], date: str, progress: Progress, fmi: Fmi
+    damper: Damper, kind: Kind, platforms: Sequence[str], *, date: str, progress: Progress, fmi: Fmi
 ) -> dict[str, bytes]:
     """All files of the FMU by their path, the model description first, the others by name."""
     if kind == "native":
@@ -75,7 +77,7 @@ def contents(
         content = python_kind.content(damper)
         content["documentation/externalDependencies.txt"] = documentation.NEEDS_PYTHON.encode()
         content[XML] = description.described(
-            damper, identity(content), date, python_kind.CAPABILITIES, [], sources.LOG_CATEGORIES
+            damper, identity(content), date, python_kind.CAPABILITIES, sources=[], categories=sources.LOG_CATEGORIES
         )
     progress("reference run, documentation, licences")
     icon = (sources.FOLDER / "model.png").read_bytes()
@@ -130,6 +132,7 @@ def build_fmu(
     output: Path | str | None = None,
     kind: Kind = "native",
     platforms: Sequence[str] | None = None,
+    *,
     progress: Callable[[str], None] | None = None,
     fmi: Fmi = 2,
 ) -> Path:
@@ -149,7 +152,7 @@ def build_fmu(
     if inadmissible:
         raise BuildError(f"{damper.name}: " + "; ".join(inadmissible))
     try:
-        content = contents(damper, kind, known(platforms, fmi), archive.build_date(), progress, fmi)
+        content = contents(damper, kind, known(platforms, fmi), date=archive.build_date(), progress=progress, fmi=fmi)
     except REFUSALS as error:
         raise BuildError(str(error)) from error
     written(target, content, progress)

@@ -12,7 +12,7 @@ from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
-from twintube.caches import cache_folder, writable
+from twintube.common.caches import cache_folder, writable
 from twintube.fmu import library_cache
 from twintube.fmu.standards import STANDARDS, Standard
 
@@ -36,14 +36,14 @@ class CompilerError(RuntimeError):
 def require_compiler() -> None:
     """Raise CompilerError where ziglang is not installed."""
     if find_spec("ziglang") is None:
-        raise CompilerError("no C compiler: pip install ziglang")
+        raise CompilerError("no C compiler: pip install 'twintube[fmu]'")
 
 
 def headers() -> Path:
     """The folder with the headers of FMI 2.0 and 3.0: fmpy has them."""
     spec = find_spec("fmpy")
     if spec is None or spec.origin is None:
-        raise CompilerError("no headers of FMI: pip install fmpy")
+        raise CompilerError("no headers of FMI: pip install 'twintube[fmu]'")
     return Path(spec.origin).parent / "c-code"
 
 

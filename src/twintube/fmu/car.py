@@ -6,7 +6,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from twintube import __version__
+from twintube.common.words import printable
 from twintube.fmu import archive, licences
 from twintube.fmu.assemble import REFUSALS, BuildError, Progress, file_name, in_order, native_content, target_file, written
 from twintube.fmu.description import EXPERIMENT, PREFIX, identifier
@@ -21,7 +21,7 @@ from twintube.vehicle.full.car import WHEELS, Layout, Suspension, Tyre
 from twintube.vehicle.full.run import FullCar
 from twintube.vehicle.full.signals import BodyOutputs, DriverInputs, Start, WheelInputs, WheelOutputs
 from twintube.vehicle.quarter_car import Car
-from twintube.words import printable
+from twintube.version import __version__
 
 TITLE = (
     "Car without dampers: body, four wheels, tyres, brakes and driver; damper forces in, damper strokes and velocities out"
@@ -101,6 +101,7 @@ def build_car_fmu(
     speed: float,
     output: Path | str | None = None,
     platforms: Sequence[str] | None = None,
+    *,
     progress: Progress = lambda text: None,
     fmi: Fmi = 2,
 ) -> Path:

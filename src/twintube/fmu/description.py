@@ -6,7 +6,6 @@ import unicodedata
 from collections.abc import Mapping, Sequence
 from xml.etree import ElementTree as ET
 
-from twintube import __version__
 from twintube.core.units import DISPLAY, UNITS
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, own_values, way_of
@@ -14,6 +13,7 @@ from twintube.fmu.equations import DAMPER
 from twintube.fmu.model import Model
 from twintube.fmu.standards import STANDARDS, Standard
 from twintube.fmu.table import Variable, variables
+from twintube.version import __version__
 
 TITLE = "Twin-tube shock absorber after oil and gas loss (Schramm, Zwosta, Prokop 2025): stroke and velocity in, force out"
 # The unit has no solver: the tolerance is for importers that take theirs from here.
@@ -126,10 +126,16 @@ def serialized(root: ET.Element) -> bytes:
 
 
 def described(
-    damper: Damper, guid: str, date: str, capabilities: Mapping[str, str], sources: Sequence[str], categories: Sequence[str]
+    damper: Damper,
+    guid: str,
+    date: str,
+    capabilities: Mapping[str, str],
+    *,
+    sources: Sequence[str],
+    categories: Sequence[str],
 ) -> bytes:
     """The model description of a damper, see `described_model`."""
-    return described_model(damper_model(damper), guid, date, capabilities, sources, categories)
+    return described_model(damper_model(damper), guid, date, capabilities, sources=sources, categories=categories)
 
 
 def damper_model(damper: Damper) -> Model:
@@ -157,7 +163,7 @@ def begin_lists(root: ET.Element, model: Model, categories: Sequence[str]) -> No
 
 
 def described_model(
-    model: Model, guid: str, date: str, capabilities: Mapping[str, str], sources: Sequence[str], categories: Sequence[str]
+    model: Model, guid: str, date: str, capabilities: Mapping[str, str], *, sources: Sequence[str], categories: Sequence[str]
 ) -> bytes:
     """The model description; `capabilities` of the kind are added to those of both, `sources` are what is to be compiled."""
     root = ET.Element("fmiModelDescription", {"fmiVersion": "2.0", "guid": guid, **origin(model, date)})

@@ -5,7 +5,7 @@ import io
 from dataclasses import fields
 from html import escape
 
-from twintube import __version__
+from twintube.common.words import printable
 from twintube.core.effects import Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
@@ -13,7 +13,7 @@ from twintube.dampers.freed_gas import OWN, acting
 from twintube.fmu import reference, related
 from twintube.fmu.platforms import Fmi
 from twintube.fmu.table import Variable, variables
-from twintube.words import printable
+from twintube.version import __version__
 
 STYLE = (
     "body{font-family:sans-serif;max-width:70em;padding:0 1.5em;margin:2em auto;color:#222;line-height:1.4}"

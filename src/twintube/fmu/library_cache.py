@@ -5,9 +5,9 @@ A library goes into FMUs that others execute, so a damaged file is deleted and c
 
 from pathlib import Path
 
-from twintube.caches import cache_folder
+from twintube.common.caches import cache_folder
+from twintube.common.files import write_bytes
 from twintube.engine.code_cache import VOUCHED, vouch, vouched
-from twintube.files import write_bytes
 
 KEPT = 400  # libraries of about 50 kB; the oldest are deleted beyond
 

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from twintube import __version__
-from twintube.files import replacing
+from twintube.common.files import replacing
 from twintube.fmu import archive
 from twintube.fmu.assemble import BuildError, Progress, build_fmu
 from twintube.fmu.car import build_car_fmu, car_model
@@ -18,6 +17,7 @@ from twintube.fmu.ssv import STANDARD, define_units, parameter_set, to_ssv
 from twintube.fmu.standards import INSIDE, STANDARDS
 from twintube.vehicle.full.car import WHEELS
 from twintube.vehicle.full.run import FullCar
+from twintube.version import __version__
 
 OMS = "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"
 STEP = "0.001"  # [s]
@@ -28,7 +28,7 @@ EXCHANGED = (*TO_DAMPER, *TO_CAR)
 
 
 def add_component(
-    elements: ET.Element, name: str, model: Model, wanted: Sequence[str] | None, used: set[str], ssp: Ssp
+    elements: ET.Element, name: str, model: Model, *, wanted: Sequence[str] | None, used: set[str], ssp: Ssp
 ) -> None:
     """Add an FMU with its parameters and the connectors that are `wanted`, by default all inputs and outputs."""
     number, _ = STANDARDS[INSIDE[ssp]].types
@@ -80,9 +80,9 @@ def structure(car: FullCar, speed: float, ssp: Ssp) -> bytes:
     elements, connections = ET.SubElement(system, "ssd:Elements"), ET.SubElement(system, "ssd:Connections")
     used: set[str] = set()
     # Inputs of driver and road stay open: ecos refuses connections to the outside of the system.
-    add_component(elements, CAR, car_model(car, speed), None, used, ssp)
+    add_component(elements, CAR, car_model(car, speed), wanted=None, used=used, ssp=ssp)
     for wheel, damper in zip(WHEELS, car.dampers, strict=True):
-        add_component(elements, wheel, damper_model(damper), EXCHANGED, used, ssp)
+        add_component(elements, wheel, damper_model(damper), wanted=EXCHANGED, used=used, ssp=ssp)
         connect(connections, wheel)
     annotate(system)
     define_units(ET.SubElement(root, "ssd:Units"), used)
@@ -117,6 +117,7 @@ def build_ssp(
     speed: float,
     output: Path | str,
     platforms: Sequence[str] | None = None,
+    *,
     progress: Progress = lambda text: None,
     ssp: Ssp = 1,
 ) -> Path:
@@ -133,7 +134,7 @@ def build_ssp(
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         progress("the car")
-        units = {CAR: build_car_fmu(car, speed, folder / f"{CAR}.fmu", platforms, progress, fmi)}
+        units = {CAR: build_car_fmu(car, speed, folder / f"{CAR}.fmu", platforms, progress=progress, fmi=fmi)}
         for wheel, damper in zip(WHEELS, car.dampers, strict=True):
             progress(f"the damper {wheel}")
             units[wheel] = build_fmu(damper, folder / f"{wheel}.fmu", platforms=platforms, progress=progress, fmi=fmi)

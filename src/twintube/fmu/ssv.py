@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
-from twintube import __version__
+from twintube.common.words import printable
 from twintube.core.units import UNITS
 from twintube.dampers import Damper
 from twintube.fmu.description import damper_model, number
 from twintube.fmu.platforms import Ssp
 from twintube.fmu.standards import INSIDE, STANDARDS
 from twintube.fmu.table import Variable, array_name, lengths
-from twintube.words import printable
+from twintube.version import __version__
 
 STANDARD = "http://ssp-standard.org/SSP1/SystemStructure"
 

@@ -15,7 +15,7 @@ import tempfile
 from importlib.resources import files
 from pathlib import Path
 
-from twintube.files import write_text
+from twintube.common.files import write_text
 from twintube.fmu.equations import CAR, DAMPER, Equations, joined_source, marked
 
 NATIVE = Path(str(files("twintube.fmu_sources"))) / "native"

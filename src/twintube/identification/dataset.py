@@ -7,7 +7,9 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
+from twintube.common.showing import data_frame, picture
+from twintube.common.words import listed
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import as_before, as_published
 from twintube.data import LoadedDataset, Record, load_dataset, require_fills
@@ -23,8 +25,6 @@ from twintube.identification.pressure import at_one_pressure
 from twintube.identification.remarks import EQUAL_SPEEDS, SINGLE, continuation, noisy, reach, signs
 from twintube.identification.validation import Validated, intact, validate_drives, validate_harmonic
 from twintube.identification.workflow import PAPER, Budget, Identification, identify_damper
-from twintube.showing import picture, table
-from twintube.words import listed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -64,7 +64,7 @@ class Result:
         ]  # fmt: skip
         forces, works = ("force_rmse", "force_peak"), ("first", "first_simulated", "last", "last_simulated")
         units = {"top_speed": "m/s"} | dict.fromkeys(forces, "N") | {f"work_{which}": "J" for which in works}
-        return table(rows, units, index="record")
+        return data_frame(rows, units, index="record")
 
     def plot(self) -> Figure:
         """Draw the work of each oscillation, measured and simulated, as a figure of pyplot."""
@@ -88,7 +88,7 @@ def identify(
 
     Args:
         path: a folder with dataset.toml and its records, or that file.
-        method: de searches all parameters together; pso (the paper's) or cma first take the paper's steps.
+        method: de searches all parameters together; pso (the paper's) first takes the paper's steps.
         budget: PAPER, QUICK or a Budget: how long to search.
         seed: of all random numbers.
         journal: a folder that makes a killed run resumable.
@@ -148,9 +148,8 @@ def identify_dataset(
     )  # fmt: skip
     measured = whole
     levels = sorted({h.oil_level for h in sines if not h.intact}, reverse=True)
-    damper = with_origin(
-        replace(result.damper, measured_levels=tuple(levels)), dataset, result, method, seed, len(fitted), reach(measured)
-    )
+    damper = replace(result.damper, measured_levels=tuple(levels))
+    damper = with_origin(damper, dataset, result, method=method, seed=seed, fitted=len(fitted), top=reach(measured))
     result = replace(result, damper=damper)
     rows = [validate_harmonic(damper, h, kind, result.offset) for h, kind in zip(sines, split, strict=True)]
     result = replace(result, damper=as_before(damper, given))
@@ -195,7 +194,7 @@ def splits(records: Sequence[Harmonic], stated: dict[str, str | None]) -> tuple[
 
 
 def with_origin(
-    damper: Damper, dataset: LoadedDataset, result: Identification, method: str, seed: int, fitted: int, top: float
+    damper: Damper, dataset: LoadedDataset, result: Identification, *, method: str, seed: int, fitted: int, top: float
 ) -> Damper:
     """The damper with where its values come from; its F-v curve was measured up to `top` [m/s]."""
     origin = f"identified from '{dataset.title}': {fitted} harmonic records"

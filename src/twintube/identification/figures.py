@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from twintube.common.words import counted
 from twintube.core.effects import Parameters
-from twintube.data.condition import is_intact
+from twintube.data.records.condition import is_intact
 from twintube.identification.dataset import Result
 from twintube.identification.judgement import judgement, next_step
 from twintube.identification.remarks import EQUAL_SPEEDS
 from twintube.identification.validation import Validated
-from twintube.words import counted
 
 
 def unit(name: str) -> str:

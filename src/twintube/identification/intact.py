@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.kernel import fluid_force, stribeck
 from twintube.core.variables import FV_POINTS
 from twintube.dampers import Damper

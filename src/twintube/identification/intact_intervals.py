@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from scipy.stats import norm, t
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import effects
 from twintube.fitting.least_squares import sandwich
 from twintube.identification.uncertainty import LEVEL, Estimate, variance

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from twintube.common.words import counted, listed
 from twintube.identification.dataset import Result
 from twintube.identification.remarks import reach
 from twintube.identification.validation import Validated
-from twintube.words import counted, listed
 
 # An effect is told from an error of a third of it: three standard deviations, the usual limit of detection.
 TOLD = 1 / 3

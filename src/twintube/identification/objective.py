@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.dampers import Damper
 from twintube.engine.simulate import InputError, checked

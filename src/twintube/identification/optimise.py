@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.fitting.journal import Journal, Objective
 
 
@@ -37,19 +37,6 @@ def pso(journal: Journal, bounds: Array, population: int, generations: int, seed
     return journal.x[None]
 
 
-def cma_es(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> Array:
-    """CMA-ES of the package cma, in the unit cube, from its middle."""
-    import cma
-
-    width = bounds[:, 1] - bounds[:, 0]
-    options = {"bounds": [0, 1], "popsize": population, "seed": seed + 1, "verbose": -9, "maxiter": generations}
-    strategy = cma.CMAEvolutionStrategy(np.full(len(bounds), 0.5), 0.3, options)
-    while journal.generation < generations and not strategy.stop():
-        asked = strategy.ask()
-        strategy.tell(asked, journal(bounds[:, 0] + np.array(asked) * width).tolist())
-    return journal.x[None]
-
-
 def de(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> Array:
     """Differential evolution of scipy, without polishing."""
     from scipy.optimize import differential_evolution
@@ -62,7 +49,7 @@ def de(journal: Journal, bounds: Array, population: int, generations: int, seed:
     return np.asarray(found.population[np.argsort(found.population_energies, kind="stable")])
 
 
-METHODS = {"de": de, "pso": pso, "cma": cma_es}
+METHODS = {"de": de, "pso": pso}
 DEFAULT = "de"  # of every door; docs/identification.md says what was measured
 
 

@@ -3,9 +3,9 @@
 from collections import Counter
 from collections.abc import Sequence
 
+from twintube.common.words import listed
 from twintube.data import Record
 from twintube.fitting.harmonic import Harmonic
-from twintube.words import listed
 
 BAR = 1e5  # [Pa]
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset
-from twintube.data.signs import AS_STATED, SIGNS, TURNED, errors
+from twintube.data.records.signs import AS_STATED, SIGNS, TURNED, errors
 from twintube.engine.simulate import simulate
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.prediction import state

@@ -4,7 +4,7 @@ Force = F-v curve + friction + gas spring is linear in all but the stroke over w
 squares for the linear part inside a search over that length (variable projection).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 from scipy.optimize import lsq_linear, minimize_scalar
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import effects
 from twintube.core.kernel import stribeck
 from twintube.dampers import Damper
@@ -26,6 +26,7 @@ from twintube.identification.uncertainty import Estimate
 KNOTS = 8  # of each branch, spaced evenly in the logarithm
 SLOWEST = 0.05  # first knot as a share of the largest velocity
 REVERSAL = (1e-6, 5e-3)  # [m] length over which the friction reverses, F_FrS / sigma_0
+LENGTHS = np.log(np.geomspace(*REVERSAL, 16))
 MOST = 4000  # samples of a record that the fit takes, evenly spread
 NUDGE = 0.05  # of the logarithm of that length, for a derivative
 TOUCHING = 1e-9  # from a bound [N, N/m]
@@ -110,17 +111,10 @@ def identify_sines(damper: Damper, records: Sequence[Harmonic]) -> SineFit:
         fit = lsq_linear(A, np.append(known, shown), bounds=(lower, np.inf))
         return float(np.sqrt(max(0.0, 2 * fit.cost + rest @ rest - shown**2))), fit.x
 
-    # A coarse scan first, as the error over the length may have more than one valley.
-    grid = np.log(np.geomspace(*REVERSAL, 16))
-    refuse_friction(float(solved(grid[len(grid) // 2])[1][-1]))
-    errors = [solved(x)[0] for x in grid]
-    best = int(np.argmin(errors))
-    search = minimize_scalar(
-        lambda x: solved(x)[0], bounds=(grid[max(0, best - 1)], grid[min(len(grid) - 1, best + 1)]), method="bounded"
-    )
-    rmse, x = solved(float(search.x))
+    refuse_friction(float(solved(LENGTHS[len(LENGTHS) // 2])[1][-1]))
+    log_length = least(lambda x: solved(x)[0])
+    rmse, x = solved(log_length)
     F_0, c_gas, F_FrS = (float(value) for value in x[2 * KNOTS :])
-    log_length = float(search.x)
     up, down = (rubbed(log_length + side * NUDGE) for side in (1, -1))
     columns = np.column_stack([fixed, rubbed(log_length), F_FrS * (up - down) / (2 * NUDGE)])
     C = covariance(
@@ -128,15 +122,27 @@ def identify_sines(damper: Damper, records: Sequence[Harmonic]) -> SineFit:
         [(r.marks - r.marks[0]) // (s.step or 1) for r, s in zip(records, spans, strict=True)],
     )[2 * KNOTS :, 2 * KNOTS :]  # fmt: skip
     offset, F_0 = max(0.0, -F_0), max(0.0, F_0)
-    forces = [np.cumsum(x[:KNOTS]).tolist(), np.cumsum(x[KNOTS : 2 * KNOTS]).tolist()]
-    rebound, compression = (continued(list(zip(knots.tolist(), branch, strict=True))) for branch in forces)
     sigma_0 = min(1e8, max(1.0, F_FrS / float(np.exp(log_length))))
     values = {"F_FrS": F_FrS, "sigma_0": sigma_0, "F_0": F_0, "c_gas": c_gas}
-    fitted = damper.with_(
-        v_re=[a for a, _ in rebound], F_re=[b for _, b in rebound],
-        v_co=[a for a, _ in compression], F_co=[b for _, b in compression], delta_D=1.0, **values,
-    )  # fmt: skip
+    fitted = damper.with_(**curve(knots, x[: 2 * KNOTS]), delta_D=1.0, **values)
     return SineFit(fitted, rmse, offset, of_sines(values, C))
+
+
+def least(error: Callable[[float], float]) -> float:
+    """Logarithm of the length of the least error; a coarse scan first, as the error may have more than one valley."""
+    best = int(np.argmin([error(x) for x in LENGTHS]))
+    ends = LENGTHS[max(0, best - 1)], LENGTHS[min(len(LENGTHS) - 1, best + 1)]
+    return float(minimize_scalar(error, bounds=ends, method="bounded").x)
+
+
+def curve(knots: Array, rises: Array) -> dict[str, list[float]]:
+    """The parameters of an F-v curve that rises from knot to knot (k,) [m/s] by forces (2 k,) [N], rebound first."""
+    forces = [np.cumsum(branch).tolist() for branch in np.split(rises, 2)]
+    rebound, compression = (continued(list(zip(knots.tolist(), branch, strict=True))) for branch in forces)
+    return {
+        "v_re": [a for a, _ in rebound], "F_re": [b for _, b in rebound],
+        "v_co": [a for a, _ in compression], "F_co": [b for _, b in compression],
+    }  # fmt: skip
 
 
 def refuse_friction(F_FrS: float) -> None:

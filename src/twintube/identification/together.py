@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.fitting.least_squares import bounded, derivatives
 from twintube.identification.objective import Objective
 from twintube.identification.optimise import Best, minimise

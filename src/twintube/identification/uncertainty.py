@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from scipy.stats import norm
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.fitting.journal import Journal
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
 from twintube.identification.objective import Objective

@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.data import Record
-from twintube.data.condition import is_intact
+from twintube.data.records.condition import is_intact
 from twintube.fitting.harmonic import Harmonic
 from twintube.fitting.prediction import calm, driven, predicted
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
+from twintube.common.showing import data_frame
 from twintube.core.effects import Parameters
 from twintube.dampers import Damper
 from twintube.dampers.variants import NO_CAVITATION, NO_FOAM
@@ -23,13 +24,13 @@ from twintube.identification.sines import identify_sines
 from twintube.identification.together import VALLEYS, search, together
 from twintube.identification.uncertainty import Estimate, estimates, polished
 from twintube.provenance import fingerprint
-from twintube.showing import table
 
 if TYPE_CHECKING:
     import pandas as pd
 
 SLOW = 0.53  # Table 6 is fitted to records up to 0.5 m/s, which is the bench's 0.524 m/s
 TOGETHER = "all together"
+HARDLY_APART = 0.9  # correlation of two parameters that the records hardly tell apart
 Slow = tuple[Array, Array]  # stroke [m] and force [N] of a quasi-static record
 
 
@@ -37,7 +38,7 @@ Slow = tuple[Array, Array]  # stroke [m] and force [N] of a quasi-static record
 class Budget:
     """Population and generations of the searches, walkers and steps of the intervals.
 
-    The first two are those of the paper's steps, which only the methods pso and cma take.
+    The first two are those of the paper's steps, which only the method pso takes.
     """
 
     table_6: tuple[int, int]
@@ -89,14 +90,14 @@ class Identification:
             }
             for e in self.estimates
         ]  # fmt: skip
-        return table(rows, index="name")
+        return data_frame(rows, index="name")
 
     def __repr__(self) -> str:
         known = sum(e.determined for e in self.estimates)
         return f"<Identification: {self.damper.name}, {known} of {len(self.estimates)} parameters determined>"
 
 
-def identify_damper(
+def identify_damper(  # noqa: PLR0913 - records of four kinds, and how they are searched
     damper: Damper,
     slow: Slow | None,
     intact: Sequence[Harmonic],
@@ -117,7 +118,7 @@ def identify_damper(
         intact: harmonic records of the intact damper; without any, F-v curve, friction and gas spring stay.
         degraded: harmonic records of degraded states; without any, only the intact damper is identified.
         slow_lost: oil level and quasi-static record of states without preload.
-        method: de searches all parameters together; pso or cma first take the third and fourth step of the paper.
+        method: de searches all parameters together; pso first takes the third and fourth step of the paper.
         budget: how long to search.
         seed: of all random numbers.
         journal: a folder that makes a killed run resumable.
@@ -133,37 +134,17 @@ def identify_damper(
     if not degraded:
         remarks.append("no degraded record: only the intact damper is identified")
         return Identification(damper, [], known, [], offset, remarks)
-    steps: list[Step] = []
-
-    def told(title: str) -> Callable[[float], None] | None:
-        return None if progress is None else lambda error: progress(title, error)
-
-    def kept(title: str, objective: Objective, best: Best) -> Array:
-        steps.append(Step(title, objective.names, best, "N + J" if objective.with_work else "N"))
-        return best.x
-
-    def alone(title: str, objective: Objective, size: tuple[int, int]) -> Array:
-        file = journal_file(journal, len(steps), objective)
-        return kept(title, objective, search(objective, size, method=method, seed=seed, journal=file, progress=told(title)))
-
+    run = Searches(method, seed, journal, progress)
     starts: list[Array] = []
-    if method != DEFAULT:  # the third and fourth step of the paper
-        calm = [r for r in degraded if r.top_speed <= SLOW]
-        if calm:
-            bare = Objective(damper.with_(**NO_FOAM, **NO_CAVITATION), TABLE_6, calm, with_work=False)
-            x = alone("Table 6", bare, budget.table_6)
-            damper = damper.with_(**dict(zip(TABLE_6, x.tolist(), strict=True)))
-        else:
-            remarks.append(f"no degraded record up to {SLOW} m/s: Table 6 is fitted together with the others")
-        full = Objective(damper, TABLES_7_8, degraded, with_work=True)
-        damper = full.damper_at(alone("Tables 7 and 8", full, budget.tables_7_8))
+    if method != DEFAULT:
+        damper = run.as_in_the_paper(damper, degraded, budget, remarks)
         starts = [np.array([getattr(damper.parameters, name) for name in DEGRADATION])]
     # The third step leaves out foam, which its own records may hold, and the fourth cannot undo that.
     names = DEGRADATION
     every = Objective(damper, names, degraded, with_work=True)
-    file = journal_file(journal, len(steps), every)
-    best = together(every, budget.together, seed=seed, starts=starts, journal=file, progress=told(TOGETHER))
-    candidates = [kept(TOGETHER, every, best)]
+    file, told = run.file(every), run.told(TOGETHER)
+    best = together(every, budget.together, seed=seed, starts=starts, journal=file, progress=told)
+    candidates = [run.kept(TOGETHER, every, best)]
     fine = Objective(damper, names, degraded, with_work=True, samples=FINE)
     candidates.append(polished(fine, candidates[0]))
     x = candidates[int(np.argmin(fine(np.array(candidates))))]
@@ -171,17 +152,63 @@ def identify_damper(
     moved = np.abs(polished(every, x) - x)
     every = every.corrected(fine, x)
     intervals, related = estimates(
-        every, x, moved, walkers=budget.intervals[0], steps=budget.intervals[1], seed=seed,
-        journal=journal_file(journal, len(steps), every),
-        progress=told("intervals"),
+        every, x, moved, walkers=budget.intervals[0], steps=budget.intervals[1], seed=seed, journal=run.file(every),
+        progress=run.told("intervals"),
     )  # fmt: skip
-    pairs = [
-        (names[i], names[j], float(related[i, j]))
-        for i in range(len(names))
+    return Identification(every.damper_at(x), run.steps, known + intervals, alike(intervals, related), offset, remarks)
+
+
+def alike(intervals: Sequence[Estimate], related: Array) -> list[tuple[str, str, float]]:
+    """Pairs of DEGRADATION that the records determine but hardly tell apart, with their correlation."""
+    return [
+        (DEGRADATION[i], DEGRADATION[j], float(related[i, j]))
+        for i in range(len(DEGRADATION))
         for j in range(i)
-        if abs(related[i, j]) > 0.9 and intervals[i].determined and intervals[j].determined
+        if abs(related[i, j]) > HARDLY_APART and intervals[i].determined and intervals[j].determined
     ]
-    return Identification(every.damper_at(x), steps, known + intervals, pairs, offset, remarks)
+
+
+@dataclass(frozen=True)
+class Searches:
+    """The searches of an identification, one after the other, and what they found."""
+
+    method: str
+    seed: int
+    journal: Path | None
+    progress: Callable[[str, float], None] | None
+    steps: list[Step] = field(default_factory=list)
+
+    def file(self, objective: Objective) -> Path | None:
+        """The journal of the next step."""
+        return journal_file(self.journal, len(self.steps), objective)
+
+    def told(self, title: str) -> Callable[[float], None] | None:
+        """What a step of this title calls after each generation."""
+        progress = self.progress
+        return None if progress is None else lambda error: progress(title, error)
+
+    def kept(self, title: str, objective: Objective, best: Best) -> Array:
+        """Keep a step; its values (k,)."""
+        self.steps.append(Step(title, objective.names, best, "N + J" if objective.with_work else "N"))
+        return best.x
+
+    def alone(self, title: str, objective: Objective, size: tuple[int, int]) -> Array:
+        """A search of its own; its values (k,)."""
+        file, told = self.file(objective), self.told(title)
+        best = search(objective, size, method=self.method, seed=self.seed, journal=file, progress=told)
+        return self.kept(title, objective, best)
+
+    def as_in_the_paper(self, damper: Damper, degraded: Sequence[Harmonic], budget: Budget, remarks: list[str]) -> Damper:
+        """The damper after the third and fourth step of the paper."""
+        calm = [r for r in degraded if r.top_speed <= SLOW]
+        if calm:
+            bare = Objective(damper.with_(**NO_FOAM, **NO_CAVITATION), TABLE_6, calm, with_work=False)
+            x = self.alone("Table 6", bare, budget.table_6)
+            damper = damper.with_(**dict(zip(TABLE_6, x.tolist(), strict=True)))
+        else:
+            remarks.append(f"no degraded record up to {SLOW} m/s: Table 6 is fitted together with the others")
+        full = Objective(damper, TABLES_7_8, degraded, with_work=True)
+        return full.damper_at(self.alone("Tables 7 and 8", full, budget.tables_7_8))
 
 
 def journal_file(folder: Path | None, number: int, objective: Objective) -> Path | None:

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.inspection import figures, tiring
 from twintube.inspection.plate import Motion, Plate, motion
@@ -63,7 +63,7 @@ def pushed(damper: Damper, car: Car, depth: float, dt: float = DT) -> tuple[Arra
     push = force * np.clip((time - SETTLE) / PRESS, 0.0, 1.0)
     push[released:] = 0.0
     still = np.zeros(len(time))
-    run = drive(damper, car, still, dt, push, still, preconditioned=True)
+    run = drive(damper, car, still, dt, push=push, rates=still, preconditioned=True)
     # The tyre's damping is below 1 % of its force at the body's frequency.
     wheel = (static_load(car) - run.wheel_load) / car.c_tyre
     return run.stroke / car.ratio + wheel, released
@@ -93,6 +93,7 @@ def read(
     car: Car,
     methods: tuple[str, ...],
     setting: Setting,
+    *,
     noise: int | None = None,
     dt: float = DT,
 ) -> dict[str, float]:
@@ -126,6 +127,6 @@ def read(
         def by_sensor(velocity: Array) -> Array:
             return sensed(3, velocity, setting.velocity_noise)
 
-        shaken = tiring.runs(damper, car, setting.shaker, dt, setting.fade, by_sensor)
+        shaken = tiring.runs(damper, car, setting.shaker, dt, fade=setting.fade, measured=by_sensor)
         found["tiring"] = max(run.growth for run in shaken)
     return {name: found[name] for name in methods}

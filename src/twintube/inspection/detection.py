@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.common.arrays import Array, freeze_arrays
+from twintube.common.processes import pool
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.engine.simulate import InputError
@@ -20,7 +21,6 @@ from twintube.inspection.methods import METHODS, USUAL, Method
 from twintube.inspection.plate import Plate
 from twintube.inspection.scatter import Sample, samples
 from twintube.inspection.tiring import PLATES
-from twintube.processes import pool
 from twintube.vehicle.cars import CarSet
 
 FALSE_ALARMS = 0.05
@@ -125,7 +125,7 @@ def figures(
     car, setting, made = job.sample.corner(job.damper, vehicle), job.sample.setting(plates), job.sample.made(job.damper)
     for state in states:
         # The same noise for every state: what differs is the damper.
-        row = relative(read(state.applied(made), car, methods, setting, job.sample.seed), job.reference)
+        row = relative(read(state.applied(made), car, methods, setting, noise=job.sample.seed), job.reference)
         rows.append([row[name] for name in methods])
     return rows
 
@@ -136,7 +136,7 @@ def check_count(count: int) -> None:
         raise InputError(f"samples = {count}: must be from {FEWEST} to {MOST}")
 
 
-def study(
+def study(  # noqa: PLR0913 - what is studied, and how it is run
     dampers: Sequence[Damper],
     vehicle: CarSet,
     states: Iterable[Condition],

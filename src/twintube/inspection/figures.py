@@ -2,13 +2,14 @@
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.inspection.plate import Cycles, Motion, cycles
 
 ABOVE_BODY = 2.0  # [Hz] bodies of cars swing at 1 to 1.6 Hz
+LARGEST_SHARE = 2.0  # of the wheel's resonance
 # Other readings of the window between the resonances: lower end [Hz], below the wheel's resonance where it is negative;
-# upper end as a share of that resonance, or in Hz where it is above 2. 6 and 18 Hz and 5 Hz below the resonance are the
-# MinCalcFreq, MaxCalcFreq and DeltaF of SPECSUS2018 in two public programs (donfreerk/shock_tester,
+# upper end as a share of that resonance, or in Hz where it is above LARGEST_SHARE. 6 and 18 Hz and 5 Hz below the resonance
+# are the MinCalcFreq, MaxCalcFreq and DeltaF of SPECSUS2018 in two public programs (donfreerk/shock_tester,
 # 0wojtaszek0/Modele-inzynieryjne); how the standard joins them is not public.
 WINDOWS = {
     "2 Hz to the wheel": (ABOVE_BODY, 1.0),
@@ -36,7 +37,7 @@ def phase_shift(measured: Cycles, window: str = READING) -> float:
     """
     low, high = WINDOWS[window]
     low = low if low > 0.0 else measured.wheel_frequency + low
-    end = high if high > 2.0 else high * measured.wheel_frequency
+    end = high if high > LARGEST_SHARE else high * measured.wheel_frequency
     inside = (measured.frequency >= low) & (measured.frequency <= end)
     inside[np.argmin(np.abs(measured.frequency - low))] |= not inside.any()
     return max(0.0, float(measured.phase[inside].min()))

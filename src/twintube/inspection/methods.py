@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
+from twintube.common.words import listed
 from twintube.dampers import ParameterError
 from twintube.inspection import tiring
-from twintube.words import listed
 
 EUSAMA_CLASSES = ((20.0, "poor"), (40.0, "weak"), (60.0, "fair"), (float("inf"), "good"))  # up to, and its name
 

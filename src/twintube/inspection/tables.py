@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Sequence
 
+from twintube.common.readable import unit_of
 from twintube.inspection.methods import METHODS
 from twintube.inspection.scatter import RANGES, Range
-from twintube.readable import unit_of
 
 METHOD_HEAD = ("method", "figure", "limit", "source", "how sure")
 RANGE_HEAD = ("what scatters", "from", "to", "basis", "reason")

@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.common.arrays import Array, freeze_arrays
 from twintube.dampers import Damper
 from twintube.dampers.variants import self_heating
 from twintube.engine.simulate import work_between
@@ -157,6 +157,7 @@ def runs(
     car: Car,
     plates: Iterable[Plate],
     dt: float,
+    *,
     fade: float = 0.0,
     measured: Callable[[Array], Array] = lambda velocity: velocity,
 ) -> list[Tired]:

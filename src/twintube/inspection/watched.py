@@ -52,7 +52,7 @@ def says(first: Tired, again: Tired) -> str:
 
 def watched(by_way: Mapping[str, Damper], car: Car, setting: Setting, dt: float) -> Watched:
     """The damper as each way of the freed gas makes it; raises InputError if a piston leaves its tube."""
-    found = {name: runs(damper, car, setting.shaker, dt, setting.fade) for name, damper in by_way.items()}
+    found = {name: runs(damper, car, setting.shaker, dt, fade=setting.fade) for name, damper in by_way.items()}
     first = next(iter(by_way))
     rested = {
         name: twice(by_way[name], car, several[-1].plate, dt, setting.fade)

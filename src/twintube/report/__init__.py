@@ -1,4 +1,14 @@
-"""Reports as HTML pages with pictures: the paper's figures reproduced, an identification, a diagnosis.
+"""Pages and pictures, a room for each command that shows them.
 
-Nothing is imported here: the reproduction needs the extras of identification and formats, the page of a diagnosis does not.
+    diagnosis            `twintube diagnose`
+    identification       `twintube identify`
+    car                  `twintube car` and `twintube car-sensitivity`
+    inspection           `twintube inspect`
+    paper                `twintube paper figures`
+    monitor.py           `twintube monitor`
+    simulated_record.py  `twintube simulate`
+    plot.py              the method `plot()` of results
+    common               what all pages share
+
+Nothing is imported here: the figures of the paper need the extras identify and formats, other pages need neither.
 """

@@ -7,16 +7,18 @@ from functools import partial
 import numpy as np
 from matplotlib.figure import Figure
 
+from twintube.common.words import counted, listed
 from twintube.driving.channels import NAMES, PLACES
 from twintube.driving.model import FLEET, REFERENCE
 from twintube.driving.monitor import FINE, STATES, WATCH, WORN_OUT, Answer, Watched, meaning
 from twintube.driving.spectra import HOP
-from twintube.report import style
-from twintube.report.page import Headline, Picture, Section, Table, html
-from twintube.words import counted, listed
+from twintube.report.common import style
+from twintube.report.common.html_page import Headline, Picture, Section, Table, html
+from twintube.report.common.probabilities import LEAST, MOST
 
 COLOURS = {FINE: style.GREEN, WATCH: style.ORANGE, WORN_OUT: style.RED}
 MARKS = {FINE: "yes", WATCH: "warn", WORN_OUT: "no"}
+LOWEST, HIGHEST = 0.5, 24.0  # [Hz] of the spectra that are drawn: from below the body to above the wheels
 BESIDE = {REFERENCE: "the same car in its good state", FLEET: "the cars of the training, as no reference was given"}
 CAPTION = (
     "What each wheel speed shows over frequency; shaded: wheel hop. Where a damper has lost its damping, the wheel swings "
@@ -37,7 +39,7 @@ def damper(place: str) -> str:
 
 def percent(probability: float) -> str:
     """A probability in words; none is certain."""
-    return "below 1 %" if probability < 0.01 else "above 99 %" if probability > 0.99 else f"{100 * probability:.0f} %"
+    return "below 1 %" if probability < LEAST else "above 99 %" if probability > MOST else f"{100 * probability:.0f} %"
 
 
 def sentence(answer: Answer) -> str:
@@ -70,7 +72,7 @@ def remark(answer: Answer) -> str:
 def spectra(answer: Answer, narrow: bool = False) -> Figure:
     """What each wheel speed shows, in the places of the wheels."""
     figure, axes = style.grid(4, (4.6, 2.6), narrow, most=2, sharex=True, sharey=True)
-    shown = (answer.frequency >= 0.5) & (answer.frequency <= 24.0)
+    shown = (answer.frequency >= LOWEST) & (answer.frequency <= HIGHEST)
     frequency = answer.frequency[shown]
     for ax, each in zip(axes.flat, answer.dampers, strict=True):
         ax.axvspan(*HOP, color=style.FAINT, alpha=0.35, lw=0)

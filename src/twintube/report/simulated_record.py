@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
-from twintube.data.cycles import cycle_starts
-from twintube.report.style import GREY, INK, RED, canvas, legend_above, plain, png, title
+from twintube.common.arrays import Array
+from twintube.data.check.cycles import cycle_starts
+from twintube.report.common.style import GREY, INK, RED, canvas, legend_above, plain, png, title
 
 MOST_POINTS = 200_000  # of a line in the picture
 
@@ -65,12 +65,13 @@ def picture(
     time: Array,
     stroke: Array,
     velocity: Array,
+    *,
     simulated: Array,
     measured: Array | None,
     usable: NDArray[np.bool_],
 ) -> bytes:
     """PNG: stroke and force over time, force over stroke and over velocity; SI arrays (n,)."""
-    return png(figure(name, time, stroke, velocity, simulated, measured, usable))
+    return png(figure(name, time, stroke, velocity, simulated=simulated, measured=measured, usable=usable))
 
 
 def figure(
@@ -78,6 +79,7 @@ def figure(
     time: Array | None,
     stroke: Array,
     velocity: Array,
+    *,
     simulated: Array,
     measured: Array | None,
     usable: NDArray[np.bool_],

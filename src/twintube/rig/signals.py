@@ -8,10 +8,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.common.arrays import Array, freeze_arrays
+from twintube.common.words import shown
 from twintube.core.checks import VELOCITY, outside
 from twintube.engine.simulate import InputError
-from twintube.words import shown
 
 OSCILLATIONS = 19
 PRECONDITIONING = 6
@@ -119,6 +119,7 @@ def harmonic_block(
     amplitude: float = AMPLITUDE,
     dt: float = 5e-4,
     rest: float = 0.0,
+    *,
     start: str = START,
     position: float = 0.0,
 ) -> Signal:
@@ -131,11 +132,11 @@ def harmonic_block(
     `velocity` is from 0.001 to 20 m/s, `amplitude` [m] from 0.1 to 500 mm, and an oscillation takes at most 30 s; raises
     InputError.
     """
-    return block(velocity, amplitude, dt, rest, start, position)
+    return block(velocity, amplitude, dt, rest, start=start, position=position)
 
 
 @lru_cache(maxsize=64)
-def block(velocity: float, amplitude: float, dt: float, rest: float, start: str, position: float) -> Signal:
+def block(velocity: float, amplitude: float, dt: float, rest: float, *, start: str, position: float) -> Signal:
     """As `harmonic_block`, which is made once for the same arguments."""
     check_block(velocity, amplitude, dt, start)
     pause, slow, phase = rest if rest > 0.0 else dt, max(dt, 2e-3), STARTS[start]

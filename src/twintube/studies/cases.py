@@ -5,8 +5,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube import __version__
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import kernel
 from twintube.core.variables import Derived, blank
 from twintube.dampers import Damper
@@ -15,6 +14,7 @@ from twintube.engine.simulate import InputError, simulate_quietly
 from twintube.provenance import fingerprint
 from twintube.rig.signals import AMPLITUDE, PRECONDITIONING, V_PRECONDITIONING, harmonic_block, oscillations
 from twintube.studies.definition import FIELDS, Signal, Study, StudyCase, StudyError
+from twintube.version import __version__
 
 RESULTS = ("work_J", "work_relative", "peak_rebound_N", "peak_compression_N")
 

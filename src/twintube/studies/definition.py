@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.effects import Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper, ParameterError

@@ -20,12 +20,12 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from tqdm import tqdm
 
-from twintube import __version__
-from twintube.arrays import Array
-from twintube.files import replacing
-from twintube.processes import MOST, pool
+from twintube.common.arrays import Array
+from twintube.common.files import replacing
+from twintube.common.processes import MOST, pool
 from twintube.studies.cases import RESULTS, chunk, version_mark
 from twintube.studies.definition import FIELDS, Study, StudyError
+from twintube.version import __version__
 
 ROW_GROUP = 65536
 CHUNKS, LARGEST_CHUNK = 512, 200

@@ -29,17 +29,17 @@ from pathlib import Path
 from typing import Any
 
 from twintube import dampers
+from twintube.common.reading import ReadError, read_toml
+from twintube.common.words import short, shown
 from twintube.core.checks import VELOCITY, outside, problems, tube_limit
 from twintube.dampers import Damper
 from twintube.dampers.damper import joined, suggestion
 from twintube.dampers.toml import FEW_UNKNOWN, line_of
-from twintube.data.motion import read_motion
+from twintube.data.records.motion import read_motion
 from twintube.engine.simulate import InputError, checked
-from twintube.reading import ReadError, read_toml
 from twintube.rig.signals import AMPLITUDE, BLOCKS, OSCILLATIONS, V_PRECONDITIONING
 from twintube.studies.definition import FIELDS, Signal, Study, StudyError
 from twintube.studies.values import bounded, flattened, strings
-from twintube.words import short, shown
 
 MAX_CASES = 1_000_000
 LONGEST_TITLE = 200  # characters
@@ -112,7 +112,7 @@ def from_content(content: dict[str, Any], text: str, file: str, folder: Path) ->
     for key, (unit, lower, upper) in AXES.items():
         if key in content:
             try:
-                axes[key] = bounded(key, content[key], unit, lower, upper, key in INTEGER)
+                axes[key] = bounded(key, content[key], unit, lower=lower, upper=upper, integer=key in INTEGER)
             except ValueError as error:
                 messages.append(line_of(text, "", key) + str(error))
     if len(axes.get("time_step", [0])) != 1:
@@ -220,7 +220,9 @@ def read_parameters(content: dict[str, Any], text: str, messages: list[str]) -> 
         else:
             meta = FIELDS[name].metadata
             try:
-                varied[name] = tuple(bounded(name, raw, meta["unit"], meta["lower"], meta["upper"], meta["integer"]))
+                varied[name] = tuple(
+                    bounded(name, raw, meta["unit"], lower=meta["lower"], upper=meta["upper"], integer=meta["integer"])
+                )
             except ValueError as error:
                 messages.append(f"{line}parameters.{error}")
     return varied

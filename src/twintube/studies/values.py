@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from twintube.common.words import listed, shown
 from twintube.core.checks import outside
 from twintube.dampers.quantity import quantity
 from twintube.studies.definition import FIELDS
-from twintube.words import listed, shown
 
 MAX_VALUES = 10_000  # of one list
 MAX_FILES = 1_000  # dampers or records
@@ -53,7 +53,7 @@ def strings(raw: Any) -> list[str]:
     return names
 
 
-def bounded(name: str, raw: Any, unit: str, lower: float | None, upper: float | None, integer: bool) -> list[float]:
+def bounded(name: str, raw: Any, unit: str, *, lower: float | None, upper: float | None, integer: bool) -> list[float]:
     """The values of an axis within their bounds; raises ValueError."""
     try:
         values = numbers(raw, unit)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.common.arrays import Array, freeze_arrays
 from twintube.core.frame import stroke_limit
 from twintube.core.variables import blank
 from twintube.dampers import Damper
@@ -51,9 +51,9 @@ def drive(
     car: Car,
     heights: Array,
     dt: float,
+    *,
     push: Array | None = None,
     rates: Array | None = None,
-    *,
     preconditioned: bool = False,
 ) -> Drive:
     """Drive over the road `heights` [m] (n,) with the time step `dt` [s] and the `rates` [m/s], with the damper in the loop.

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle import road
 
 DT = 1e-3  # [s]

@@ -18,7 +18,7 @@ def drive_signal(damper: Damper, maneuver: Maneuver, seed: int = 1) -> Signal:
     The corner of the car follows from the damper. The paper measured these strokes; here they are simulated.
     """
     height, push = wheel_input(maneuver, axle(damper), seed)
-    run = drive(damper.with_(oil_level=1.0, gas_preload=1), load_car().corner(damper), height, DT, push)
+    run = drive(damper.with_(oil_level=1.0, gas_preload=1), load_car().corner(damper), height, DT, push=push)
     t0, z0, v0 = oscillations(V_PRECONDITIONING, amplitude(damper), PRECONDITIONING, 2e-3)
     return Signal(
         time=np.concatenate([t0, t0[-1] + DT + run.time]),

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.common.arrays import Array, freeze_arrays
 from twintube.dampers import Damper
 from twintube.vehicle import road
 from twintube.vehicle.drive import Drive, drive

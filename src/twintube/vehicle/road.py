@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import signal
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.common.arrays import Array, freeze_arrays
 
 N_0 = 0.1  # reference spatial frequency [cycles/m]
 WAVINESS = 2.0

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import signal
 from scipy.special import kv
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.road import CONTACT_LENGTH, GD_N0, RUN_IN, SPACING, generate, shaping
 
 TAPS = 4096  # of the filters of what both tracks share and of what they do not: 82 m

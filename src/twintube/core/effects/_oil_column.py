@@ -159,7 +159,7 @@ def leaking_speed(p: "Parameters", side: float, C: float, way: float, F_half: fl
     return u
 
 
-def column_press(
+def column_press(  # noqa: PLR0915 - one implicit step
     p: "Parameters", s: "State", side: float, k: float, free: float, v0: float, v1: float, z: float, dz: float, dt: float
 ) -> float:
     """Carry one column over a part of a step: its force at the end, and its part of `F_mean` and `W_step` of the state.

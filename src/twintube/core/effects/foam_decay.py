@@ -19,6 +19,7 @@ DECIDES = "rests of 5, 20 and 60 s between blocks below the cavitation threshold
 NEEDS_TIME = True
 ORDER = 20
 V_USUAL = 1e-5  # [m3] foam
+NO_FOAM = 1e-15  # [m3] that goes at once
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,24 +44,24 @@ def foam_decay_phases(p: Parameters, s: Frame, way: float, dt: float) -> None:
     drained = 1.0 - math.exp(-rate * dt)
     burst = 1.0 - math.exp(-p.dry_share * rate * dt)
     # A trace of 1e-9 mL would still count as foam.
-    oil = s.V1_foam_oil if s.V1_foam < 1e-15 else drained * s.V1_foam_oil
+    oil = s.V1_foam_oil if s.V1_foam < NO_FOAM else drained * s.V1_foam_oil
     gas = max(0.0, s.V1_foam - s.V1_foam_oil)
-    gas = gas if s.V1_foam < 1e-15 else burst * gas
+    gas = gas if s.V1_foam < NO_FOAM else burst * gas
     s.V1_foam = max(0.0, s.V1_foam - oil - gas)
     s.V1_foam_oil -= oil
     s.V1_oil += oil
     s.V1_gas += gas
-    oil = s.V2_foam_oil if s.V2_foam < 1e-15 else drained * s.V2_foam_oil
+    oil = s.V2_foam_oil if s.V2_foam < NO_FOAM else drained * s.V2_foam_oil
     gas = max(0.0, s.V2_foam - s.V2_foam_oil)
-    gas = gas if s.V2_foam < 1e-15 else burst * gas
+    gas = gas if s.V2_foam < NO_FOAM else burst * gas
     s.V2_foam = max(0.0, s.V2_foam - oil - gas)
     s.V2_foam_oil -= oil
     s.V2_oil += oil
     s.V2_gas += gas
     # The reserve's gas is the rest of its volume.
-    oil = s.V3_foam_oil if s.V3_foam < 1e-15 else drained * s.V3_foam_oil
+    oil = s.V3_foam_oil if s.V3_foam < NO_FOAM else drained * s.V3_foam_oil
     gas = max(0.0, s.V3_foam - s.V3_foam_oil)
-    gas = gas if s.V3_foam < 1e-15 else burst * gas
+    gas = gas if s.V3_foam < NO_FOAM else burst * gas
     s.V3_foam = max(0.0, s.V3_foam - oil - gas)
     s.V3_foam_oil -= oil
     s.V3_oil += oil

@@ -9,7 +9,9 @@ from twintube.core.variables import Derived, Flow, Parameters, State
 ALWAYS = 1e9
 
 
-def compression(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavitating: float) -> None:
+def compression(  # noqa: PLR0915 - the equations of the paper in their order
+    p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavitating: float
+) -> None:
     """Flows of all phases and k_degr while the phases present in `s` stay the same.
 
     `foaming` and `cavitating` are the shares [1] of the step above the two threshold velocities.

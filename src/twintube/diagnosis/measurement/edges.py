@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.diagnosis.channels import period
 from twintube.diagnosis.measurement.history import logs, sudden
 from twintube.diagnosis.measurement.motion import along, between_samples, measured_again, straight_sided

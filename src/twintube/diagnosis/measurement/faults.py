@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core.checks import tube_limit
 from twintube.dampers.freed_gas import as_published
 from twintube.data import LoadedDataset, Record, check_dataset, load_dataset
-from twintube.data.signs import AS_STATED, TURNED, errors
+from twintube.data.records.signs import AS_STATED, TURNED, errors
 from twintube.diagnosis.measurement.signature import oscillating
 from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.prepare import prepare

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.diagnosis.measurement.edges import with_edges, with_noise
 from twintube.diagnosis.measurement.motion import along
 from twintube.diagnosis.problem import Problem

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len, rfft, rfftfreq
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.data import Record
 from twintube.diagnosis.measurement.outside import Signature
 from twintube.diagnosis.rules import RULES

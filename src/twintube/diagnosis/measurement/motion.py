@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import Akima1DInterpolator, CubicHermiteSpline, CubicSpline, PPoly, make_interp_spline
 from scipy.ndimage import maximum_filter1d
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES

@@ -1,6 +1,6 @@
 """Forces that stay at a limit while the model's rise: a load cell or amplifier at its limit, with noise on what it gives.
 
-A limit without noise is seen in the samples (data/defects.py) before any model is asked.
+A limit without noise is seen in the samples (data/check/defects.py) before any model is asked.
 """
 
 import itertools
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.diagnosis.measurement.outside import Signature
 from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.record import PreparedRecord

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.data import Record
-from twintube.data.defects import clipped
+from twintube.data.check.defects import clipped
 from twintube.diagnosis.measurement.line import line
 from twintube.diagnosis.measurement.outside import Signature
 from twintube.diagnosis.rules import RULES

@@ -5,11 +5,11 @@ those of a preload do; zeros do neither.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.diagnosis.measurement.faults import Fault
 from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.records.noise import BEND, SCATTER
@@ -30,22 +30,62 @@ def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
     return problem.with_drift(drift), [text] if share > RULES.small_zero else []
 
 
+@dataclass(frozen=True)
+class Courses:
+    """Ways in which the zeros may move over the records, by EVENLY, RUNNING or the record from which on they differ."""
+
+    fits: dict[int, Array]  # (r,) [N] about their mean
+    left: dict[int, float]  # [N2] that a fit leaves of the squares of the means
+    likeliest: int
+
+    @property
+    def size(self) -> float:
+        """By how much [N] the zero moves; errors are simulated less measured forces."""
+        fit = self.fits[self.likeliest]
+        return float(fit[0] - fit[-1])
+
+
 def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
     """A zero that moves in the order of the records, at once, evenly or with the time, and the problem without it.
 
     What begins with the loss of oil is no zero, but maybe the force of gas, unless it pulls the rod in.
     """
     means = problem.means(problem.errors({}) * problem.weight)
+    found = courses(problem, means)
+    if found is None or not same_everywhere(problem, means, found.fits[found.likeliest]):
+        return None, problem
+    cut = found.likeliest
+    keys_alike = (EVENLY, RUNNING) if cut in (EVENLY, RUNNING) else (cut,)
+    # What drifts all along has no zero of its own to begin with: the constant goes with it.
+    level = -found.fits[cut][0] if cut > 0 else float(means.mean())
+    several = {key: without(problem, found.fits[key] + level, key == RUNNING) for key in keys_alike}
+    cut = min(several, key=lambda key: float(apart_from_means(several[key][0]).sum()))
+    still, rate = several[cut]
+    if begins_with_a_cause(problem, still, cut) or not better(problem, still):
+        return None, problem
+    value, unit = (rate, "N/s") if cut == RUNNING else (found.size, "N")
+    spread = scattered(found.fits[cut], found.left[cut], value)
+    if cut > 0:
+        names = tuple(record.name for record in problem.records[cut:])
+        text = f"From {names[0]} on the force channel reads a constant that the records before do not have."
+        return Fault("force_offset", "Zero of the load cell", text, value, "force_offset", unit, names, spread=spread), still
+    name, how = ("zero_drift", "drifts all along,") if cut == RUNNING else ("zero_moved", "moves evenly")
+    text = f"The zero of the force channel {how} from the first record to the last."
+    return Fault("zero_drift", "Drifting zero of the load cell", text, value, name, unit, spread=spread), still
+
+
+def courses(problem: Problem, means: Array) -> Courses | None:
+    """How the zeros may move by the mean errors (r,) [N]; None with few records, or where nothing fits and matters."""
     count = len(means)
     if count < RULES.order_least:
-        return None, problem
+        return None
     rest = float(np.sum((means - means.mean()) ** 2))
     running = np.array([record.before + np.ptp(record.time) / 2 for record in problem.records])
     fits = {}
     for key, at in ((EVENLY, np.arange(count)), (RUNNING, running)):
         apart = at - at.mean()
         fits[key] = apart * float(apart @ means) / float(apart @ apart)
-    keys = [(record.oil_level, record.gas_preload) for record in problem.records]
+    keys = fills(problem)
     cuts = range(RULES.order_side, count - RULES.order_side + 1) if count > RULES.order_least else ()
     for cut in cuts:
         same = keys[cut] == keys[cut - 1]
@@ -53,46 +93,45 @@ def zero_change(problem: Problem) -> tuple[Fault | None, Problem]:
             side = np.arange(count) >= cut
             fits[cut] = np.where(side, means[side].mean(), means[~side].mean()) - means.mean()
     left = {cut: float(np.sum((means - means.mean() - fit) ** 2)) for cut, fit in fits.items()}
-    cut = min(left, key=lambda cut: left[cut])
-    size = float(fits[cut][0] - fits[cut][-1])  # errors are simulated less measured forces
+    found = Courses(fits, left, min(left, key=lambda cut: left[cut]))
     most = RULES.order_left if cuts else RULES.half * RULES.order_left  # as rare by chance with fewer records
-    if left[cut] > most * rest or abs(size) < RULES.small_force * largest(problem.records):
-        return None, problem
-    # In each state of several records the zero must move as in all.
+    if left[found.likeliest] > most * rest or abs(found.size) < RULES.small_force * largest(problem.records):
+        return None
+    return found
+
+
+def fills(problem: Problem) -> list[tuple[float, int]]:
+    """Oil level and preload of each record."""
+    return [(record.oil_level, record.gas_preload) for record in problem.records]
+
+
+def same_everywhere(problem: Problem, means: Array, fit: Array) -> bool:
+    """Whether the zero moves by `fit` (r,) [N] in each state of several records and in both directions."""
     for some in states(problem.records):
-        fit, own = (x[some] - x[some].mean() for x in (fits[cut], means))
-        if np.ptp(fits[cut][some]) > 0.0 and np.sum((own - fit) ** 2) > RULES.order_state * np.sum(own**2):
-            return None, problem
+        course, own = (x[some] - x[some].mean() for x in (fit, means))
+        if np.ptp(fit[some]) > 0.0 and np.sum((own - course) ** 2) > RULES.order_state * np.sum(own**2):
+            return False
     # A zero is the same in rebound and compression; a damper that is weaker in one more than in the other has a mean, too.
     both = by_direction(problem)
     apart = both - both.mean(axis=0)
-    if np.sum((apart - fits[cut][:, None]) ** 2) > RULES.order_state * np.sum(apart**2):
-        return None, problem
-    keys_alike = (EVENLY, RUNNING) if cut in (EVENLY, RUNNING) else (cut,)
-    # What drifts all along has no zero of its own to begin with: the constant goes with it.
-    level = -fits[cut][0] if cut > 0 else float(means.mean())
-    several = {key: without(problem, fits[key] + level, key == RUNNING) for key in keys_alike}
-    cut = min(several, key=lambda key: float(apart_from_means(several[key][0]).sum()))
-    still, rate = several[cut]
-    near = range(max(1, cut - 1), min(count, cut + 2)) if cut > 0 else range(0)
-    if any(keys[i] != keys[i - 1] for i in near):  # with another filling a cause begins, too, which leaves more than noise
-        left_apart = apart_from_means(still)[cut:] / np.maximum(still.counts[cut:], 1)
-        if np.median(left_apart) > RULES.odd_right:
-            return None, problem
+    return not np.sum((apart - fit[:, None]) ** 2) > RULES.order_state * np.sum(apart**2)
+
+
+def begins_with_a_cause(problem: Problem, still: Problem, cut: int) -> bool:
+    """Whether a zero from a record on begins with another filling, as a cause does, which leaves more than noise."""
+    keys = fills(problem)
+    near = range(max(1, cut - 1), min(len(keys), cut + 2)) if cut > 0 else range(0)
+    if not any(keys[i] != keys[i - 1] for i in near):
+        return False
+    left = apart_from_means(still)[cut:] / np.maximum(still.counts[cut:], 1)
+    return bool(np.median(left) > RULES.odd_right)
+
+
+def better(problem: Problem, still: Problem) -> bool:
+    """Whether the errors of most records that changed fall: not the means of a weaker damper, or of what hardly counts."""
     before, after = (np.add.reduceat(some.residual({}) ** 2, some.starts[:-1]) for some in (problem, still))
     moved = [not np.array_equal(a.force, b.force) for a, b in zip(problem.records, still.records, strict=True)]
-    if np.median((before - after)[moved]) <= 0.0:
-        return None, problem  # the means of a damper that is weaker, or of records that hardly count
-    spread = scattered(fits[cut], left[cut], size if cut != RUNNING else rate)
-    if cut == RUNNING:
-        text = "The zero of the force channel drifts all along, from the first record to the last."
-        return Fault("zero_drift", "Drifting zero of the load cell", text, rate, "zero_drift", "N/s", spread=spread), still
-    if cut == EVENLY:
-        text = "The zero of the force channel moves evenly from the first record to the last."
-        return Fault("zero_drift", "Drifting zero of the load cell", text, size, "zero_moved", "N", spread=spread), still
-    names = tuple(record.name for record in problem.records[cut:])
-    text = f"From {names[0]} on the force channel reads a constant that the records before do not have."
-    return Fault("force_offset", "Zero of the load cell", text, size, "force_offset", "N", names, spread=spread), still
+    return not np.median((before - after)[moved]) <= 0.0
 
 
 def scattered(zeros: Array, left: float, value: float) -> float:

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.rules import RULES
 

@@ -9,7 +9,7 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from twintube.core.checks import tube_limit
 from twintube.data import LoadedDataset, Record
-from twintube.data.defects import resolution
+from twintube.data.check.defects import resolution
 from twintube.diagnosis.records.noise import noise
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.records.thinning import thin

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-from twintube.arrays import Array
-from twintube.data.condition import is_intact
+from twintube.common.arrays import Array
+from twintube.data.records.condition import is_intact
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.core import effects
 from twintube.dampers import Damper
 from twintube.diagnosis.records.record import PreparedRecord
@@ -62,7 +62,7 @@ class SeenRecords(SimulatedRecords):
         gain, base, delay, clock, mass = (values.pop(name, x) for name, x in AS_RECORDED.items())
         z, v = self.moved(delay, clock) if delay or clock else (self.z, self.v)
         motion = (self.t / base, z / gain, v * (base / gain))
-        force, point, _ = self.sampled(self.rows(), values.items(), motion, states)
+        force, point, _ = self.sampled(self.rows(), values.items(), motion, states, side_by_side=True)
         if mass:
             accelerations = self.accelerations(motion[2])
             force, point = force + mass * accelerations[0], point + mass * accelerations[1]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 from scipy.signal import find_peaks
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.data import Record
 from twintube.diagnosis.rules import RULES
 from twintube.fitting.oscillations import beginnings, segments

@@ -8,7 +8,7 @@ import numpy as np
 import tomlkit
 from scipy.interpolate import CubicSpline
 
-from twintube.files import replacing, write_text
+from twintube.common.files import replacing, write_text
 from twintube.lab.virtual_rig.physics import Array
 from twintube.lab.virtual_rig.rig import VirtualRecord
 
@@ -41,6 +41,7 @@ class DatasetRecord:
 def measured(
     record: VirtualRecord,
     seed: int,
+    *,
     noise: float = 0.01,
     jitter: float = 0.0,
     force_offset_N: float = 0.0,

@@ -26,6 +26,7 @@ from twintube.lab.virtual_rig.physics import (
 
 RTOL = 1e-7
 ATOL = np.array([1e-12] * 13 + [1e-5, 1e-9, 1e-3])  # [m3], [degC], [m], [J]
+LOWEST = 0.05  # oil level [1] down to which the rig can be filled
 
 
 @dataclass(frozen=True)
@@ -74,6 +75,7 @@ def run(
     time: Array,
     stroke: Array,
     oil_level: float = 1.0,
+    *,
     gas_preload: bool = True,
     temperature_degC: float = 25.0,
     rtol: float = RTOL,
@@ -132,5 +134,5 @@ def check(damper: VirtualDamper, time: Array, stroke: Array, oil_level: float, c
     if np.abs(stroke).max() > longest:
         raise ValueError(f"stroke {np.abs(stroke).max():.4f} m is beyond the end stops at {longest:.4f} m")
     room = c.V_10 + c.V_20 - (c.A_2 - c.A_1) * np.abs(stroke).max() + 0.95 * c.V_3
-    if not 0.05 <= oil_level <= room / damper.V_oil:
+    if not LOWEST <= oil_level <= room / damper.V_oil:
         raise ValueError(f"oil_level {oil_level}: must be from 0.05 to {room / damper.V_oil:.3f}")

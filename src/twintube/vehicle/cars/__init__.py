@@ -42,6 +42,7 @@ METAS = {name: TABLE for name in AXLES} | {
 TABLES = {*METAS, "band", "sources", "assumed"}
 KEYS = ("name", "title", *sorted(TABLES))
 RUBBER = 0.025  # [m] compression of a rubber stop at the damper's maximum stroke
+ROUNDING = 1e-6  # of shares that add up
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ def contradictions(whole: Mapping[str, dict[str, float]]) -> list[tuple[str, str
                 if (tyre[name] > tyre[other]) if below else (tyre[name] < tyre[other]):
                     rule = f"must not be {'above' if below else 'below'} {other} = {tyre[other]:g}"
                     found.append((place, name, f"{place}.{name} = {tyre[name]:g}: {rule}"))
-    if abs(sum(axle["drive"] for axle in axles) - 1.0) > 1e-6:
+    if abs(sum(axle["drive"] for axle in axles) - 1.0) > ROUNDING:
         shares = " + ".join(f"{axle['drive']:g}" for axle in axles)
         found.append(("rear_axle", "drive", f"rear_axle.drive: the shares of both axles, {shares}, must add up to 1"))
     for name in ("steers", "brake"):

@@ -13,7 +13,7 @@ In the kernel's own subset of Python: numba compiles it with the damper.
 import math
 from collections.abc import Sequence
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.full.car import Body, BodyMotion, Wheel, WheelMotion
 from twintube.vehicle.full.tyre import roll_tyre
 from twintube.vehicle.quarter_car import GRAVITY, stop_force
@@ -62,7 +62,7 @@ def begin_sums(c: Body, b: BodyMotion) -> None:
     b.power = drag * v_x
 
 
-def push_wheel(
+def push_wheel(  # noqa: PLR0915 - the equations of a corner in their order
     c: Body, b: BodyMotion, k: Wheel, w: WheelMotion, other: WheelMotion, side: float,
     steer: float, torque: float, dt: float,
 ) -> None:  # fmt: skip

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from scipy import signal
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.full.car import WHEELS
 from twintube.vehicle.full.maneuvers import APPROACH
 from twintube.vehicle.full.run import CarRun, FullCar

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.full.maneuvers import APPROACH, Road, checked_speed
 from twintube.vehicle.full.run import DT, CarRun, FullCar, Pursuit, drive_car
 from twintube.vehicle.full.steering import PATH_SPACING

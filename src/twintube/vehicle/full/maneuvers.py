@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.engine.simulate import InputError
 from twintube.vehicle import maneuvers as table3
 from twintube.vehicle.full.run import DT, CarRun, FullCar, drive_car
@@ -20,6 +20,7 @@ MOST_LATERAL, MOST_SLIP = 11.0, 6.0  # [m/s2], [deg] of the front tyres: where t
 SMOOTH = "smooth"
 CLASSES = (SMOOTH, *GD_N0)
 GRIPS = (0.1, 1.5)  # ice to a racing tyre
+SLOWEST, FASTEST = 1.0, 250.0  # [km/h]
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,8 @@ class Road:
 
 def checked_speed(speed_kmh: float) -> float:
     """The speed [m/s]; raises InputError."""
-    if not 1.0 <= speed_kmh <= 250.0:
-        raise InputError(f"speed {speed_kmh:g} km/h: must be from 1 to 250 km/h")
+    if not SLOWEST <= speed_kmh <= FASTEST:
+        raise InputError(f"speed {speed_kmh:g} km/h: must be from {SLOWEST:g} to {FASTEST:g} km/h")
     return speed_kmh / 3.6
 
 

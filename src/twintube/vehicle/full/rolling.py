@@ -2,10 +2,12 @@
 
 `tyre.py` has a constant rolling radius, and the wheel fixed along the body. Here three things are added to a drive:
 
-- The effective rolling radius changes with the tyre's deflection (H. B. Pacejka, "Tyre and Vehicle Dynamics", 3rd ed. 2012,
-  eq. 7.5 of its Magic Formula 6.1, coefficients of its passenger car tyre 205/60 R15; from memory).
-- The load pushes along where the road rises or falls under the contact: minus load times slope (effective road plane after
-  A. J. C. Schmeitz, "A semi-empirical model of the rolling tyre", TU Delft 2004; from memory).
+- The effective rolling radius changes with the load: Magic Formula 6.1 in the form of TNO's manual, with the coefficients of
+  its tyre 205/60 R15 91 V. Formula and coefficients stand in `Tirepacejkacombined_test.m` of dhr999/openvehicledynamics, the
+  formula also in `MagicFormula62` of MBSim.
+- The load pushes along where the road rises or falls under the contact: minus load times slope. A tyre's force is normal to
+  an effective road plane (A. J. C. Schmeitz, "A Semi-Empirical Three-Dimensional Model of the Pneumatic Tyre Rolling over
+  Arbitrarily Uneven Road Surfaces", TU Delft 2004). Its slope is here that between the ends of the contact: assumed.
 - The wheel moves along the body on the bushings of its links: a mass on a spring with a damper of its own.
 
 The tyre answers by its rise at no slip and its deflection along, the wheel by its inertia. This is a small motion on top of

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array, freeze_arrays
+from twintube.common.arrays import Array, freeze_arrays
 from twintube.core.frame import stroke_limit
 from twintube.core.variables import blank
 from twintube.dampers import Damper, ParameterError
@@ -178,7 +178,7 @@ class Underway:
         return as_run(out, begin, self.dt, self.before)
 
 
-def drive_car(
+def drive_car(  # noqa: PLR0913 - car, road and driver, and how they are run
     car: FullCar, road: Array, spacing: float, inputs: Array, speed: float, *, grips: tuple[float, float] = (1.0, 1.0),
     pursuit: Pursuit | None = None, dt: float = DT, preconditioned: bool = True,
 ) -> CarRun:  # fmt: skip

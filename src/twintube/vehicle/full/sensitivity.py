@@ -43,24 +43,24 @@ def times(title: str, low: float, high: float, reason: str, tables: Sequence[str
     return Assumed(title, low, high, reason, tuple(tables), names)
 
 
-def plus(title: str, low: float, high: float, unit: str, reason: str, tables: Sequence[str], *names: str) -> Assumed:
-    """A value varied by an addend."""
+def plus(title: str, low: float, high: float, reason: str, tables: Sequence[str], *names: str, unit: str = "") -> Assumed:
+    """A value varied by an addend of a `unit`."""
     return Assumed(title, low, high, reason, tuple(tables), names, True, unit)
 
 
 BOTH = ("front", "rear")
 AXLES = ("front_axle", "rear_axle")
 ASSUMED: Final = (
-    plus("height of the centre of gravity", -0.05, 0.05, "m", "luggage, another body", ["body"], "height"),
+    plus("height of the centre of gravity", -0.05, 0.05, "luggage, another body", ["body"], "height", unit="m"),
     times("roll, pitch and yaw inertia", 0.85, 1.15, "those of another car, scaled", ["body"], "I_roll", "I_pitch", "I_yaw"),
     times("air drag", 0.8, 1.2, "front area assumed", ["body"], "drag"),
-    plus("tracks", -0.03, 0.03, "m", "without source", AXLES, "track"),
-    plus("roll centre, front", -0.05, 0.05, "m", "chosen for the roll gradient", ["front_axle"], "h_roll"),
-    plus("roll centre, rear", -0.05, 0.05, "m", "chosen for the roll gradient", ["rear_axle"], "h_roll"),
+    plus("tracks", -0.03, 0.03, "without source", AXLES, "track", unit="m"),
+    plus("roll centre, front", -0.05, 0.05, "chosen for the roll gradient", ["front_axle"], "h_roll", unit="m"),
+    plus("roll centre, rear", -0.05, 0.05, "chosen for the roll gradient", ["rear_axle"], "h_roll", unit="m"),
     times("anti-roll bar, front", 0.5, 1.5, "chosen for the roll gradient", ["front_axle"], "c_bar"),
     times("anti-roll bar, rear", 0.0, 2.0, "chosen for the roll gradient; some cars have none", ["rear_axle"], "c_bar"),
-    plus("anti-dive, front", -0.05, 0.10, "", "a tenth or so", ["front_axle"], "support"),
-    plus("anti-lift, rear", -0.15, 0.15, "", "a tenth or so", ["rear_axle"], "support"),
+    plus("anti-dive, front", -0.05, 0.10, "a tenth or so", ["front_axle"], "support"),
+    plus("anti-lift, rear", -0.15, 0.15, "a tenth or so", ["rear_axle"], "support"),
     times("steer compliance", 0.15, 1.5, "0.75 to 5 deg/g; 3.6 on a measured saloon", ["front_axle"], "steer_compliance"),
     times("rear brakes", 0.63, 1.13, "front share 0.76 to 0.64 in three cars of CommonRoad", ["rear_axle"], "brake"),
     times("slip thresholds of the control", 0.75, 1.5, "no source", ["brakes"], "slip_release", "slip_build"),
@@ -82,7 +82,7 @@ ASSUMED: Final = (
     times("tyre's vertical damping", 0.5, 3.0, "the car file's band, 50 to 300 N s/m", BOTH, "d_tyre"),
     times("tyre's vertical stiffness", 0.87, 1.13, "the car file's band, 200 to 260 N/mm", BOTH, "c_tyre"),
     times("motion ratio, rear", 0.89, 1.11, "the car file's band, 0.8 to 1.0", ["rear"], "ratio"),
-    plus("travel to the stops", -0.01, 0.01, "m", "the car file's band, 45 to 65 mm", BOTH, "travel"),
+    plus("travel to the stops", -0.01, 0.01, "the car file's band, 45 to 65 mm", BOTH, "travel", unit="m"),
     times("stiffness of the stops", 0.5, 2.0, "another car's rubber", BOTH, "c_stop"),
     times("damping of the stops", 0.0, 2.0, "no source", BOTH, "d_stop"),
     times("F-v curves of the dampers", 0.75, 1.33, "stand-ins, as for the quarter car", [FORCES]),

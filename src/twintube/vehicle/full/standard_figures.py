@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.full.figures import LINEAR, STANDING, loads, smoothed
 from twintube.vehicle.full.lane_change import entry_of, excess, highest_entry
 from twintube.vehicle.full.maneuvers import APPROACH, Road

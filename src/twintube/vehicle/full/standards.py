@@ -6,7 +6,7 @@ has not been seen in print. A circle and a lane change are driven by the driver 
 
 import numpy as np
 
-from twintube.arrays import Array
+from twintube.common.arrays import Array
 from twintube.vehicle.full.maneuvers import APPROACH, PRESSURE, SMOOTH, STEER_RATE, Road, checked_speed
 from twintube.vehicle.full.run import DT, CarRun, FullCar, Pursuit, drive_car
 from twintube.vehicle.full.steering import PATH_SPACING

@@ -68,6 +68,7 @@ def cases(
     speeds: Sequence[float] | None,
     roads: Sequence[str],
     levels: Sequence[float],
+    *,
     seeds: int,
     grips: tuple[float, float] = (1.0, 1.0),
 ) -> list[Case]:
@@ -101,7 +102,7 @@ def cases(
 
 
 def drive_all(
-    car: CarSet, front: Damper, rear: Damper, worn: str, wanted: Sequence[Case], progress: bool = True
+    car: CarSet, front: Damper, rear: Damper, worn: str, wanted: Sequence[Case], *, progress: bool = True
 ) -> list[dict[str, Any]]:
     """The entries of all cases, in their order; one whose piston leaves its tube says so in `failed`."""
     return driven_all([(car, dampers_of(front, rear, worn, case), case) for case in wanted], progress)

@@ -1,0 +1,1 @@
+"""Step 2, convert: columns become quantities in SI units; names, units, cells and times as test benches write them."""

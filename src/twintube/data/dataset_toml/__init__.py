@@ -1,0 +1,1 @@
+"""What `dataset.toml` may say and what it says: keys, channels, records, states of filling."""

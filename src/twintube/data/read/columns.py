@@ -1,0 +1,69 @@
+"""Records of any format as columns: text in this process, binary files in a child."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from twintube.common.reading import ReadError, check_regular
+from twintube.data.findings import UnreadableError
+from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, Format, Raw
+from twintube.data.read.binary import check_package, is_binary, read_binary
+from twintube.data.read.binary_child import READERS
+from twintube.data.read.text import TextReader
+
+Outcome = Raw | UnreadableError | OSError
+
+
+def read_raw(path: Path, form: Format) -> Raw:
+    """The columns of a file; raises UnreadableError and OSError."""
+    (outcome,) = read_all([(path, form)])
+    if isinstance(outcome, Exception):
+        raise outcome
+    return outcome
+
+
+def read_all(files: Sequence[tuple[Path, Format]]) -> Iterator[Outcome]:
+    """The columns of each file or why there are none, in their order; one child reads all binary ones."""
+    refused = [refusal(path, form) for path, form in files]
+    binary = read_binary([file for file, no in zip(files, refused, strict=True) if no is None and is_binary(file[0])])
+    reader = TextReader()
+    for (path, form), no in zip(files, refused, strict=True):
+        if no is not None:
+            yield no
+        elif is_binary(path):
+            yield next(binary)
+        else:
+            yield text_outcome(reader, path, form)
+
+
+def text_outcome(reader: TextReader, path: Path, form: Format) -> Outcome:
+    """What the reader gives, the errors returned."""
+    try:
+        return reader.read(path, form)
+    except (UnreadableError, OSError) as error:
+        return error
+    except MemoryError:
+        return UnreadableError("the file needs more memory than there is")
+
+
+def refusal(path: Path, form: Format) -> UnreadableError | OSError | None:
+    """Why a file is not even opened; None where it is."""
+    ending = path.suffix.lower()
+    try:
+        if ending not in TEXT and ending not in READERS:
+            raise UnreadableError(f"unknown format {ending!r}, must be one of {', '.join([*TEXT, *READERS])}")
+        if is_binary(path) and form.block is not None:
+            raise UnreadableError(f"block = {form.block}: is for several tables in a text file, not for {ending}")
+        if is_binary(path) and isinstance(form.columns, list):
+            raise UnreadableError(
+                "columns: a list is for text files without header, here it must be a table: header = name in the file"
+            )
+        check_regular(path, BINARY_BYTES if is_binary(path) else TEXT_BYTES)
+        with path.open("rb"):
+            pass  # a file without permission says so itself
+        if is_binary(path):
+            check_package(path)
+    except ReadError as error:
+        return UnreadableError(f"cannot be read: {error}")
+    except (UnreadableError, OSError) as error:
+        return error
+    return None

@@ -1,0 +1,46 @@
+"""A first `columns` for a record whose columns dataset.toml does not name yet."""
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from twintube.common.arrays import Array
+from twintube.common.words import printable
+from twintube.data.convert.cells import number
+from twintube.data.convert.column_names import assigned
+from twintube.data.convert.quantities import EXAMPLES, rising
+from twintube.data.convert.units import name_and_unit
+from twintube.data.findings import Notes
+from twintube.data.formats import Format, Raw
+from twintube.data.sniff.values import guessed
+
+LOOK = 10_000  # samples whose size tells a unit
+
+
+def suggest_columns(raw: Raw, form: Format, notes: Notes) -> None:
+    """A remark with the key to set, the names as far as the file tells them."""
+    if form.columns is not None or not raw.columns:
+        return
+    names = list(raw.columns)
+    pairs = [name_and_unit(name) for name in names]
+    fitting = assigned(
+        [(name, unit or raw.units.get(full, "")) for full, (name, unit) in zip(names, pairs, strict=True)], []
+    )
+    found = {quantity: (names[i], unit) for quantity, (i, unit) in fitting.items()}
+    if "time" not in found and (late := rising(raw, form.decimal)):
+        found["time"] = late[0], ""
+    texts = []
+    for quantity in EXAMPLES:
+        name, unit = found.get(quantity, ("name in the file", ""))
+        values = floats(raw.columns.get(name, []), form.decimal)
+        texts.append(
+            f'"{quantity} [{unit or guessed(quantity, values)}]" = {json.dumps(printable(name), ensure_ascii=False)}'
+        )
+    notes.remark(f"name columns and units like columns = {{{', '.join(texts)}}}; check them, they are a guess")
+
+
+def floats(values: Sequence[Any], decimal: str) -> Array:
+    """The first numbers (n,) of a column, NaN where a cell is none."""
+    return np.array([number(cell, decimal) for cell in values[:LOOK]], dtype=float)

@@ -1,0 +1,1 @@
+"""`twintube car` and `twintube car-sensitivity` show these: the page of the whole car, that of its assumed values."""

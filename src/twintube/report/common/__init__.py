@@ -1,0 +1,1 @@
+"""What all pages share: the HTML page, the style of pictures, titles of effects and faults."""

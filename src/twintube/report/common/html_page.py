@@ -1,0 +1,158 @@
+"""A self-contained HTML page of sections with pictures, verdicts and tables, independent of the content.
+
+A page that answers a question has a headline: answer, next step and picture are seen at once, the sections fold. A page
+without one is a collection: its sections are open, and contents lead to them.
+"""
+
+import base64
+import json
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+import jinja2
+from matplotlib.figure import Figure
+
+from twintube.report.common import style
+from twintube.version import __version__
+
+BRIEF = 420  # characters: longer listings of numbers are folded
+MARKS = {"holds": "yes", "does not hold": "no", "not checkable": "open"}  # verdict -> class of the style sheet
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A PNG with its alternative text and caption."""
+
+    png: bytes
+    alt: str
+    caption: str = ""
+    narrow: bytes = b""  # the PNG for small screens, if there is one
+
+    @classmethod
+    def drawn(cls, draw: Callable[[bool], Figure], caption: str, alt: str = "") -> "Picture":
+        """A picture in two shapes, for wide and, where `draw` is told so, for narrow screens."""
+        return cls(style.png(draw(False)), alt or caption, caption, style.png(draw(True)))
+
+    @property
+    def uri(self) -> str:
+        """The picture as data URI, so that the page needs no other file."""
+        return data_uri(self.png)
+
+    @property
+    def narrow_uri(self) -> str:
+        """The picture for small screens; empty where the other serves."""
+        return data_uri(self.narrow) if self.narrow else ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table; cells are text."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    caption: str = ""
+    numeric: Sequence[int] = ()  # right-aligned columns
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A statement with its verdict, a key of `MARKS` or empty."""
+
+    text: str
+    verdict: str = ""
+    facts: Sequence[tuple[str, str]] = ()  # name and text, short
+    numbers: Mapping[str, Any] = field(default_factory=dict)  # long listings are folded, and not printed
+
+    @property
+    def mark(self) -> str:
+        """Class in the style sheet."""
+        return MARKS.get(self.verdict, "open")
+
+    @property
+    def listing(self) -> list[tuple[str, str]]:
+        """The numbers as pairs of name and text."""
+        return [(name.replace("_", " "), readable(value)) for name, value in self.numbers.items()]
+
+    @property
+    def brief(self) -> bool:
+        """Whether the listing is short enough to be shown unfolded."""
+        return sum(len(name) + len(text) for name, text in self.listing) <= BRIEF
+
+
+@dataclass(frozen=True)
+class Headline:
+    """The answer in one sentence, in large type, with what the first screen holds besides."""
+
+    text: str
+    verdict: str = ""
+    mark: str = "open"  # class of the style sheet: yes, no, open, warn or found
+    remark: str = ""  # below the sentence
+    next: str = ""  # the next step
+    picture: Picture | None = None
+
+
+@dataclass(frozen=True)
+class Section:
+    """A section of the page."""
+
+    anchor: str
+    title: str
+    verdict: str = ""
+    tally: str = ""
+    text: Sequence[str] = ()
+    pictures: Sequence[Picture] = ()
+    findings: Sequence[Finding] = ()
+    tables: Sequence[Table] = ()
+    notes: Sequence[tuple[str, str]] = ()  # name and text, below the findings
+    items: Sequence[str] = ()  # a list below the text
+    live: str = ""  # HTML of `report.live`
+
+    @property
+    def mark(self) -> str:
+        """Class in the style sheet."""
+        return MARKS.get(self.verdict, "open")
+
+
+def data_uri(png: bytes) -> str:
+    """A PNG as data URI."""
+    return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
+
+
+def coded(text: str) -> str:
+    """A text as HTML, in which what stands between backticks is code."""
+    return re.sub("`([^`]+)`", r"<code>\1</code>", escape(text))
+
+
+def readable(value: Any) -> str:
+    """Numbers as text that wraps: `name: value` pairs, nested ones in brackets."""
+    if isinstance(value, Mapping):
+        names = [str(key).replace("_", " ") for key in value]
+        return "; ".join(f"{n} ({readable(v)})" if isinstance(v, Mapping) else f"{n}: {readable(v)}"
+                         for n, v in zip(names, value.values(), strict=True)) or "none"  # fmt: skip
+    if isinstance(value, (list, tuple)):
+        if any(isinstance(v, (list, tuple, Mapping)) for v in value):
+            return "; ".join(readable(v) for v in value)
+        return ", ".join(readable(v) for v in value) or "none"
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def html(
+    title: str, lead: Iterable[str], sections: Iterable[Section], summary: Iterable[Table] = (), *, foot: str = "",
+    headline: Headline | None = None,
+) -> str:  # fmt: skip
+    """The whole page."""
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters["coded"] = coded
+    source = files("twintube.report.common").joinpath("page.html").read_text(encoding="utf-8")
+    return environment.from_string(source).render(
+        title=title,
+        lead=list(lead),
+        sections=list(sections),
+        summary=list(summary),
+        headline=headline,
+        foot=". ".join(text for text in (foot.rstrip("."), f"twintube {__version__}") if text),
+    )

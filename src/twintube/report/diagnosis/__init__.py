@@ -1,0 +1,1 @@
+"""`twintube diagnose` shows these: its answer in the terminal and report.html."""

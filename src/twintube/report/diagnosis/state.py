@@ -1,0 +1,126 @@
+"""The page about oil level and preload that nobody knows: what the records say, with a picture of its probability."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from twintube.common.words import listed
+from twintube.evidence import StateAnswer
+from twintube.evidence.numbers import NUMBERS
+from twintube.report.common import style
+from twintube.report.common.html_page import Headline, Picture, Section, Table
+from twintube.report.common.probabilities import chance
+
+PICTURE = "state.png"
+SURE = 0.95  # probability from which a preload is said to be there or lost
+BAR = 0.02  # width of a bar of the picture
+WIDE = 0.2  # width of the interval above which a record that would narrow it is named
+NARROWER = (
+    "Records in which the damper cavitates or foams tell the oil level: drive 40 mm and more at 1 m/s and faster. "
+    "Where the oil fills both working chambers in every stroke, nothing in the force depends on how much is left."
+)
+ASSUMED = (
+    "The parameter set is taken to be that of this damper; its forces may be some per cent off. Another dead length (what "
+    "piston, valves and stops take of the tube) moves the level. Nothing else is looked for while the fill is unknown."
+)
+CAPTION = "Probability of each oil level, stacked with and without gas preload. Grey: it lies there with 90 %."
+
+
+def sentence(answer: StateAnswer) -> str:
+    """What the records say of a state, in a sentence."""
+    level, (low, high) = answer.posterior.level, answer.posterior.interval()
+    lost = answer.posterior.gas_lost
+    if high - low > WIDE:
+        oil = f"The damper holds {100 * low:.0f} to {100 * high:.0f} % of its oil; these records tell no more"
+    else:
+        oil = f"The damper holds {100 * level:.0f} % of its oil ({100 * low:.0f} to {100 * high:.0f} %)"
+    if SURE > lost > 1.0 - SURE:
+        gas = f"whether its gas preload is lost cannot be told ({chance(lost)})"
+    else:
+        gas = f"its gas preload is {'lost' if answer.posterior.rather_lost else 'there'} ({chance(max(lost, 1.0 - lost))})"
+    return f"{oil}; {gas}."
+
+
+def lines(answers: Sequence[StateAnswer]) -> list[str]:
+    """The answers for the terminal."""
+    return [*sentences(answers), next_step(answers)]
+
+
+def sentences(answers: Sequence[StateAnswer]) -> list[str]:
+    """A sentence for each state; of several, behind the names of its records."""
+    return [("" if len(answers) == 1 else f"{listed(one.records, 3)}: ") + sentence(one) for one in answers]
+
+
+def next_step(answers: Sequence[StateAnswer]) -> str:
+    """What to do next."""
+    wide = any(high - low > WIDE for low, high in (answer.posterior.interval() for answer in answers))
+    if wide:
+        return f"Next: {NARROWER[0].lower()}{NARROWER[1:]}"
+    return "Next: state this fill in dataset.toml; `twintube diagnose` then asks what else the model lacks."
+
+
+def headline(answers: Sequence[StateAnswer]) -> Headline:
+    """What the first screen says."""
+    text = " ".join(sentences(answers))
+    step = next_step(answers).removeprefix("Next: ")
+    return Headline(text, *badge(answers), next=step[0].upper() + step[1:], picture=drawn(answers))
+
+
+def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
+    """The answer in two words with its class of the style sheet; the worst of several states."""
+    intervals = [answer.posterior.interval() for answer in answers]
+    if any(high < 1.0 for _, high in intervals):
+        return "oil lost", "no"
+    if any(answer.posterior.gas_lost > SURE for answer in answers):
+        return "gas preload lost", "no"
+    if any(high - low > WIDE for low, high in intervals):
+        return "cannot tell", "warn"
+    return "no oil lost", "yes"
+
+
+def drawn(answers: Sequence[StateAnswer]) -> Picture:
+    """The picture for wide and narrow screens."""
+    return Picture.drawn(lambda narrow: picture(answers, narrow), CAPTION)
+
+
+def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
+    """Probability over the oil level of each state, with and without preload."""
+    figure, axes = style.grid(len(answers), (8.5, 3.3), narrow, most=1)
+    for ax, answer in zip(axes[:, 0], answers, strict=True):
+        p = answer.posterior
+        low, high = p.interval()
+        ax.axvspan(100 * low, 100 * high, color=style.FAINT, alpha=0.35, lw=0, label="90 % interval")
+        edges = np.arange(NUMBERS.level_low, 1.0 - 1e-9, BAR)
+        bars = [np.histogram(p.levels[:-1], [*edges, 1.0 + 1e-9], weights=row[:-1])[0] for row in p.probability]
+        middles = np.concatenate([100 * (edges + BAR / 2), [100 * (1.0 + BAR)]])  # the last: nothing lost
+        bottom = np.zeros(len(middles))
+        for row, colour, label in ((1, style.BLUE, "preload there"), (0, style.RED, "preload lost")):
+            height = 100 * np.concatenate([bars[row], p.probability[row, -1:]])
+            ax.bar(middles, height, 90 * BAR, bottom, color=colour, label=label)
+            bottom += height
+        ax.set_xlim(100 * NUMBERS.level_low, 100 * (1.0 + 2 * BAR))
+        ax.set_xticks([20, 40, 60, 80, 100 * (1.0 + BAR)], ["20", "40", "60", "80", "full"])
+        ax.set_ylim(0, 1.05 * float(bottom.max()))
+        ax.set_ylabel("probability [%]")
+        if len(answers) > 1:
+            style.title(ax, listed(answer.records, 2))
+    style.legend_above(figure, axes[0, 0])
+    axes[-1, 0].set_xlabel("oil level [% of the intact volume]")
+    return figure
+
+
+def section(answers: Sequence[StateAnswer], text: Sequence[str] = (), pictures: Sequence[Picture] = ()) -> Section:
+    """The part of the page about states of filling; without pictures where the first screen has them."""
+    rows = [
+        [
+            listed(answer.records, 3),
+            f"{100 * answer.posterior.level:.0f} %",
+            "{:.0f} to {:.0f} %".format(*(100 * x for x in answer.posterior.interval())),
+            chance(answer.posterior.gas_lost),
+            chance(answer.posterior.as_stated) if answer.stated.anything else "",
+        ]
+        for answer in answers
+    ]
+    table = Table(("records", "oil level", "90 % interval", "preload lost", "as the file says"), rows)
+    return Section("states", "Oil and gas in numbers", text=text, tables=[table], pictures=pictures)

@@ -1,0 +1,86 @@
+"""Curves of records to look into: which record, over what, which curves, values under the pointer.
+
+The diagrams are those of the explorer (`twintube.web`); all data stand in the page.
+"""
+
+import base64
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from importlib.resources import files
+
+import jinja2
+import numpy as np
+
+from twintube import web
+from twintube.common.arrays import Array
+from twintube.report.common import style
+
+MOST_POINTS = 1200  # of a record
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A force to show: `name`, an identifier, is its key in `Look.forces`; `colour` is one of `style`; `shown` at first."""
+
+    name: str
+    label: str
+    colour: str
+    dash: Sequence[int] = ()
+    shown: bool = True
+
+
+@dataclass(frozen=True)
+class Look:
+    """A record; arrays (n,) in SI units. `marks` (k,) are the samples at which its oscillations begin, and the end."""
+
+    label: str
+    remark: str
+    time: Array
+    stroke: Array
+    velocity: Array
+    forces: dict[str, Array]
+    marks: Sequence[int] = ()
+
+    def thinned(self) -> "Look":
+        """At most MOST_POINTS samples, from the beginning."""
+        n = min(len(self.time), MOST_POINTS)
+        marks = [int(mark) for mark in self.marks if mark < n]
+        some = {name: force[:n] for name, force in self.forces.items()}
+        return Look(self.label, self.remark, self.time[:n], self.stroke[:n], self.velocity[:n], some, marks)
+
+
+def packed(values: Array) -> str:
+    """An array as the page's script reads it."""
+    return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")
+
+
+def live(curves: Sequence[Curve], looks: Sequence[Look]) -> str:
+    """The part of a page in which a reader looks into the records; empty without any."""
+    if not looks:
+        return ""
+    data = {
+        "curves": [asdict(curve) for curve in curves],
+        "records": [
+            {
+                "label": look.label, "remark": look.remark, "marks": list(look.marks),
+                "t": packed(look.time - look.time[0]), "s": packed(1e3 * look.stroke), "v": packed(look.velocity),
+                "forces": {name: packed(force) for name, force in look.forces.items()},
+            }
+            for look in (some.thinned() for some in looks)
+        ],
+    }  # fmt: skip
+    source = files("twintube.report.identification").joinpath("live.html").read_text(encoding="utf-8")
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    script = files("twintube.report.identification").joinpath("live.js").read_text(encoding="utf-8")
+    # No text of a user can end the element.
+    text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    return environment.from_string(source).render(
+        library=web.library(),
+        style=web.library_style(),
+        plots=web.plots(),
+        script=script,
+        data=text,
+        curves=curves,
+        dark=style.DARK,
+    )

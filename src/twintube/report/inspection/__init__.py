@@ -1,0 +1,1 @@
+"""`twintube inspect` shows these: its figures in words, and report.html."""

@@ -1,0 +1,52 @@
+"""The damper identified from records as by `twintube identify`, stored as a parameter file in the report's folder."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from twintube import dampers
+from twintube.common.arrays import Array
+from twintube.common.files import write_text
+from twintube.dampers import Damper
+from twintube.identification import Harmonic
+from twintube.identification.optimise import DEFAULT
+from twintube.identification.workflow import PAPER, identify_damper
+
+HOW = "identified from the virtual rig's records as by twintube identify"
+# The walkers compute intervals, which this report does not show.
+BUDGET = replace(PAPER, intervals=(32, 2))
+
+
+def fit(
+    damper: Damper,
+    slow: tuple[Array, Array] | None,
+    intact: Sequence[Harmonic],
+    degraded: Sequence[Harmonic],
+    *,
+    file: Path,
+    quick: bool,
+    progress: Callable[[str, float], None] | None = None,
+) -> Damper:
+    """The identified damper, read from `file` if an earlier run wrote it.
+
+    `slow` is stroke [m] and force [N] of the quasi-static record. An interrupted run continues from its journal.
+    """
+    if not file.exists():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        journal = file.with_suffix("")
+        journal.mkdir(exist_ok=True)
+        result = identify_damper(
+            damper, slow, intact, degraded, method=method(quick), budget=BUDGET, journal=journal, progress=progress
+        )
+        write_text(file, dampers.to_toml(result.damper.with_(oil_level=1.0, gas_preload=1)))
+    return dampers.load(file, as_published=True)
+
+
+def method(quick: bool) -> str:
+    """The default, or the paper's swarms."""
+    return DEFAULT if quick else "pso"
+
+
+def generations(quick: bool) -> int:
+    """Largest number of calls of `progress`."""
+    return BUDGET.generations(method(quick))

@@ -1,0 +1,76 @@
+"""Each effect is hidden once in a damper that is off its parameter set, and three good dampers are cleared."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import pytest
+
+from tests.diagnosis import small
+from tests.evidence.specimen import own_law
+from twintube.core.effects import EFFECTS
+from twintube.dampers import load
+from twintube.data import LoadedDataset
+from twintube.evidence import Answer, answer
+
+# Large ones, as in a damper that is to be replaced.
+HIDDEN: dict[str, dict[str, float]] = {
+    "end_stop": {"F_stop_co": 800.0, "onset_co": 0.037},
+    "fluid_lag": {"tau_fluid": 0.006},
+    "foam_decay": {"foam_decay_rate": 2.0},
+    "gas_exhaustion": {"exhaustion": 5.0},
+    "gas_redissolution": {"redissolution_rate": 1.0},
+    "gas_spring": {"F_surplus": 200.0},
+    "mount_compliance": {"C_mount": 5e-6},
+    "oil_displacement": {"displaced_share": 1.0},
+    "oil_level_error": {"level_error": -0.1},
+    "oil_temperature": {"fade_heat": 6e-5},
+    "position_friction": {"friction_bow": 800.0},
+    "seal_leak": {"leak_film": 1.5e-6},
+    "side_load_friction": {"side_load": 5.0},
+    "smooth_transition": {"build_up": 0.012},
+    "valve_wear": {"wear_re": 0.3},
+}
+IN_LOST_OIL = (
+    "foam_decay",
+    "gas_exhaustion",
+    "gas_redissolution",
+    "oil_displacement",
+    "oil_level_error",
+    "seal_leak",
+    "smooth_transition",
+)
+SPEEDS = {small.INTACT: (0.3, 1.0), small.DEGRADED: (0.6, 1.3)}  # [m/s]
+TURNS = 12
+
+
+def before_and_after(level: float, changed: Mapping[str, float], seed: int = 0) -> Answer:
+    """The answer to two records as delivered and two after a change."""
+    damper = load("SA8", as_published=True)
+    records = []
+    for i, name in enumerate(("before", "before", "after", "after")):
+        worn = damper.with_(**changed) if name == "after" else damper
+        run = small.run(SPEEDS[level][i % 2], level, turns=TURNS, damper=worn)
+        seen = small.record(run, own_law(run), seed=10 * seed + i)
+        records.append(replace(seen, name=f"{name}_{i}", reference=name == "before", state=name))
+    return answer(LoadedDataset("Small", damper, records, []))
+
+
+# Oil that leaks out while it is driven is taken for another fill at the beginning, beside which nothing explains the rest.
+OPEN = pytest.param("seal_leak", marks=pytest.mark.xfail(strict=True, reason="the fill is decided before the cause"))
+
+
+@pytest.mark.parametrize("effect", [OPEN if name == "seal_leak" else name for name in HIDDEN])
+def test_a_hidden_effect_is_among_what_is_named(effect: str) -> None:
+    found = before_and_after(small.DEGRADED if effect in IN_LOST_OIL else small.INTACT, HIDDEN[effect])
+    # A fill other than stated is a state.
+    assert {"oil_level_error": "state"}.get(effect, effect) in {h.name for h in found.named}
+
+
+def test_every_effect_is_hidden() -> None:
+    assert set(HIDDEN) == set(EFFECTS)
+
+
+@pytest.mark.parametrize(("level", "seed"), [(small.INTACT, 1), (small.INTACT, 2), (small.DEGRADED, 3)])
+def test_a_good_damper_is_cleared(level: float, seed: int) -> None:
+    found = before_and_after(level, {}, seed)
+    assert found.verdict == "none"
