@@ -30,7 +30,8 @@ def test_weights_have_the_sign_of_physics_and_good_dampers_stay_at_the_limit() -
     assert np.mean(found[worn[2000:]] > table.limit) > 0.6
     for low, high in ((0.1, 0.4), (0.4, 0.6), (0.6, 0.9)):
         here = (found > low) & (found < high)
-        assert np.mean(worn[2000:][here]) == pytest.approx(np.mean(found[here]), abs=0.1)
+        scatter = 0.5 / np.sqrt(np.count_nonzero(here))  # at most, of a share of so many
+        assert np.mean(worn[2000:][here]) == pytest.approx(np.mean(found[here]), abs=3.0 * scatter)
 
 
 def row(change: dict[str, float], random: np.random.Generator) -> dict[str, float]:
