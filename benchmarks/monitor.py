@@ -12,6 +12,7 @@ import typer
 
 from twintube.cli.base import standalone
 from twintube.common.words import counted
+from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving import detection
 from twintube.driving.model import FILE, REFERENCE, WORN, from_json, to_json
 from twintube.driving.training import Drive, load, train
@@ -20,7 +21,8 @@ PARTS = (0.25, 0.5, 1.0)  # of the cars, for the learning curve
 
 
 def trained(drives: Sequence[Drive]) -> dict[str, Any]:
-    """What is said of a training in the file of the tables."""
+    """What is said of a training in the file of the tables; scalar factors and other ways of the freed gas are not in it."""
+    drives = [drive for drive in drives if drive.model == DEFAULT]
     cars, minutes = len({drive.car for drive in drives}), sum(len(drive.minutes) for drive in drives)
     says = (
         f"The tables were made from {counted(len(drives), 'simulated drive')} of {cars} cars, {minutes} minutes in all. "
