@@ -22,6 +22,7 @@ from benchmarks.kernel import bench_kernel
 from benchmarks.marked_pages import with_table
 from benchmarks.oil_leak_page import bench_oil_leak
 from benchmarks.priors import bench_priors
+from benchmarks.short_steps import bench_short_steps
 from benchmarks.small_strokes import bench_small_strokes
 from benchmarks.steps import bench_steps
 from benchmarks.tiring import bench_rough_road, bench_tiring
@@ -38,6 +39,7 @@ BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "inspect": bench_inspect,
     "driving": bench_driving,
     "steps": bench_steps,
+    "short_steps": bench_short_steps,
     "small_strokes": bench_small_strokes,
     "dead_length": bench_dead_length,
     "tiring": bench_tiring,

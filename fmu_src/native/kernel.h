@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 66e6b61a9a4f55cf, body f9e88f883aaef11a; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations 49309994f8fa0e06, body a8acd88e15f62b44; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -618,6 +618,19 @@ static void kernel_start(struct kernel_Parameters* p, struct kernel_Derived* d, 
     kernel_effects_reset(s);
     s->z_rod = z;
     s->F_gas += kernel_effects_elastic(p, s, z);
+}
+
+/* Where a rod at the stroke `at` [m] goes that is sent to `z` [m] at velocities from `v0` to `v1` [m/s].
+   A stroke behind the way that the velocity has led - rounding, noise of a sensor, a velocity that was held for a step - is
+   no reversal: the rod waits until the motion has caught up with it, and it stands where the velocity is 0. As for
+   `agreement`, what lies beyond the play is a way; the rod is drawn along by it. */
+static double kernel_rod_goal(double at, double z, double v0, double v1)
+{
+    if (((z < at) && (v0 >= 0.0) && (v1 >= 0.0)) || ((z > at) && (v0 <= 0.0) && (v1 <= 0.0)))
+    {
+        return double_max(2, z - 0.002, double_min(2, z + 0.002, at));
+    }
+    return z;
 }
 
 /* Number of parts for a step of `dt` [s]. */
@@ -2487,6 +2500,8 @@ static void kernel_fluid_lag_force(struct kernel_Parameters* p, struct kernel_St
             s->F_valve = s->F_held_re - s->F_held_co;
             s->F_fluid = (p->tau_fluid > 0.0 ? s->F_late : s->F_valve);
             s->F_mean = s->F_fluid;
+            /* The columns' work goes by the time: that of a way without time is in the steps around it. */
+            s->W_step = 0.0;
         }
         return;
     }
@@ -2720,6 +2735,12 @@ static bool kernel_extended_step(struct kernel_Parameters* p, struct kernel_Deri
     return kernel_extended_part(p, d, s, f, z, before, v1, dt / n);
 }
 
+/* Stroke [m] at which the rod stands. */
+static double kernel_rod_stroke(struct kernel_Derived* d, struct kernel_State* s)
+{
+    return (d->extended == 0 ? s->z : s->z_rod);
+}
+
 /* Carry `s` to the stroke `z` [m] while the velocity goes evenly from `v0` to `v1` [m/s].
    Time enters through stroke and velocity only: every process of the paper is tied to the stroke. `k_degr` is the mean
    over the step, the forces are those at its end with that mean. False when the
@@ -2752,14 +2773,17 @@ static bool kernel_step(struct kernel_Parameters* p, struct kernel_Derived* d, s
 }
 
 /* Carry `s` to the stroke `z` [m] in the time `dt` [s] >= 0, the velocity going evenly from `v0` to `v1` [m/s].
-   As `kernel.step`, whose result it returns; `dt` acts through effects that need time and is else ignored. */
+   As `kernel.step`, whose result it returns, but never against the velocity (`rod_goal`); `dt` acts through effects that
+   need time and is else ignored. */
 static bool kernel_advance(struct kernel_Parameters* p, struct kernel_Derived* d, struct kernel_State* s, struct kernel_Flow* f, double z, double v0, double v1, double dt)
 {
+    double goal;
+    goal = kernel_rod_goal(kernel_rod_stroke(d, s), z, v0, v1);
     if (d->extended == 0)
     {
-        return kernel_step(p, d, s, f, z, v0, v1);
+        return kernel_step(p, d, s, f, goal, v0, v1);
     }
-    return kernel_extended_step(p, d, s, f, z, v0, v1, dt);
+    return kernel_extended_step(p, d, s, f, goal, v0, v1, dt);
 }
 
 /* Force of the damper [N] (Eq. 1). */

@@ -3,6 +3,7 @@
 Without an active effect every function here is the kernel's own, to the last bit.
 """
 
+from twintube.core.agreement import PLAY
 from twintube.core.effects import (
     Parameters,
     State,
@@ -55,14 +56,33 @@ def start(p: Parameters, d: Derived, s: State, z: float) -> None:
     s.F_gas += effects_elastic(p, s, z)
 
 
+def rod_goal(at: float, z: float, v0: float, v1: float) -> float:
+    """Where a rod at the stroke `at` [m] goes that is sent to `z` [m] at velocities from `v0` to `v1` [m/s].
+
+    A stroke behind the way that the velocity has led - rounding, noise of a sensor, a velocity that was held for a step - is
+    no reversal: the rod waits until the motion has caught up with it, and it stands where the velocity is 0. As for
+    `agreement`, what lies beyond the play is a way; the rod is drawn along by it.
+    """
+    if (z < at and v0 >= 0.0 and v1 >= 0.0) or (z > at and v0 <= 0.0 and v1 <= 0.0):
+        return max(z - PLAY, min(z + PLAY, at))
+    return z
+
+
+def rod_stroke(d: Derived, s: State) -> float:
+    """Stroke [m] at which the rod stands."""
+    return s.z if d.extended == 0 else s.z_rod
+
+
 def advance(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
     """Carry `s` to the stroke `z` [m] in the time `dt` [s] >= 0, the velocity going evenly from `v0` to `v1` [m/s].
 
-    As `kernel.step`, whose result it returns; `dt` acts through effects that need time and is else ignored.
+    As `kernel.step`, whose result it returns, but never against the velocity (`rod_goal`); `dt` acts through effects that
+    need time and is else ignored.
     """
+    goal = rod_goal(rod_stroke(d, s), z, v0, v1)
     if d.extended == 0:
-        return step(p, d, s, f, z, v0, v1)
-    return extended_step(p, d, s, f, z, v0, v1, dt)
+        return step(p, d, s, f, goal, v0, v1)
+    return extended_step(p, d, s, f, goal, v0, v1, dt)
 
 
 def extended_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
@@ -83,10 +103,11 @@ def extended_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
 
 def advance_whole(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
     """`advance` in one part, for a caller that has divided the step itself."""
+    goal = rod_goal(rod_stroke(d, s), z, v0, v1)
     if d.extended == 0:
-        return step(p, d, s, f, z, v0, v1)
-    s.z_rod = z
-    return extended_part(p, d, s, f, z, v0, v1, dt)
+        return step(p, d, s, f, goal, v0, v1)
+    s.z_rod = goal
+    return extended_part(p, d, s, f, goal, v0, v1, dt)
 
 
 def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:

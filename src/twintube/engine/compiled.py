@@ -48,8 +48,8 @@ def joined_source() -> str:
     for text in sources.effect_texts():
         parts += compilable(text)
     for text in (
-        sources.model_text(),
         sources.agreement_text(),
+        sources.model_text(),
         *((PACKAGE / name).read_text(encoding="utf-8") for name in LOOPS),
     ):
         parts += compilable(text)

@@ -14,7 +14,7 @@ from twintube.core.agreement import parted
 from twintube.core.effects import effects_parts, effects_remember, effects_scale_valve
 from twintube.core.frame import stroke_limit
 from twintube.core.kernel.forces import gas_rise
-from twintube.core.model import advance, advance_whole, set_up, start
+from twintube.core.model import advance, advance_whole, rod_stroke, set_up, start
 from twintube.core.outputs import total_force
 from twintube.core.publishing import publish_row
 
@@ -161,7 +161,6 @@ def interval_means(
         n = gaps * math.ceil(n / gaps)
     total = 0.0
     sampled = 0.5 * last
-    at = z0
     before = v0
     for k in range(1, n + 1):
         x = k / n
@@ -173,17 +172,17 @@ def interval_means(
             speed = cubic_slope(x, z0, v0, z1, v1, dt)
         from_work = s.work
         from_impulse = s.impulse
+        at = rod_stroke(d, s)
         if not advance_whole(p, d, s, f, goal, before, speed, dt / n):
             return False, 0.0, 0.0, 0.0
-        way = goal - at
+        way = rod_stroke(d, s) - at
         if d.extended > 0 and dt > 0.0:
             total += (s.impulse - from_impulse) / dt
         elif d.extended == 0 and abs(way) > NO_WAY:
             # The work over the stroke is the mean force, wherever in the step it jumped.
-            total += ((s.work - from_work) / way + gas_rise(p, d.F_0, d.c_gas, 0.5 * (at + goal)) - d.F_0) / n
+            total += ((s.work - from_work) / way + gas_rise(p, d.F_0, d.c_gas, at + 0.5 * way) - d.F_0) / n
         else:
             total += total_force(s) / n
-        at = goal
         before = speed
         if gaps > 0 and (k * gaps) % n == 0:
             last = force_at_end(p, d, s, f, speed, way)

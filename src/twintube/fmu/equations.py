@@ -25,8 +25,8 @@ class Equations:
 
 def damper_texts() -> list[str]:
     """The sources of kernel, effects, model and rules."""
-    texts = [*sources.kernel_texts(), *sources.effect_texts(), sources.model_text()]
-    return [*texts, sources.agreement_text(), sources.rule_text()]
+    texts = [*sources.kernel_texts(), *sources.effect_texts(), sources.agreement_text()]
+    return [*texts, sources.model_text(), sources.rule_text()]
 
 
 def car_texts() -> list[str]:

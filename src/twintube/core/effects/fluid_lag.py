@@ -151,6 +151,8 @@ def fluid_lag_force(p: Parameters, s: State, v: float, dz: float, dt: float) -> 
             s.F_valve = s.F_held_re - s.F_held_co
             s.F_fluid = s.F_late if p.tau_fluid > 0.0 else s.F_valve
             s.F_mean = s.F_fluid
+            # The columns' work goes by the time: that of a way without time is in the steps around it.
+            s.W_step = 0.0
         return
     k_re = s.k_mean if dz > 0.0 else s.k_re
     k_co = s.k_mean if dz < 0.0 else s.k_co
