@@ -15,11 +15,12 @@ from twintube.driving import plausible
 from twintube.driving.channels import PLACES
 from twintube.driving.features import LEAST, MINUTE, table
 from twintube.driving.model import FLEET, MOST, REFERENCE, SETS, SIGNS, shipped
-from twintube.driving.monitor import FINE, watch
+from twintube.driving.monitor import FINE, UNCLEAR, WATCH, WORN_OUT, Watched, watch
 from twintube.driving.physical import wheel_hop
 from twintube.driving.signals import Signals, write
 from twintube.driving.spectra import HOP, coherence, density, hold, spectra
 from twintube.errors import InputError
+from twintube.report.monitor import terminal
 
 
 @pytest.mark.parametrize("zeta", [0.05, 0.1, 0.2])
@@ -112,6 +113,29 @@ def test_more_damping_lost_is_never_less_worn() -> None:
                 assert sum(each.parts(lost).values()) == pytest.approx(MOST * sum(map(abs, each.weights.values())))
 
 
+@pytest.mark.parametrize(
+    ("probability", "limit", "state"),
+    [(0.0, 0.5, FINE), (0.49, 0.96, FINE), (0.5, 0.96, UNCLEAR), (0.71, 0.96, UNCLEAR), (0.97, 0.96, WATCH),
+     (0.6, 0.5, WATCH), (0.99, 0.96, WORN_OUT), (0.995, 0.997, UNCLEAR)],
+)  # fmt: skip
+def test_the_word_follows_from_the_probability_and_its_limit(probability: float, limit: float, state: str) -> None:
+    assert Watched("fl", probability, limit, 1.0, {}, {}).state == state
+
+
+def test_no_damper_that_is_likelier_worn_than_good_is_said_to_damp_as_good_ones(good: Signals) -> None:
+    answer = watch(rolling(seconds=180.0), [good])
+    half = [
+        replace(each, probability=p, limit=0.96) for each, p in zip(answer.dampers, (0.71, 0.6, 0.999, 0.0), strict=True)
+    ]
+    text = terminal(replace(answer, dampers=tuple(half)))
+    said = " ".join(text.split())
+    assert "The rear left damper has lost its damping: replace." in said
+    assert "The front left and front right dampers are likelier worn than good, but this drive cannot tell." in said
+    assert "1 other damps as a good one." in said
+    row = next(line for line in text.splitlines() if line.startswith("front left damper"))
+    assert row.split("  ")[1:] and "cannot tell" in row and "71 %" in row and "96 %" in row
+
+
 def test_tables_for_all_sensors() -> None:
     model = shipped()
     assert {way: set(some) for way, some in model.tables.items()} == {REFERENCE: set(SETS), FLEET: set(SETS)}
@@ -131,8 +155,12 @@ def front_for_rear(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
     return values[name.replace(end, other[end])] if "wheel_speed" in name else values[name]
 
 
-def left_for_right_accels(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
+def one_accel_twice(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
     return values[name.replace("fl", "fr")] if name == "wheel_accel_fl_m_per_s2" else values[name]
+
+
+def foreign_accel(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
+    return rolling(accels=True, seed=5).values[name] if name == "wheel_accel_fl_m_per_s2" else values[name]
 
 
 def still(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
@@ -148,8 +176,9 @@ def braking(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
     [
         ({"swing": 0.5, "seconds": 120.0}, kmh, r"wheel speeds: .* as if they were in km/h; must be rad/s"),
         ({"runout": 1e-3}, kmh, r"wheel speeds: 1.08 times the rotation of the wheels, .* as if they were in km/h"),
-        ({}, front_for_rear, "wheel speeds: .* front and rear are exchanged"),
-        ({"accels": True}, left_for_right_accels, r"wheel_accel_fl_m_per_s2: .* another wheel's, or its clock is another"),
+        ({}, front_for_rear, "exchanged wheels: wheel_speed_fl_rad_per_s shows the rear left wheel, "),
+        ({"accels": True}, one_accel_twice, "wheel_accel_fl_m_per_s2 and wheel_accel_fr_m_per_s2: the same values throughout"),
+        ({"accels": True}, foreign_accel, "wheel_accel_fl_m_per_s2: unrelated to wheel_speed_fl_rad_per_s"),
         ({}, still, "wheel_speed_rr_rad_per_s = 70 throughout"),
         ({}, braking, r"drive too short: 0 usable windows .*\(29 braking\): must be at least 10"),
         ({"seconds": 15.0}, None, "drive too short: 6 usable windows"),
@@ -166,7 +195,7 @@ def test_bad_input_is_refused(options: dict[str, float], change: object, says: s
 
 
 def test_a_data_sheet_is_needed(good: Signals) -> None:
-    with pytest.raises(InputError, match=r"car.wheelbase_m is missing"):
+    with pytest.raises(InputError, match=r"car.wheelbase_m is not known: give --car FILE, in which \[body\] has wheelbase"):
         watch(replace(good, car={}))
     with pytest.raises(InputError, match=r"reference 1: car.wheelbase_m = 2.5: must be 2.8 as in the drive"):
         watch(rolling(), [replace(good, car=SHEET | {"wheelbase_m": 2.5})])
@@ -174,7 +203,8 @@ def test_a_data_sheet_is_needed(good: Signals) -> None:
 
 def test_km_per_h_without_a_line_only_misplaces_the_road() -> None:
     """12 % are within what unequal resonances do to the delay: the answer stands, and the docs say so."""
-    plausible.check_drive(spectra(changed(rolling(), kmh)))
+    drive = changed(rolling(), kmh)
+    plausible.check_drive(spectra(drive), drive)
 
 
 def test_lines_at_the_orders_of_rad_per_s_are_no_other_unit() -> None:

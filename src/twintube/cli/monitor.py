@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from twintube.cli.base import VEHICLE, app
-from twintube.cli.options import JSON_FILE
+from twintube.cli.options import CARS, JSON_FILE, one_of
 from twintube.common.files import write_text
 from twintube.errors import InputError
 
@@ -16,12 +16,16 @@ from twintube.errors import InputError
     rich_help_panel=VEHICLE, epilog="Example: twintube monitor drive.parquet --reference good.parquet --output monitor.html"
 )
 def monitor(
-    signals: Annotated[Path, typer.Argument(metavar="SIGNALS", help="Signals of a drive, .parquet or .mf4.")],
+    signals: Annotated[Path, typer.Argument(metavar="SIGNALS", help="Signals of a drive: .csv, .parquet or .mf4.")],
     reference: Annotated[
         list[Path] | None,
         typer.Option(
             metavar="FILE", help="A drive of the same car in its good state; repeatable; the fleet's values if left out."
         ),
+    ] = None,
+    car: Annotated[
+        str | None,
+        one_of(CARS, "--car", metavar="CAR", help="Where the files do not say it: a car's file with wheelbase and radius."),
     ] = None,
     json_file: JSON_FILE = None,
     output: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a page, .html.")] = None,
@@ -32,6 +36,7 @@ def monitor(
     """
     from twintube.driving.model import shipped
     from twintube.driving.monitor import watch
+    from twintube.driving.sheet import data_sheet
     from twintube.driving.signals import read
     from twintube.report.monitor import page, terminal
 
@@ -40,7 +45,8 @@ def monitor(
     files = [signals, *(reference or [])]
     if signals.resolve() in [each.resolve() for each in files[1:]]:
         raise InputError(f"--reference {signals}: is the drive itself: must be another drive of the car, in its good state")
-    drive, *others = [read(path) for path in files]
+    sheet = None if car is None else data_sheet(car)
+    drive, *others = [read(path, sheet) for path in files]
     names = [path.name for path in files]
     answer = watch(drive, others, names)
     if json_file is not None:

@@ -56,3 +56,8 @@ SHEET: Final = {
     "track_rear_m": (0.5, 3.0),
     "wheel_radius_m": (0.1, 1.0),
 }
+
+
+def channel_name(sensor: str, place: str) -> str:
+    """The channel of a wheel's sensor: `speed` or `accel`."""
+    return f"wheel_{sensor}_{place}_{'rad_per_s' if sensor == 'speed' else 'm_per_s2'}"

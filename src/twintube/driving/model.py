@@ -21,6 +21,7 @@ from twintube.driving.features import CONDITIONS, OF_A_WHEEL, mean_of, of_the_da
 FILE: Final = "monitor.json"
 MOST: Final = 4.0  # scales that a feature counts at most: no good damper is further off, and no damper is surer worn
 WORN: Final = 0.4  # oil level of a worn damper, the lower one of the paper's degraded states
+LIKELIER: Final = 0.5  # probability: below, a damper is likelier good than worn
 REFERENCE, FLEET = "reference", "fleet"
 AXLES: Final = {place: "front" if place[0] == "f" else "rear" for place in PLACES}
 # Which way a feature goes where damping is lost.

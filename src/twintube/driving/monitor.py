@@ -10,19 +10,20 @@ from twintube.common.arrays import Array
 from twintube.driving import plausible
 from twintube.driving.channels import NAMES, PLACES
 from twintube.driving.features import OF_A_WHEEL, OF_THE_BODY, minutes
-from twintube.driving.model import FLEET, REFERENCE, SIGNS, Model, sensors_of, shipped
+from twintube.driving.model import FLEET, LIKELIER, REFERENCE, SIGNS, Model, sensors_of, shipped
+from twintube.driving.sheet import NEEDED, SAME, length
 from twintube.driving.signals import Signals
-from twintube.driving.spectra import Spectra, coherence, density, sheet, spectra
+from twintube.driving.spectra import Spectra, coherence, density, spectra
 from twintube.errors import InputError
 
 REPLACE: Final = 0.99  # probability: of a hundred dampers replaced, one is good
-FINE, WATCH, WORN_OUT = "fine", "watch", "replace"
+FINE, UNCLEAR, WATCH, WORN_OUT = "fine", "cannot tell", "watch", "replace"
 STATES: Final = {
-    FINE: "damps as a good damper does",
-    WATCH: "damps less than 99 of 100 good dampers",
-    WORN_OUT: "has lost its damping, at 99 % and more",
+    FINE: "likelier good than worn: below 50 %",
+    UNCLEAR: "likelier worn than good, but more than 1 in 100 good dampers look the same: 50 % to the limit",
+    WATCH: "damps less than 99 of 100 good dampers: above the limit",
+    WORN_OUT: "has lost its damping: above the limit, and 99 % or more",
 }
-SAME: Final = 0.02  # of a length of the data sheet: printed with two or three digits
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,10 @@ class Watched:
     @property
     def state(self) -> str:
         """One of STATES."""
-        if self.probability <= self.limit:
+        if self.probability < LIKELIER:
             return FINE
+        if self.probability <= self.limit:
+            return UNCLEAR
         return WORN_OUT if self.probability >= REPLACE else WATCH
 
 
@@ -114,11 +117,11 @@ def meaning(name: str) -> str:
 def prepared(signals: Signals, where: str = "") -> Spectra:
     """The spectra of a drive that can be judged; raises InputError that says `where` it lies."""
     try:
-        for name in ("wheelbase_m", "wheel_radius_m"):
-            sheet(signals, name)
+        for name in NEEDED:
+            length(signals.car, name)
         plausible.check_channels(signals)
         some = spectra(signals)
-        plausible.check_drive(some)
+        plausible.check_drive(some, signals)
     except InputError as error:
         raise InputError(f"{where}: {error}" if where else str(error)) from error
     return some
@@ -126,7 +129,7 @@ def prepared(signals: Signals, where: str = "") -> Spectra:
 
 def check_same_car(car: dict[str, Any], other: dict[str, Any], where: str) -> None:
     """Raise InputError where the data sheets of a drive and its reference are those of two cars."""
-    for name in ("wheelbase_m", "wheel_radius_m"):
+    for name in NEEDED:
         if abs(float(other[name]) / float(car[name]) - 1.0) > SAME:
             raise InputError(
                 f"{where}: car.{name} = {other[name]:g}: must be {car[name]:g} as in the drive, of the same car"

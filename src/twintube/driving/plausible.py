@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import combinations
 from typing import Final
 
 import numpy as np
@@ -9,8 +10,10 @@ from scipy import signal
 
 from twintube.common.arrays import Array
 from twintube.common.words import counted
-from twintube.driving.channels import PLACES
+from twintube.driving.channels import NAMES, PLACES, channel_name
+from twintube.driving.columns import SPEEDS
 from twintube.driving.features import LEAST
+from twintube.driving.places import AS_NAMED, Links, Order, fewest_moved, likelier, limit, links
 from twintube.driving.signals import Signals
 from twintube.driving.spectra import (
     BETWEEN,
@@ -22,7 +25,6 @@ from twintube.driving.spectra import (
     coherence,
     cross,
     density,
-    mean_shown,
     taken,
     thinned,
     windows,
@@ -31,7 +33,8 @@ from twintube.driving.spectra import (
 from twintube.errors import InputError
 
 LEAST_COHERENCE: Final = 0.25  # of front and rear wheel: the road then makes half of the power of each, 0.5 squared
-UNITS: Final = {"km/h": 3.6, "m/s": 1.0}  # numbers of a wheel speed over those in rad/s, times the radius
+# Numbers of a wheel speed over those in rad/s, times the radius.
+UNITS: Final = {name: 1.0 / size for name, size in SPEEDS.items()}
 FACTORS: Final = np.geomspace(
     0.1, 12.0, 100
 )  # of the speed at which the rear wheels may follow: from rev/s to m/s and beyond
@@ -53,18 +56,23 @@ def check_channels(signals: Signals) -> None:
     check_turns(signals)
 
 
-def check_drive(some: Spectra) -> None:
-    """Raise InputError where a drive is too short, slow or smooth for an answer."""
+def check_drive(some: Spectra, signals: Signals) -> None:
+    """Raise InputError where a drive is too short or smooth for an answer, or a channel is another wheel's."""
     check_length(some)
+    found = links(some)
+    check_order(found, signals)
     check_road(some)
-    check_same_wheel(some)
+    check_same_wheel(some, found)
 
 
 def check_alive(signals: Signals) -> None:
-    """Raise InputError for a sensor of a wheel or the body that stands still throughout."""
+    """Raise InputError for a sensor of a wheel or the body that stands still throughout, or is that of another wheel."""
     for name, values in signals.values.items():
         if ("wheel" in name or "body" in name) and values.max() == values.min():
             raise InputError(f"{name} = {values[0]:.6g} throughout: this sensor does not move")
+    for one, other in combinations((name for name in signals.values if "wheel" in name), 2):
+        if np.array_equal(signals.values[one], signals.values[other]):
+            raise InputError(f"{one} and {other}: the same values throughout, must be of two wheels")
 
 
 def slope(y: Array, x: Array) -> tuple[float, float]:
@@ -84,9 +92,9 @@ def blocks(values: Array, count: int) -> Array:
 
 
 def check_units(signals: Signals) -> None:
-    """Raise InputError where the wheels gain another speed than the car, or turn with the other sign than its yaw."""
+    """Raise InputError where the wheels gain another speed than the car."""
     count = max(2, round(1.0 / signals.interval))
-    radius, track = float(signals.car["wheel_radius_m"]), float(signals.car.get("track_front_m", float("nan")))
+    radius = float(signals.car["wheel_radius_m"])
     wheel = {place: blocks(signals.values[f"wheel_speed_{place}_rad_per_s"] * radius, count) for place in PLACES}
     if len(wheel["fl"]) < 4:
         return
@@ -104,14 +112,19 @@ def check_units(signals: Signals) -> None:
                 f"wheel speeds: they gain {1.0 / share:.2f} times the speed that accel_x_m_per_s2 says"
                 f"{unit_of(1.0 / share, radius)}; must be rad/s and m/s2"
             )
+
+
+def turned(signals: Signals, order: Order = AS_NAMED) -> list[tuple[int, int]]:
+    """The axles, by the places of their wheels, that turn with the other sign than the yaw in an `order` of the channels."""
+    count = max(2, round(1.0 / signals.interval))
+    wheel = [blocks(signals.values[channel_name("speed", PLACES[i])], count) for i in order]
     yaw = blocks(signals.values["yaw_rate_rad_per_s"], count)
-    for left, right in (("fl", "fr"), ("rl", "rr")):
-        ratio, error = slope((wheel[right] - wheel[left]) / track, yaw)
+    found = []
+    for left, right in ((0, 1), (2, 3)):
+        ratio, error = slope(wheel[right] - wheel[left], yaw)
         if ratio < -SURE * error:
-            raise InputError(
-                f"wheel_speed_{left}_rad_per_s and wheel_speed_{right}_rad_per_s: exchanged, or yaw_rate_rad_per_s has "
-                "the other sign: in a left turn the right wheels must turn faster"
-            )
+            found.append((left, right))
+    return found
 
 
 def unit_of(ratio: float, radius: float) -> str:
@@ -179,7 +192,7 @@ def check_length(some: Spectra) -> None:
 
 
 def check_road(some: Spectra) -> None:
-    """Raise InputError where front and rear wheels do not show one road, or show it in another order or at another speed."""
+    """Raise InputError where front and rear wheels do not show one road, or show it at another speed."""
     shared = {sensor: coherence(some, sensor) for sensor in some.sensors}
     if max(shared.values()) < LEAST_COHERENCE:
         raise InputError(
@@ -188,52 +201,75 @@ def check_road(some: Spectra) -> None:
         )
     factor = followed(some)
     if not 1.0 / GROSS < factor < GROSS:
-        what = "front and rear are exchanged" if factor < 0.0 else "another unit than rad/s, or another wheelbase"
         raise InputError(
             f"wheel speeds: the rear wheels run over the road {some.delay.mean() / factor:.3g} s after the front wheels, "
-            f"at this speed it must be about {some.delay.mean():.3g} s: {what}"
+            f"at this speed it must be about {some.delay.mean():.3g} s: another unit than rad/s, or another wheelbase"
         )
 
 
-def check_same_wheel(some: Spectra) -> None:
-    """Raise InputError where a wheel's acceleration goes with another wheel's speed, or with none: another wheel or clock.
+def check_order(found: Links, signals: Signals) -> None:
+    """Raise InputError where the channels of wheels are likelier in another order than their names say."""
+    as_named = (AS_NAMED,) * len(found.followed)
+    if better := likelier(found):
+        better = fewest_moved([each for each in better if not turned(signals, each[0])] or better)
+        shares = [found.share(orders) for orders in (as_named, better[0])]
+        raise InputError(
+            f"exchanged wheels: {'; or '.join(map(in_words, better))}. What belongs together shares {shares[0]:.2f} of its "
+            f"power as named, {shares[1]:.2f} so"
+        )
+    if axles := turned(signals):
+        order = list(AS_NAMED)
+        for left, right in axles:
+            order[left], order[right] = right, left
+        raise InputError(
+            f"exchanged wheels: {in_words([tuple(order)] * len(as_named))}; or yaw_rate_rad_per_s has the other sign: in a "
+            "left turn the right wheels must turn faster"
+        )
+
+
+def in_words(orders: Sequence[Order]) -> str:
+    """Which channels show another wheel than their names say."""
+    return ", ".join(
+        f"{channel_name(sensor, PLACES[i])} shows the {NAMES[PLACES[k]]}"
+        for sensor, order in zip(SENSORS, orders, strict=False)
+        for i, k in sorted(zip(order, AS_NAMED, strict=True))
+        if i != k
+    )
+
+
+def check_same_wheel(some: Spectra, found: Links) -> None:
+    """Raise InputError where a wheel's acceleration and speed are unrelated: the sensor of another car, or another clock.
 
     Both must show the road: else nothing is said.
     """
-    if some.sensors != SENSORS or min(coherence(some, sensor) for sensor in SENSORS) < LEAST_COHERENCE:
+    if found.together is None or min(coherence(some, sensor) for sensor in SENSORS) < LEAST_COHERENCE:
         return
-    there = within(some.frequency, HOP)
-    for place in PLACES:
-        speed = some.amplitude[f"speed_{place}"]
-        side = place[0] + ("r" if place[1] == "l" else "l")
-        shared = {}
-        for other in (place, side):
-            felt = some.amplitude[f"accel_{other}"]
-            both = np.abs(mean_shown(np.conj(speed) * felt)) ** 2
-            shared[other] = float(np.nanmean(both[there] / (density(speed) * density(felt))[there]))
-        if shared[place] < 2.0 * shared[side]:
+    least = limit(1, len(PLACES))
+    for place, related in zip(PLACES, np.diag(found.together), strict=True):
+        if related <= least:
+            speed, accel = (channel_name(sensor, place) for sensor in SENSORS)
             raise InputError(
-                f"wheel_accel_{place}_m_per_s2: coherence {shared[place]:.2f} with the speed of this wheel at wheel hop, "
-                f"that of wheel_accel_{side}_m_per_s2 is {shared[side]:.2f}: another wheel's, or its clock is another"
+                f"{accel}: unrelated to {speed}; log likelihood {related:.0f} that both are of one wheel, must be above "
+                f"{least:.0f}: another car's, or its clock is another"
             )
 
 
 def followed(some: Spectra) -> float:
-    """At how many times the speed the rear wheels follow the front ones; negative where they lead; 1 where none is clear.
+    """At how many times the speed the rear wheels follow the front ones; 1 where none is clear.
 
     The cross density, each frequency weighted by its coherence, is largest for the right delay (generalised correlation).
     Another delay than a likely one must explain twice as much, as the resonances of unequal wheels turn the phase as well.
     """
     some = taken(some, slice(0, ENOUGH))
-    factors, total = np.concatenate([FACTORS, -FACTORS]), np.zeros(2 * len(FACTORS), dtype=complex)
+    total = np.zeros(len(FACTORS), dtype=complex)
     for side in "lr":
         front, rear = (some.amplitude[f"speed_{end}{side}"] for end in "fr")
         over = np.sqrt(density(front) * density(rear))
         there = within(some.frequency, (BETWEEN[0], HOP[1])) & np.isfinite(over)
-        for i, factor in enumerate(factors):
+        for i, factor in enumerate(FACTORS):
             shared = cross(front[:, there], rear[:, there], some.frequency[there], some.delay / factor)
             total[i] += np.mean(shared / over[there]) / 2.0
     power = np.abs(total) ** 2
-    likely = (factors > 1.0 / GROSS) & (factors < GROSS)
+    likely = (FACTORS > 1.0 / GROSS) & (FACTORS < GROSS)
     best = int(np.argmax(power))
-    return float(factors[best]) if power[best] > max(LEAST_COHERENCE, 2.0 * power[likely].max()) else 1.0
+    return float(FACTORS[best]) if power[best] > max(LEAST_COHERENCE, 2.0 * power[likely].max()) else 1.0

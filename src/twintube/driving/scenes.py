@@ -12,6 +12,7 @@ from twintube.dampers.freed_gas import DEFAULT, condition
 from twintube.driving.channels import PLACES
 from twintube.driving.drives import Bushings, Scene
 from twintube.driving.sensors import Encoder
+from twintube.driving.sheet import IN_A_FILE
 from twintube.errors import InputError
 from twintube.inspection.scatter import ROOM, warm
 from twintube.vehicle.cars import CarSet
@@ -55,11 +56,7 @@ class Vehicle:
     def sheet(self) -> dict[str, Any]:
         """What its data sheet says."""
         whole = self.car.whole
-        tracks = {f"track_{axle}_m": whole[f"{axle}_axle"]["track"] for axle in ("front", "rear")}
-        return {
-            "name": self.car.name, "wheelbase_m": whole["body"]["wheelbase"], **tracks,
-            "wheel_radius_m": whole["front_tyre"]["radius"],
-        }  # fmt: skip
+        return {"name": self.car.name} | {name: whole[table][key] for name, (table, key) in IN_A_FILE.items()}
 
 
 @dataclass(frozen=True)

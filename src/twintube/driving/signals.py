@@ -20,16 +20,20 @@ from twintube.common.words import listed, shown
 from twintube.core.checks import outside
 from twintube.dampers.damper import suggestion
 from twintube.data.findings import UnreadableError
-from twintube.data.formats import BINARY_BYTES, Format, Raw
+from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, Format, Raw
 from twintube.data.read.binary import check_package, read_binary
 from twintube.driving.channels import CHANNELS, SHEET, TIME
+from twintube.driving.columns import BARE, UNIT_OF, channel_of, in_channels
+from twintube.driving.sheet import joined
+from twintube.driving.text import read_text
 from twintube.errors import InputError
 
 KEY = "twintube"  # of the metadata in Parquet; the attachment of an MDF file is KEY.json
 PARTS = ("car", "drive", "channels", "labels")
-SUFFIXES = (".parquet", ".pq", ".mf4")
+WRITTEN = (".parquet", ".pq", ".mf4")
+READ = (*WRITTEN, *TEXT)
+STAMPS = "mM"  # kinds of numpy's times
 GAP = 1.5  # usual sample intervals: a lost sample makes 2, a bus's jitter less than half of one more
-MASTER = "time"  # as an MDF file's time is named
 
 
 @dataclass(frozen=True)
@@ -132,37 +136,91 @@ def check_sheet(car: Mapping[str, Any]) -> None:
             raise InputError(message)
 
 
-def read(path: str | Path) -> Signals:
-    """The signals of a Parquet or MDF 4 file; raises InputError with its name, OSError.
+def read(path: str | Path, car: Mapping[str, Any] | None = None) -> Signals:
+    """The signals of a file in one of READ; `car` is the data sheet [m] where the file has none. Raises InputError, OSError.
 
     Columns beside CHANNELS are left out: a logger writes more than is asked for.
     """
     path = Path(path)
     try:
-        check_suffix(path)
-        check_regular(path, BINARY_BYTES)
-        check_package(path)
-        wanted = Format(columns={name: name for name in (TIME, *CHANNELS)})
-        raw = next(read_binary([(path, wanted)]))
-        if isinstance(raw, UnreadableError):
-            raise raw
-        # After the reader's process took the file without harm, this one may open it.
-        names, text = about_mdf(path) if path.suffix.lower() == ".mf4" else (list(raw.columns), about_parquet(path))
-        time = MASTER if path.suffix.lower() == ".mf4" else TIME
-        if time not in raw.columns:
-            raise InputError(f"missing: {with_nearest(TIME, names)}")
-        found = [name for name in CHANNELS if name in raw.columns]
-        if any(channel.required and name not in found for name, channel in CHANNELS.items()):
-            check_names(dict.fromkeys(name for name in names if name not in (TIME, MASTER)))
-        return Signals(numbers(raw, time), {name: numbers(raw, name) for name in found}, **known_of(text))
-    except (ReadError, UnreadableError, InputError) as error:
+        check_suffix(path, READ)
+        is_text = path.suffix.lower() in TEXT
+        check_regular(path, TEXT_BYTES if is_text else BINARY_BYTES)
+        return assembled((of_text if is_text else of_binary)(path), car or {})
+    except (ReadError, UnreadableError, ValueError) as error:
         raise InputError(f"{path.name}: {error}") from error
 
 
-def check_suffix(path: Path) -> None:
+def from_frame(frame: Mapping[str, Any], car: Mapping[str, float]) -> Signals:
+    """The signals of a table of pandas, or of any mapping of columns by name; `car` is its data sheet [m].
+
+    Names and units are those of a file; times may be stamps, and stand in the index. Raises InputError.
+    """
+    columns = {str(name): np.asarray(frame[name]) for name in frame}
+    if (index := getattr(frame, "index", None)) is not None and TIME not in map(named, columns):
+        columns[TIME if np.asarray(index).dtype.kind in STAMPS else str(index.name)] = np.asarray(index)
+    found = {}
+    for name, values in columns.items():
+        if named(name) == TIME and values.dtype.kind in STAMPS:
+            found[TIME] = (values - values[0]) / np.timedelta64(1, "s")
+        elif named(name) and values.dtype.kind not in "fiu":
+            raise InputError(f"{name}: {values.dtype.name}: must be numbers")
+        elif named(name):
+            found[name] = values
+    return assembled(Found(found, {}, list(columns)), car)
+
+
+@dataclass(frozen=True)
+class Found:
+    """Columns of channels by their names in a file, units beside these names, all names, and the text beside the columns."""
+
+    columns: Mapping[str, Array]
+    units: Mapping[str, str]
+    names: Sequence[str]
+    text: str = "{}"
+
+
+def named(header: str) -> str:
+    """The channel of a column; empty for a column of something else."""
+    return (channel_of(header) or ("",))[0]
+
+
+def assembled(found: Found, car: Mapping[str, Any]) -> Signals:
+    """Signals of what a file holds; raises InputError."""
+    known = known_of(found.text)
+    sheet = joined(known["car"], car)
+    values = in_channels(found.columns, found.units, sheet)
+    if TIME not in values:
+        raise InputError(f"missing: {with_nearest(TIME, found.names)}")
+    time = values.pop(TIME)
+    if any(channel.required and name not in values for name, channel in CHANNELS.items()):
+        check_names(dict.fromkeys([*values, *(name for name in found.names if not named(name))]))
+    return Signals(time, values, **{**known, "car": sheet})
+
+
+def of_text(path: Path) -> Found:
+    """The columns of a text file."""
+    return Found(*read_text(path))
+
+
+def of_binary(path: Path) -> Found:
+    """The columns of a Parquet or MDF 4 file; raises UnreadableError."""
+    check_package(path)
+    mdf = path.suffix.lower() == ".mf4"
+    raw = next(read_binary([(path, Format(columns={name: name for name in (*UNIT_OF, *BARE)} if mdf else None))]))
+    if isinstance(raw, UnreadableError):
+        raise raw
+    # After the reader's process took the file without harm, this one may open it.
+    names, text = about_mdf(path) if mdf else (list(raw.columns), about_parquet(path))
+    if wrong := next(filter(named, raw.refused), ""):
+        raise InputError(f"{wrong}: {raw.refused[wrong]}: must be numbers")
+    return Found({name: numbers(raw, name) for name in filter(named, raw.columns)}, raw.units, names, text)
+
+
+def check_suffix(path: Path, suffixes: Sequence[str] = WRITTEN) -> None:
     """Raise InputError for a file of another format."""
-    if path.suffix.lower() not in SUFFIXES:
-        raise InputError(f"the ending {path.suffix or 'of its name'}: must be one of {', '.join(SUFFIXES)}")
+    if path.suffix.lower() not in suffixes:
+        raise InputError(f"the ending {path.suffix or 'of its name'}: must be one of {', '.join(suffixes)}")
 
 
 def numbers(raw: Raw, name: str) -> Array:

@@ -14,6 +14,7 @@ from scipy import signal
 
 from twintube.common.arrays import Array
 from twintube.driving.channels import PLACES
+from twintube.driving.sheet import NEEDED, length
 from twintube.driving.signals import Signals
 from twintube.errors import InputError
 
@@ -61,13 +62,6 @@ def within(frequency: Array, band: tuple[float, float]) -> Array:
     return np.asarray((frequency >= band[0]) & (frequency < band[1]))
 
 
-def sheet(signals: Signals, name: str) -> float:
-    """A length of the car's data sheet [m]; raises InputError where the file does not say it."""
-    if name not in signals.car:
-        raise InputError(f"car.{name} is missing in the file's metadata: it is needed for the delay of the rear wheels")
-    return float(signals.car[name])
-
-
 def hold(signals: Signals) -> int:
     """Samples for which the wheel speeds stand still: a slower channel repeats its last value on the raster."""
     speeds = np.array([signals.values[f"wheel_speed_{place}_rad_per_s"] for place in PLACES])
@@ -99,7 +93,7 @@ def windows(values: Array, count: int) -> Array:
 
 def spectra(signals: Signals) -> Spectra:
     """The spectra of a drive; raises InputError where the raster is too coarse, or the data sheet incomplete."""
-    wheelbase, radius = sheet(signals, "wheelbase_m"), sheet(signals, "wheel_radius_m")
+    wheelbase, radius = (length(signals.car, name) for name in NEEDED)
     interval, values = thinned(signals)
     count = round(WINDOW / interval)
     if len(next(iter(values.values()))) < count:

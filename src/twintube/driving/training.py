@@ -14,12 +14,11 @@ from twintube.common.arrays import Array
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, of_the_damper
-from twintube.driving.model import AXLES, FLEET, MOST, REFERENCE, SETS, SIGNS, WORN, Model, Table, Usual, names_of
+from twintube.driving.model import AXLES, FLEET, LIKELIER, MOST, REFERENCE, SETS, SIGNS, WORN, Model, Table, Usual, names_of
 from twintube.errors import InputError
 
 LENGTHS: Final = (1, 5, 20)  # [min] of drives that are judged
 FALSE_ALARMS: Final = 0.01  # of the good dampers, for the limit of a table
-LIKELIER: Final = 0.5  # limit at least: a damper that is likelier good than worn is none to watch
 STRENGTHS: Final = (0.01, 0.1, 1.0, 10.0)  # of the weights against their penalty; the best one for cars left out is taken
 FOLDS: Final = 5  # groups of cars
 
@@ -162,6 +161,7 @@ def fitted_table(
         slope * float(best.intercept_[0]) + offset,
         {names[i]: slope * float(weight) for i, weight in zip(used, weights, strict=True)},
         {names[i]: float(scale[i]) for i in used},
+        # A damper that is likelier good than worn is none to watch.
         max(LIKELIER, float(np.quantile(line.predict_proba(odds)[~worn, 1], 1.0 - FALSE_ALARMS))),
     )
 

@@ -10,14 +10,14 @@ from matplotlib.figure import Figure
 from twintube.common.words import counted, listed
 from twintube.driving.channels import NAMES, PLACES
 from twintube.driving.model import FLEET, REFERENCE
-from twintube.driving.monitor import FINE, STATES, WATCH, WORN_OUT, Answer, Watched, meaning
+from twintube.driving.monitor import FINE, STATES, UNCLEAR, WATCH, WORN_OUT, Answer, Watched, meaning
 from twintube.driving.spectra import HOP
 from twintube.report.common import style
 from twintube.report.common.html_page import Headline, Picture, Section, Table, html
 from twintube.report.common.probabilities import LEAST, MOST
 
-COLOURS = {FINE: style.GREEN, WATCH: style.ORANGE, WORN_OUT: style.RED}
-MARKS = {FINE: "yes", WATCH: "warn", WORN_OUT: "no"}
+COLOURS = {FINE: style.GREEN, UNCLEAR: style.BLUE, WATCH: style.ORANGE, WORN_OUT: style.RED}
+MARKS = {FINE: "yes", UNCLEAR: "warn", WATCH: "warn", WORN_OUT: "no"}
 LOWEST, HIGHEST = 0.5, 24.0  # [Hz] of the spectra that are drawn: from below the body to above the wheels
 BESIDE = {REFERENCE: "the same car in its good state", FLEET: "the cars of the training, as no reference was given"}
 CAPTION = (
@@ -27,6 +27,7 @@ CAPTION = (
 UNSEEN = "Fine does not say that no oil is lost: a damper damps as new until its foot valve draws gas."
 NEXT = {
     FINE: "Nothing to do. Judge the next drive in the same way.",
+    UNCLEAR: "Judge a drive of 5 minutes or more, on a rougher road, with a reference of the same car.",
     WATCH: "Judge another drive of 5 minutes or more, on a rougher road, with a reference of the same car.",
     WORN_OUT: "Look for oil at the damper, and put the axle on an inspection bench: `twintube inspect` says what that sees.",
 }
@@ -37,18 +38,28 @@ def damper(place: str) -> str:
     return NAMES[place].replace("wheel", "damper")
 
 
+def dampers(some: Sequence[Watched]) -> str:
+    """Some dampers in words."""
+    *others, last = (NAMES[each.place].removesuffix(" wheel") for each in some)
+    return f"{', '.join(others)} and {last} dampers" if others else f"{last} damper"
+
+
 def percent(probability: float) -> str:
     """A probability in words; none is certain."""
     return "below 1 %" if probability < LEAST else "above 99 %" if probability > MOST else f"{100 * probability:.0f} %"
 
 
+def called(each: Watched) -> str:
+    """What is said of a damper: its state, the probability, and from which one on it is called."""
+    return f"{each.state}: worn {percent(each.probability)}, called from {percent(each.limit)}"
+
+
 def sentence(answer: Answer) -> str:
     """The answer in words."""
     parts = []
-    for state, says in ((WORN_OUT, "has lost its damping: replace"), (WATCH, "damps less than usual: watch")):
+    for state, one, several in SAID:
         if some := answer.of(state):
-            several = says.replace("has lost its", "have lost their").replace("damps", "damp") if len(some) > 1 else says
-            parts.append(f"The {listed([damper(each.place) for each in some], 4)} {several}.")
+            parts.append(f"The {dampers(some)} {one if len(some) == 1 else several}.")
     if not parts:
         return "All four dampers damp as good ones."
     if rest := len(answer.of(FINE)):
@@ -56,9 +67,20 @@ def sentence(answer: Answer) -> str:
     return " ".join(parts)
 
 
+SAID = (  # of one damper and of several
+    (WORN_OUT, "has lost its damping: replace", "have lost their damping: replace"),
+    (WATCH, "damps less than usual: watch", "damp less than usual: watch"),
+    (
+        UNCLEAR,
+        "is likelier worn than good, but this drive cannot tell",
+        "are likelier worn than good, but this drive cannot tell",
+    ),
+)
+
+
 def worst_state(answer: Answer) -> str:
     """The state that decides about the car."""
-    return next((state for state in (WORN_OUT, WATCH) if answer.of(state)), FINE)
+    return next((state for state, *_ in SAID if answer.of(state)), FINE)
 
 
 def remark(answer: Answer) -> str:
@@ -82,7 +104,7 @@ def spectra(answer: Answer, narrow: bool = False) -> Figure:
         for state, colour in COLOURS.items():  # the key names all states in their order
             own = state == each.state
             ax.semilogy(frequency if own else [], drawn if own else [], color=colour, lw=1.7, label=f"this drive: {state}")
-        text = f"{NAMES[each.place].removesuffix(' wheel')}: {each.state}, worn {percent(each.probability)}"
+        text = f"{NAMES[each.place].removesuffix(' wheel')}, {called(each)}".replace(": ", ":\n" if narrow else ": ")
         style.title(ax, text[0].upper() + text[1:])
     style.label(axes, "frequency [Hz]", "(wheel speed / mean)²\nper Hz")
     style.legend_above(figure, *axes.flat[:4])
@@ -98,7 +120,14 @@ def summary(answer: Answer) -> Table:
         ]
         for each in answer.dampers
     ]  # fmt: skip
-    head = ("damper", "state", "probability that it is worn", "limit", "damping ratio of wheel hop", "power at wheel hop")
+    head = (
+        "damper",
+        "state",
+        "probability that it is worn",
+        "called from",
+        "damping ratio of wheel hop",
+        "power at wheel hop",
+    )
     return Table(head, rows, "The two last as factors of what is usual", numeric=(2, 3, 4, 5))
 
 
@@ -120,10 +149,10 @@ def reason(each: Watched, name: str) -> str:
 def terminal(answer: Answer) -> str:
     """The answer as text."""
     table = summary(answer)
-    rows = [["damper", "state", "worn", "limit", "damping", "hop power"], *map(list, table.rows)]
+    rows = [["damper", "state", "worn", "called from", "damping", "hop power"], *map(list, table.rows)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-    return "\n".join([*lines, sentence(answer), *textwrap.wrap(remark(answer), 118)])
+    return "\n".join([*lines, *(row for text in (sentence(answer), remark(answer)) for row in textwrap.wrap(text, 118))])
 
 
 def page(answer: Answer, name: str, references: Sequence[str], about: str) -> str:
