@@ -1,4 +1,4 @@
-/* Written by twintube/fmu/translate.py from the equations 49309994f8fa0e06, body a8acd88e15f62b44; do not edit. */
+/* Written by twintube/fmu/translate.py from the equations c73216210f1b233f, body 0d5f0bdcbd885fff; do not edit. */
 #ifndef KERNEL_H
 #define KERNEL_H
 
@@ -623,14 +623,12 @@ static void kernel_start(struct kernel_Parameters* p, struct kernel_Derived* d, 
 /* Where a rod at the stroke `at` [m] goes that is sent to `z` [m] at velocities from `v0` to `v1` [m/s].
    A stroke behind the way that the velocity has led - rounding, noise of a sensor, a velocity that was held for a step - is
    no reversal: the rod waits until the motion has caught up with it, and it stands where the velocity is 0. As for
-   `agreement`, what lies beyond the play is a way; the rod is drawn along by it. */
+   `agreement`, a way begins beyond the play: such a jump is followed. */
 static double kernel_rod_goal(double at, double z, double v0, double v1)
 {
-    if (((z < at) && (v0 >= 0.0) && (v1 >= 0.0)) || ((z > at) && (v0 <= 0.0) && (v1 <= 0.0)))
-    {
-        return double_max(2, z - 0.002, double_min(2, z + 0.002, at));
-    }
-    return z;
+    bool behind;
+    behind = ((z < at) && (v0 >= 0.0) && (v1 >= 0.0)) || ((z > at) && (v0 <= 0.0) && (v1 <= 0.0));
+    return (behind && (fabs(z - at) <= 0.002) ? at : z);
 }
 
 /* Number of parts for a step of `dt` [s]. */

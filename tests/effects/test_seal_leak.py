@@ -41,8 +41,8 @@ def test_a_film_may_end_with_the_reserve() -> None:
         model.start(p, d, s, 0.0)
         reserve, way = s.V3_oil, 0.0
         while 1e-5 * way < 2.0 * reserve:
-            for z in (0.001, 0.0):
-                model.advance(p, d, s, f, z, 0.1, 0.1, 0.01)
+            for z, v in ((0.001, 0.1), (0.0, -0.1)):
+                model.advance(p, d, s, f, z, v, v, 0.01)
                 way += 0.001
         lost.append(s.V_lost)
         estimate = seal_leak.seal_leak_lost(p, 0.6, 0.0, way / 0.1, way, 0.1 * way)

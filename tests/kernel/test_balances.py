@@ -73,6 +73,7 @@ def run(p: Parameters, motion: list[tuple[float, float, float]], displaced: floa
     for share, v0, v1 in motion:
         z = share * limit
         assert model.advance(p, d, s, f, z, v0, v1, 0.0), "the step was not finished"
+        z = s.z  # of a jump against the velocity, less than the play
         V1, V2 = d.A_1 * (d.half_length - z), d.A_2 * (d.half_length + z)
         full = 2 * d.A_2 * d.half_length
         assert abs(s.V1_oil + s.V1_gas + s.V1_foam - V1) <= 1e-12 * full

@@ -61,11 +61,10 @@ def rod_goal(at: float, z: float, v0: float, v1: float) -> float:
 
     A stroke behind the way that the velocity has led - rounding, noise of a sensor, a velocity that was held for a step - is
     no reversal: the rod waits until the motion has caught up with it, and it stands where the velocity is 0. As for
-    `agreement`, what lies beyond the play is a way; the rod is drawn along by it.
+    `agreement`, a way begins beyond the play: such a jump is followed.
     """
-    if (z < at and v0 >= 0.0 and v1 >= 0.0) or (z > at and v0 <= 0.0 and v1 <= 0.0):
-        return max(z - PLAY, min(z + PLAY, at))
-    return z
+    behind = (z < at and v0 >= 0.0 and v1 >= 0.0) or (z > at and v0 <= 0.0 and v1 <= 0.0)
+    return at if behind and abs(z - at) <= PLAY else z
 
 
 def rod_stroke(d: Derived, s: State) -> float:
