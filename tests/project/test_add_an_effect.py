@@ -168,6 +168,41 @@ def test_an_unknown_unit_is_an_error(copy: Path) -> None:
     assert "unit 'furlong' of bypass_groove" in done.stderr.splitlines()[-1]
 
 
+STATE = """
+
+@dataclass(frozen=False, slots=True)
+class State(Frame):
+    \"\"\"What it remembers.\"\"\"
+
+    warmth: float = {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "name"),
+    [
+        ("def bypass_groove_scale", STATE.format("0.0") + "\n\ndef bypass_groove_scale", "State.warmth"),
+        (
+            "def bypass_groove_scale",
+            STATE.format('var("", "", "J", "heat")') + "\n\ndef bypass_groove_scale",
+            "State.warmth",
+        ),
+        ('role="scale")  # fmt: skip', 'role="scale")  # fmt: skip\n    depth: float = 0.0', "Parameters.depth"),
+    ],
+)
+def test_a_field_that_the_table_cannot_hold_is_named_with_its_file(copy: Path, old: str, new: str, name: str) -> None:
+    ((path, text),) = BLOCK.findall(PAGE)
+    other = copy / "twintube" / path
+    assert old in text
+    other.write_text(text.replace(old, new, 1), encoding="utf-8")
+    try:
+        done = run(copy, "-c", "import twintube.core.effects")
+    finally:
+        other.write_text(text, encoding="utf-8")
+    assert done.returncode != 0
+    assert f"effects/bypass_groove.py: {name}: must be var(..., default=...)" in done.stderr.splitlines()[-1]
+
+
 PYCCEL = shutil.which("pyccel") or shutil.which("pyccel", path=str(Path(sys.executable).parent))
 
 

@@ -142,6 +142,11 @@ def effect_of(name: str, module: ModuleType) -> Effect:
     if missing:
         raise ImportError(f"effects/{name}.py lacks {', '.join(missing)}")
     parameters = own(module.Parameters, variables.Parameters)
+    states = own(module.State, Frame) if hasattr(module, "State") else ()
+    for record, items in (("Parameters", parameters), ("State", states)):
+        for item in items:
+            if item.metadata.get("default") is None:
+                raise ImportError(f"effects/{name}.py: {record}.{item.name}: must be var(..., default=...)")
     for item in parameters:
         if item.metadata["role"] not in ROLES:
             role = item.metadata["role"]
@@ -154,7 +159,7 @@ def effect_of(name: str, module: ModuleType) -> Effect:
         module.DECIDES,
         module.NEEDS_TIME,
         parameters,
-        own(module.State, Frame) if hasattr(module, "State") else (),
+        states,
     )
 
 
