@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 from twintube.cli import app
 from twintube.dampers import load
 from twintube.fmu import BuildError, binaries, build_fmu, sources
+from twintube.fmu.platforms import Fmi, known
 from twintube.fmu.ssp import described
 from twintube.fmu.standards import STANDARDS
 from twintube.vehicle.cars import load_car
@@ -83,8 +84,7 @@ def test_stale_c_is_refused(fmi: Any, tmp_path: Path, monkeypatch: pytest.Monkey
     ("arguments", "message"),
     [
         (["--fmi", "3", "--kind", "python"], "fmi = 3, kind = python: the Python kind is built for FMI 2 only"),
-        (["--fmi", "3", "--platform", "linux64"], "platform = linux64: must be one of x86_64-linux, aarch64-linux, x86_64-windows"),
-        (["--platform", "x86_64-linux"], "platform = x86_64-linux: must be one of linux64"),
+        (["--fmi", "3", "--platform", "linux46"], "platform = linux46: must be one of x86_64-linux, aarch64-linux, x86_64-windows"),
         (["--test", "a.fmu", "--oil-level", "1"], "--test a.fmu: a test builds nothing, leave out oil_level, damper"),
     ],
 )  # fmt: skip
@@ -95,3 +95,22 @@ def test_what_does_not_go_together_is_refused_with_a_line(
     run = CliRunner().invoke(app, ["fmu", "SA8", *arguments])
     assert run.exit_code == 2 and run.stderr.startswith(f"error: {message}") and run.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("fmi", "named", "found"),
+    [
+        (2, "linux64", ("linux64",)),
+        (2, "x86_64-linux", ("linux64",)),
+        (2, "x86_64-windows", ("win64",)),
+        (2, "aarch64-linux", ("aarch64-linux",)),
+        (2, "aarch64-darwin", ("darwin64",)),  # its library is for both processors
+        (3, "linux64", ("x86_64-linux",)),
+        (3, "win64", ("x86_64-windows",)),
+        (3, "darwin64", ("x86_64-darwin", "aarch64-darwin")),
+        (3, "x86_64-darwin", ("x86_64-darwin",)),
+    ],
+)
+def test_a_platform_has_its_names_of_both_versions(fmi: Fmi, named: str, found: tuple[str, ...]) -> None:
+    assert known([named], fmi) == found
+    assert known([*found, named], fmi) == found

@@ -39,7 +39,8 @@ def build_container(
     target = target_file(output, NAME)
     if not SHORTEST <= step <= LONGEST:
         raise BuildError(f"communication step = {step:g} s: must be from {SHORTEST:g} to {LONGEST:g} s")
-    for platform in known(platforms):
+    platforms = known(platforms)
+    for platform in platforms:
         if platform not in PLATFORMS:
             raise BuildError(f"platform = {platform}: a container must be for one of {', '.join(PLATFORMS)}")
     logging.getLogger("fmu_manipulation_toolbox").setLevel(logging.ERROR)

@@ -31,10 +31,16 @@ class PlatformError(ValueError):
 
 
 def known(platforms: Sequence[str] | None, fmi: Fmi = 2) -> tuple[str, ...]:
-    """The platforms without repetitions, all of them for None; raises PlatformError."""
-    named = PLATFORMS if fmi == 2 else PLATFORMS_3
-    platforms = tuple(named) if platforms is None else platforms
-    for platform in platforms:
-        if platform not in named:
-            raise PlatformError(f"platform = {platform}: must be one of {', '.join(named)}")
-    return tuple(dict.fromkeys(platforms))
+    """The platforms under the names of a version, without repetitions, all of them for None; raises PlatformError.
+
+    A name of the other version stands for the platforms that have a target of its library.
+    """
+    named, other = (PLATFORMS, PLATFORMS_3) if fmi == 2 else (PLATFORMS_3, PLATFORMS)
+    found: list[str] = []
+    for platform in named if platforms is None else platforms:
+        if platform not in named and platform not in other:
+            every = ", ".join(dict.fromkeys([*named, *other]))
+            raise PlatformError(f"platform = {platform}: must be one of {every}")
+        targets = set() if platform in named else set(other[platform][1])
+        found += [platform] if platform in named else [name for name, (_, own) in named.items() if targets & set(own)]
+    return tuple(dict.fromkeys(found))
