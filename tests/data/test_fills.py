@@ -117,9 +117,9 @@ def test_what_needs_a_fill_says_so_and_writes_nothing(folder: Make, tmp_path: Pa
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ([], "100 % of the oil (assumed, it is unknown there), gas present (assumed, it is unknown there)"),
-        (["--oil-level", "0.7"], "70 % of the oil, gas present (assumed, it is unknown there)"),
-        (["--oil-level", "0.7", "--gas-lost"], "70 % of the oil, gas lost\n"),
+        ([], "100 % oil (assumed, it is unknown there), gas kept (assumed, it is unknown there)"),
+        (["--oil-level", "0.7"], "70 % oil, gas kept (assumed, it is unknown there)"),
+        (["--oil-level", "0.7", "--gas-lost"], "70 % oil, gas lost\n"),
     ],
 )
 def test_a_simulation_says_what_it_assumed(folder: Make, options: list[str], said: str) -> None:
@@ -132,4 +132,4 @@ def test_a_simulation_says_what_it_assumed(folder: Make, options: list[str], sai
 def test_a_simulation_takes_the_fill_that_another_record_of_the_state_states(folder: Make) -> None:
     path = written(folder, NOBODY + A, HALF + A)
     run = RUNNER.invoke(app, ["simulate", "--record", str(path / "0.csv"), "--output", str(path / "o.csv")])
-    assert "SA8, 50 % of the oil, gas lost\n" in run.output
+    assert "SA8, 50 % oil, gas lost\n" in run.output

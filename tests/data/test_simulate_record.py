@@ -11,7 +11,10 @@ from typer.testing import CliRunner
 from tests.data.conftest import RECORD, as_csv, good
 from twintube import load, simulate
 from twintube.cli import app
+from twintube.dampers import to_toml
+from twintube.dampers.freed_gas import with_freed_gas
 from twintube.report.simulated_record import deviation
+from twintube.rig.signals import harmonic_block
 
 Make = Callable[..., Path]
 RUNNER = CliRunner()
@@ -30,7 +33,7 @@ def test_a_listed_record_needs_no_arguments(folder: Make, tmp_path: Path) -> Non
     arguments = ["simulate", "--record", str(path / "a.csv"), "--output", str(tmp_path / "out.csv")]
     run = RUNNER.invoke(app, [*arguments, "--plot", str(tmp_path / "out.png")])
     assert run.exit_code == 0, run.output
-    assert "as its dataset.toml says: SA7, 60 % of the oil, gas lost" in run.output
+    assert "as its dataset.toml says: SA7, 60 % oil, gas lost" in run.output
     assert re.search(
         r"measured against simulated: 5\.0 N RMSE, \d\.\d% of the peak of \d+ N; .* mean is \+5\.0 N off", run.output
     )
@@ -39,8 +42,8 @@ def test_a_listed_record_needs_no_arguments(folder: Make, tmp_path: Path) -> Non
     assert float(work[1]) == pytest.approx(float(work[2]), abs=0.02)
     assert (tmp_path / "out.csv").read_text(encoding="utf-8").splitlines()[0].endswith(",measured_force [N]")
     assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
-    intact = RUNNER.invoke(app, [*arguments, "--oil-level", "1", "--gas-present"])
-    assert "SA7, 100 % of the oil, gas present" in intact.output
+    intact = RUNNER.invoke(app, [*arguments, "--oil-level", "1", "--gas-kept"])
+    assert "SA7, 100 % oil, gas kept" in intact.output
 
 
 def test_what_it_needs_without_a_dataset(folder: Make) -> None:
@@ -76,3 +79,33 @@ def test_samples_that_are_not_usable_do_not_count() -> None:
     assert (result.rmse, result.mean) == (pytest.approx(3.0), pytest.approx(3.0))
     assert result.peak == pytest.approx(500.0, rel=1e-3)
     assert result.simulated_work == pytest.approx(result.measured_work, rel=0.03)
+
+
+def said(arguments: list[str]) -> tuple[str, str]:
+    """What `simulate` prints of the measured force, and of the freed gas."""
+    run = RUNNER.invoke(app, ["simulate", *arguments])
+    assert run.exit_code == 0, run.output
+    (gas,) = re.findall(r"freed gas: (\w+)", run.output)
+    return run.output[run.output.index("measured against simulated") :], gas
+
+
+@pytest.mark.parametrize("way", ["dissolves", "stays", "limited"])
+@pytest.mark.parametrize("noise", [0.0, 2e-5])
+def test_a_dataset_toml_beside_a_file_changes_nothing(tmp_path: Path, way: str, noise: float) -> None:
+    """Above the speed of cavitation, where freed gas decides: force and measured work, by what the parameter file says."""
+    (tmp_path / "mine.toml").write_text(to_toml(with_freed_gas(load("SA8"), way)))
+    block = harmonic_block(1.048, dt=2e-3)
+    worn = load(tmp_path / "mine.toml").with_(oil_level=0.7, gas_preload=0)
+    stroke = block.stroke + np.random.default_rng(1).normal(0.0, noise, len(block.time))
+    columns = {"time [s]": block.time, "stroke [mm]": 1e3 * stroke, "force [N]": simulate(worn, block).force}
+    (tmp_path / "block.csv").write_text(as_csv(columns))
+    alone, listed = tmp_path / "alone.csv", tmp_path / "listed.csv"
+    arguments = [str(tmp_path / "mine.toml"), "--record", str(tmp_path / "block.csv"), "--oil-level", "0.7", "--gas-lost"]
+    without, gas = said([*arguments, "--output", str(alone)])
+    assert gas == way
+    entry = RECORD.format("block.csv").replace("0.56", "0.7")
+    (tmp_path / "dataset.toml").write_text(f'damper = "mine.toml"\n{entry}')
+    assert said([*arguments[1:3], "--output", str(listed)]) == (without, way)
+    assert listed.read_text() == alone.read_text()
+    works = [float(x) for x in re.findall(r"(\d+\.\d+) J", without)]
+    assert works[0] == pytest.approx(works[1], rel=0.02)

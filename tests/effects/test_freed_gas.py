@@ -14,7 +14,6 @@ from twintube.dampers.freed_gas import (
     OWN,
     WAYS,
     acting,
-    as_before,
     as_published,
     own_values,
     values_of,
@@ -73,15 +72,6 @@ def test_a_file_without_a_word_has_the_default_and_a_contradiction_is_refused(tm
     path.write_text("\n".join([*lines[:at], 'freed_gas = "gone"', *lines[at + 1 :]]))
     with pytest.raises(ParameterError, match=r"line \d+: freed_gas = gone: must be one of stays, dissolves"):
         load(path)
-
-
-def test_what_was_fitted_as_published_has_again_what_it_had() -> None:
-    given = load("SA8")
-    fitted = as_published(given).with_(S_PV=0.5)
-    assert as_before(fitted, given) == given.with_(S_PV=0.5)
-    assert as_before(fitted, as_published(given)) == fitted  # the user's own choice
-    found = fitted.with_(redissolution_rate=0.4)
-    assert as_before(found, given) == found
 
 
 @pytest.mark.parametrize("level", [0.9, 0.6])

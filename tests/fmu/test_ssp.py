@@ -145,10 +145,10 @@ def test_connections_join_inputs_to_outputs_of_one_unit(system: Path) -> None:
 
 def test_the_command_says_what_it_wrote_and_refuses_bad_input(tmp_path: Path) -> None:
     file = tmp_path / "car.ssp"
-    run = CliRunner().invoke(app, ["ssp", "--output", str(file), "--worn", "rear_left", "--oil-level", "0.5",
+    run = CliRunner().invoke(app, ["ssp", "--output", str(file), "--worn", "rear_left", "--oil-level", "0.5", "--gas-lost",
                                    "--platform", PLATFORMS[0]])  # fmt: skip
     assert run.exit_code == 0, run.output
-    assert "passat_b8 with SA7 and SA8, rear_left at 50% oil" in run.output
+    assert "passat_b8 with SA7 and SA8, rear_left: 50 % oil, gas lost" in run.output
     for arguments, message in (
         (["--speed", "0"], "speed 0 km/h: must be from 1 to 250 km/h"),
         (["--oil-level", "1.5"], "oil_level = 1.5: must be a number from 0 to 1"),

@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 
 def test_entries_and_detection_as_json(tmp_path: Path) -> None:
     file = tmp_path / "inspect.json"
-    levels = ["--oil-level", "1", "--oil-level", "0.4"]
+    levels = ["--oil-level", "1", "--oil-level", "0.4", "--gas-lost"]
     run = RUNNER.invoke(
         app,
         ["inspect", "SA8", "SA1", "--method", "eusama", *levels, "--scatter", "20", "--processes", "1", "--json", str(file)],
@@ -52,6 +52,7 @@ def test_the_page_has_all_methods_and_pictures(tmp_path: Path) -> None:
             "1",
             "--oil-level",
             "0.5",
+            "--gas-lost",
             "--scatter",
             "20",
             "--processes",
@@ -73,7 +74,6 @@ def test_without_scatter_there_are_only_figures(tmp_path: Path) -> None:
     file = tmp_path / "inspect.json"
     arguments = [
         "inspect",
-        "--with-preload",
         "--oil-level",
         "0.9",
         "--method",
@@ -126,7 +126,7 @@ def test_the_page_about_tiring_says_its_limit_and_what_the_command_prints() -> N
     page = (ROOT / "docs" / "inspection_tiring.md").read_text(encoding="utf-8")
     assert "A damper fails above 1.15." in " ".join(page.split())
     (row,) = [line for line in page.splitlines() if line.startswith("| SA8 | 1.00 |")]
-    entries = inspected(load("SA8"), load_car(), conditions((0.9, 0.6), None), ("tiring",), ways=VARIED)
+    entries = inspected(load("SA8"), load_car(), conditions((0.9, 0.6), gas_lost=True), ("tiring",), ways=VARIED)
     for entry in entries:
         texts = [f"{figure:.2f}" for figure in entry.readings.values()]
         assert f"| **{texts[0]}** / {' / '.join(texts[1:])} |" in row

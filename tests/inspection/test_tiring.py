@@ -156,7 +156,7 @@ def test_a_plate_that_drifts_ends_at_another_frequency():
     ],
 )
 def test_what_has_collapsed_before_it_is_read_does_not_pass(name, levels, passed):
-    entries = inspected(load(name), load_car(), conditions(levels, None), ("tiring",))
+    entries = inspected(load(name), load_car(), conditions(levels, gas_lost=True), ("tiring",))
     assert [entry.passed for entry in entries] == passed
     said = entries[-1].as_json
     assert said["passed"] is None and said["not_judged"] == said["not_judged_ways"][DEFAULT] == COLLAPSED
@@ -183,7 +183,9 @@ def test_an_empty_damper_has_only_its_friction_left():
 def test_a_plate_that_takes_all_force_at_once_judges_nothing():
     """The SA8 with 80 % oil tires at 6 mm; 12 mm leave nothing to be read."""
     entries = [
-        inspected(load("SA8"), load_car(), conditions((0.8,), None), ("tiring",), setting=Setting(shaker=shaker([a])))[0]
+        inspected(
+            load("SA8"), load_car(), conditions((0.8,), gas_lost=True), ("tiring",), setting=Setting(shaker=shaker([a]))
+        )[0]
         for a in (6e-3, 12e-3)
     ]
     assert [entry.passed for entry in entries] == [False, None]
@@ -205,7 +207,7 @@ def test_what_other_benches_see_counts_though_tiring_does_not_judge_it():
     """The headline of several methods: tiring judges the SA8 where it has something to lose, the SA6 never."""
     lines = {}
     for name in ("SA8", "SA6"):
-        entries = inspected(load(name), load_car(), conditions((1.0, 0.4), None), ("eusama", "tiring"))
+        entries = inspected(load(name), load_car(), conditions((1.0, 0.4), gas_lost=True), ("eusama", "tiring"))
         lines[name] = sentence(Inspection([load(name)], load_car(), entries, [], [DEFAULT], 1), load(name))
     assert lines["SA8"] == "SA8 passes every method down to 100% oil."
     assert lines["SA6"].startswith("SA6 passes every method but tiring of the damper, which does not judge it, down to 100%")
@@ -222,7 +224,7 @@ def test_a_rough_road_tires_a_damper_too():
 
 def test_the_command_says_what_tires_what_returns_and_what_is_not_judged(tmp_path: Path) -> None:
     file = tmp_path / "tiring.json"
-    options = ["--method", "tiring", "--oil-level", "1", "--oil-level", "0.9", "--scatter", "0"]
+    options = ["--method", "tiring", "--oil-level", "1", "--oil-level", "0.9", "--gas-lost", "--scatter", "0"]
     run = RUNNER.invoke(app, ["inspect", "SA8", "SA6", *options, "--json", str(file), "--output", str(tmp_path / "page")])
     assert run.exit_code == 0, run.output
     assert "dissolves 100%, pushes_oil 100%: oil loss: heat would have stayed" in run.output
@@ -246,7 +248,7 @@ def test_the_command_says_what_tires_what_returns_and_what_is_not_judged(tmp_pat
 
 def test_dead_lengths_are_compared_within_their_bounds(tmp_path: Path) -> None:
     file = tmp_path / "lengths.json"
-    options = ["--method", "tiring", "--oil-level", "0.9", "--scatter", "0", "--freed-gas", "dissolves"]
+    options = ["--method", "tiring", "--oil-level", "0.9", "--gas-lost", "--scatter", "0", "--freed-gas", "dissolves"]
     run = RUNNER.invoke(app, ["inspect", *options, "--dead-length", "60", "--dead-length", "110", "--json", str(file)])
     assert run.exit_code == 0, run.output
     found = json.loads(file.read_text())
@@ -274,7 +276,19 @@ def test_a_bad_plate_or_length_ends_with_one_line(arguments: list[str], message:
 
 
 def test_a_plate_that_cannot_reach_the_speed_of_cavitation_says_so() -> None:
-    options = ["--method", "tiring", "--plate", "3", "--oil-level", "0.9", "--scatter", "0", "--freed-gas", "dissolves"]
+    options = [
+        "--method",
+        "tiring",
+        "--plate",
+        "3",
+        "--oil-level",
+        "0.9",
+        "--gas-lost",
+        "--scatter",
+        "0",
+        "--freed-gas",
+        "dissolves",
+    ]
     run = RUNNER.invoke(app, ["inspect", *options])
     assert run.exit_code == 0, run.output
     assert "not judged: damper velocity 0.35 m/s stays below 0.9 m/s, where this damper cavitates" in run.output

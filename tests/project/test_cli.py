@@ -114,7 +114,7 @@ def test_the_values_in_the_help_are_those_of_the_library() -> None:
 
     assert options.dampers() == dampers.names()
     assert (tuple(PLATFORMS), tuple(PLATFORMS_3)) == (options.PLATFORMS, options.PLATFORMS_3)
-    assert container.PLATFORMS == options.CONTAINED
+    assert set(container.PLATFORMS) <= set(options.PLATFORMS)
     assert tuple(road.GD_N0) == options.ROADS
     assert tuple(sorted(path.stem for path in cars.FOLDER.glob("*.toml"))) == options.CARS
     assert tuple(WAYS) == options.FREED_GAS

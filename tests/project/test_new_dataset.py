@@ -245,7 +245,7 @@ def test_the_unit_within_a_name_is_proposed(head: str, unit: str, tmp_path: Path
 
 def test_a_guess_is_repeated_by_check(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text(FILES["plain.csv"][0])
-    assert RUNNER.invoke(app, ["new-dataset", str(tmp_path), "--oil-level", "1", "--gas-present"]).exit_code == 0
+    assert RUNNER.invoke(app, ["new-dataset", str(tmp_path), "--oil-level", "1", "--gas-kept"]).exit_code == 0
     run = RUNNER.invoke(app, ["check", str(tmp_path)])
     assert run.exit_code == 0 and "line 5, not_sure: not confirmed: damper: none was given, SA8 is assumed" in run.output
     assert "not confirmed: measurement: harmonic" in run.output

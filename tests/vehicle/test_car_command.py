@@ -12,7 +12,20 @@ from twintube.report.car.conclusion import read_inspection, section
 from twintube.vehicle.cars import FOLDER
 from twintube.vehicle.maneuvers import MANEUVERS
 
-QUICK = ["car", "--maneuver", "braking", "--speed", "50", "--road-class", "smooth", "--oil-level", "0.5", "--seeds", "2"]
+QUICK = [
+    "car",
+    "--maneuver",
+    "braking",
+    "--speed",
+    "50",
+    "--road-class",
+    "smooth",
+    "--oil-level",
+    "0.5",
+    "--gas-lost",
+    "--seeds",
+    "2",
+]
 
 
 def test_figures_page_and_table_of_an_inspection(tmp_path: Path) -> None:
@@ -56,6 +69,7 @@ def test_the_ten_drives_of_table_3(tmp_path: Path, monkeypatch: pytest.MonkeyPat
             "table3",
             "--oil-level",
             "0.5",
+            "--gas-lost",
             "--seeds",
             "1",
             "--json",

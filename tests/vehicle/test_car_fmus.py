@@ -73,7 +73,17 @@ def test_four_fmus_drive_as_the_compiled_dampers_do(car: FullCar, fmus: list[Dam
 
 
 def test_a_container_drives_as_the_compiled_dampers_do(car: FullCar, tmp_path: Path) -> None:
-    arguments = ["--worn", "front_right", "--oil-level", "0.5", "--platform", fmpy.platform, "--output", str(tmp_path)]
+    arguments = [
+        "--worn",
+        "front_right",
+        "--oil-level",
+        "0.5",
+        "--gas-lost",
+        "--platform",
+        fmpy.platform,
+        "--output",
+        str(tmp_path),
+    ]
     command = CliRunner().invoke(app, ["container", *arguments])
     assert command.exit_code == 0, command.output
     file = tmp_path / "twintube_dampers.fmu"

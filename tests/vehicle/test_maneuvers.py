@@ -20,7 +20,10 @@ SMOOTH = Road("smooth")
 
 
 def car_with(worn: str, level: float) -> FullCar:
-    return full_car(load_car(), dampers_of(load("SA7"), load("SA8"), worn, Case("ride", 80.0, "C", 1, level)))
+    return full_car(
+        load_car(),
+        dampers_of(load("SA7"), load("SA8"), worn, Case("ride", 80.0, "C", 1, level, gas_preload=int(level == 1.0))),
+    )
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FRONT, JSON_FILE, MANEUVERS, REAR, ROADS, WORN_AT, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
+from twintube.cli.states import LOST_BELOW_FULL
 from twintube.common.files import write_bytes, write_text
 from twintube.common.words import counted
 from twintube.errors import InputError
@@ -22,7 +23,10 @@ MANEUVER = Annotated[
         help=f"{', '.join(MANEUVERS)}, or table3 for the ten drives of the paper; repeatable.",
     ),
 ]
-OIL_LEVELS = Annotated[list[float] | None, typer.Option(metavar="0..1", help="Oil of the worn dampers; repeatable.")]
+OIL_LEVELS = Annotated[
+    list[float] | None,
+    typer.Option(metavar="0..1", help="Oil of the worn dampers; repeatable. Their gas preload stays unless --gas-lost."),
+]
 SPEEDS = Annotated[list[float] | None, typer.Option(metavar="KM/H", help="Speed, else the manoeuvre's own; repeatable.")]
 ROAD_CLASSES = Annotated[
     list[str] | None,
@@ -47,6 +51,7 @@ def car(
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
     oil_level: OIL_LEVELS = None,
+    gas_lost: LOST_BELOW_FULL = False,
     speed: SPEEDS = None,
     road_class: ROAD_CLASSES = None,
     grip: GRIP = "1",
@@ -75,7 +80,7 @@ def car(
     names, levels = maneuver or list(USUAL), oil_level or [0.7, 0.5, 0.3]
     roads, speeds = road_class or ["smooth", "C", "D"], speed or None
     check_drives(names, roads, speeds or ())
-    wanted = cases(names, speeds, roads, levels, seeds=seeds, grips=grips_of(grip))
+    wanted = cases(names, speeds, roads, levels, seeds=seeds, grips=grips_of(grip), gas_lost=gas_lost)
     for case in wanted[:2]:
         dampers_of(*both, worn, case)
     entries = drive_all(loaded, *both, worn, wanted)
@@ -84,7 +89,7 @@ def car(
     rows = compared(entries)
     conditions = {
         "car": loaded.name, "front": both[0].name, "rear": both[1].name, "worn": worn, "seeds": seeds, "grip": grip,
-        "gas_preload": "lost in the worn dampers",
+        "gas_preload": f"{'lost' if gas_lost else 'kept'} in the worn dampers",
     }  # fmt: skip
     if json_file is not None:
         write_text(json_file, json.dumps({**conditions, "compared": rows, "drives": entries}, indent=1) + "\n")
@@ -96,6 +101,7 @@ def car(
         if shown := picture(rows):
             write_bytes(output / "car.png", shown)
         typer.echo(f"{output / 'car.html'}")
+    typer.echo(f"worn: {worn}, gas preload {conditions['gas_preload']}")
     for line in lines(rows):
         typer.echo(line)
     for reason in dict.fromkeys(entry["failed"] for entry in entries if "failed" in entry):
@@ -175,7 +181,9 @@ def car_sensitivity(
     if oil_level >= 1.0:
         raise InputError(f"oil_level = {oil_level:g}: must be below 1 for a worn damper")
     variant = Variant(load_car(car_file), dampers.load(front), dampers.load(rear))
-    full_car(variant.car, dampers_of(variant.front, variant.rear, worn, Case("ride", 80.0, "D", 1, oil_level)))
+    full_car(
+        variant.car, dampers_of(variant.front, variant.rear, worn, Case("ride", 80.0, "D", 1, oil_level, gas_preload=0))
+    )
     result = sensitivity(variant, worn, oil_level, seeds=seeds, draws=draws, seed=seed)
     conditions = {"car": variant.car.name, "front": variant.front.name, "rear": variant.rear.name, "worn": worn}
     if json_file is not None:

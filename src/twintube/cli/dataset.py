@@ -9,6 +9,7 @@ import typer
 
 from twintube.cli.base import BENCH, app
 from twintube.cli.options import damper_option
+from twintube.cli.states import GAS
 from twintube.common.extras import extra_of
 from twintube.errors import InputError
 
@@ -41,9 +42,7 @@ def new_dataset(
             metavar="0..1", min=0.0, max=1.0, help="Share of the intact oil volume in all files; unknown if left out."
         ),
     ] = None,
-    gas_lost: Annotated[
-        bool | None, typer.Option("--gas-lost/--gas-present", help="Gas preload in all files; unknown if left out.")
-    ] = None,
+    gas_lost: Annotated[bool | None, typer.Option(GAS, help="Gas preload in all files; unknown if left out.")] = None,
 ) -> None:
     """Write the dataset.toml of measured files for you to confirm.
 

@@ -7,6 +7,7 @@ import typer
 
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FRONT, REAR, ROADS, SEED, WORN_AT, one_of
+from twintube.cli.states import WORN_GAS_LOST, WORN_OIL_LEVEL, state_in_words
 from twintube.errors import InputError
 
 
@@ -21,8 +22,8 @@ def drive(
     road_class: Annotated[str, one_of(ROADS, help="Class of the road, ISO 8608.")] = "B",
     minutes: Annotated[float, typer.Option(metavar="MIN", help="Length.", min=0.1, max=60.0)] = 5.0,
     worn: WORN_AT = "all",
-    oil_level: Annotated[float, typer.Option(metavar="0..1", help="Oil of the worn dampers.", min=0.0, max=1.0)] = 1.0,
-    gas_lost: Annotated[bool, typer.Option("--gas-lost", help="Their gas preload is lost.")] = False,
+    oil_level: WORN_OIL_LEVEL = 1.0,
+    gas_lost: WORN_GAS_LOST = False,
     temperature: Annotated[
         float, typer.Option(metavar="DEGC", help="Temperature of the dampers' oil and gas.", min=-40.0, max=120.0)
     ] = 23.0,
@@ -58,5 +59,6 @@ def drive(
     write(signals, write_to)
     typer.echo(
         f"{write_to}: {minutes:g} min of {vehicle.car.name} at {speed:g} km/h on a road of class {road_class}, "
-        f"{len(signals.values)} channels every {signals.interval * 1e3:g} ms"
+        f"{len(signals.values)} channels every {signals.interval * 1e3:g} ms; {worn}: "
+        f"{state_in_words(oil_level, gas_lost=gas_lost)}"
     )

@@ -2,30 +2,18 @@
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import typer
 
 from twintube.cli.base import MODEL, app
-from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, PLATFORM_OF_VERSION, SSP
+from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, PLATFORM, SSP
 from twintube.cli.outputs import keep_other, refuse_other
+from twintube.cli.states import GAS_LOST, OIL_LEVEL, in_state, in_words
 from twintube.common.files import write_text
 from twintube.common.words import printable
 
-if TYPE_CHECKING:
-    from twintube.dampers import Damper
-
 PARAMETERS = Annotated[Path | None, typer.Option(metavar="FILE", help="A parameter file (TOML) instead of a named damper.")]
-OIL_LEVEL = Annotated[float | None, typer.Option(metavar="0..1", help="Start value: oil, share of the intact volume.")]
-GAS_LOST = Annotated[bool, typer.Option("--gas-lost", help="Start value: the gas preload is lost.")]
-
-
-def start_state(damper: "Damper", oil_level: float | None, gas_lost: bool) -> "Damper":
-    """The damper with its start values; raises ParameterError."""
-    changes: dict[str, Any] = {} if oil_level is None else {"oil_level": oil_level}
-    if gas_lost:
-        changes["gas_preload"] = 0
-    return damper.with_(**changes)
 
 
 def tested(fmu: Path) -> None:
@@ -51,13 +39,13 @@ def fmu(
     damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
     parameters: PARAMETERS = None,
     oil_level: OIL_LEVEL = None,
-    gas_lost: GAS_LOST = False,
+    gas_lost: GAS_LOST = None,
     kind: Annotated[
         Literal["native", "python"],
         typer.Option(metavar="native|python", help="Compiled, or Python source that the host's Python runs."),
     ] = "native",
     fmi: Annotated[Literal[2, 3], typer.Option(metavar="2|3", help="Version of FMI, 2.0 or 3.0.")] = 2,
-    platform: PLATFORM_OF_VERSION = None,
+    platform: PLATFORM = None,
     published: AS_PUBLISHED = False,
     output: Annotated[Path, typer.Option(metavar="FILE|FOLDER", help="An .fmu file, or a folder for it.")] = Path(),
     test: Annotated[
@@ -95,7 +83,7 @@ def fmu(
         raise BuildError(f"damper = {damper} and --parameters {parameters}: give one of them")
     if platform and kind == "python":
         raise BuildError(f"--platform {platform[0]}: only for the native kind; the Python kind runs on linux64 and win64")
-    chosen = start_state(load(parameters or damper or "SA8", as_published=published), oil_level, gas_lost)
+    chosen = in_state(load(parameters or damper or "SA8", as_published=published), oil_level, gas_lost)
     target = target_file(output, file_name(model_name(chosen), fmi))
     if target != output:
         refuse_other(target, same=start_values(target) == {v.name: v.start for v in variables(chosen)})
@@ -103,7 +91,7 @@ def fmu(
     typer.echo(
         f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI {fmi}.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"
-        f"freed gas: {acting(chosen)}"
+        f"start values: {in_words(chosen)}; freed gas: {acting(chosen)}"
     )
 
 
@@ -111,7 +99,7 @@ def fmu(
 def ssv(
     damper: DAMPER,
     oil_level: OIL_LEVEL = None,
-    gas_lost: GAS_LOST = False,
+    gas_lost: GAS_LOST = None,
     published: AS_PUBLISHED = False,
     version: SSP = 1,
     output: Annotated[Path, typer.Option(metavar="FILE", help="SSV file for the parameters.")] = Path("parameters.ssv"),
@@ -123,8 +111,8 @@ def ssv(
     from twintube.dampers import load
     from twintube.fmu.ssv import to_ssv
 
-    chosen = start_state(load(damper, as_published=published), oil_level, gas_lost)
+    chosen = in_state(load(damper, as_published=published), oil_level, gas_lost)
     text = to_ssv(chosen, ssp=version)
     keep_other(output, text.encode())
     write_text(output, text)
-    typer.echo(f"{output}: parameters of {printable(chosen.name)}, {printable(chosen.title)}")
+    typer.echo(f"{output}: parameters of {printable(chosen.name)}, {printable(chosen.title)}; {in_words(chosen)}")

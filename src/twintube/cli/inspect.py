@@ -11,6 +11,7 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FREED_GAS, INSPECTIONS, JSON_FILE, dampers, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
+from twintube.cli.states import LOST_BELOW_FULL
 from twintube.common.files import write_text
 from twintube.errors import InputError
 
@@ -55,10 +56,11 @@ METHODS = Annotated[
 ]
 LEVELS = Annotated[
     list[float] | None,
-    typer.Option("--oil-level", metavar="0..1", help="Oil, share of the intact volume; 1.0 to 0.3 if left out."),
-]
-GAS_LOST = Annotated[
-    bool | None, typer.Option("--gas-lost/--with-preload", help="Gas preload; lost below 100 % oil if left out.")
+    typer.Option(
+        "--oil-level",
+        metavar="0..1",
+        help="Oil, share of the intact volume; repeatable; 1.0 to 0.3 if left out. The gas preload stays unless --gas-lost.",
+    ),
 ]
 DEAD_LENGTHS = Annotated[
     list[float] | None,
@@ -85,7 +87,7 @@ def inspect(
     names: NAMES = None,
     methods: METHODS = None,
     levels: LEVELS = None,
-    gas_lost: GAS_LOST = None,
+    gas_lost: LOST_BELOW_FULL = False,
     dead_lengths: DEAD_LENGTHS = None,
     car: CAR = "passat_b8",
     freed_gas: WAY = None,
@@ -121,7 +123,7 @@ def inspect(
     plates = shaker(sorted(x * 1e-3 for x in dict.fromkeys(plate)) if plate else AMPLITUDES)
     loaded, vehicle = wanted_dampers(names or ["SA8"], dead_lengths or []), load_car(car)
     steps = sorted(dict.fromkeys(levels or USUAL_LEVELS), reverse=True)
-    states = conditions(steps, None if gas_lost is None else int(not gas_lost))
+    states = conditions(steps, gas_lost=gas_lost)
     ways = VARIED if freed_gas is None else (known(freed_gas, "--freed-gas").name,)
     setting = Setting(shaker=plates)
     entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, ways=ways, setting=setting)]

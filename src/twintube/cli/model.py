@@ -12,6 +12,7 @@ from twintube.cli import simulated
 from twintube.cli.base import BENCH, MODEL, app
 from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, SEED
 from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
+from twintube.cli.states import GAS_LOST, OIL_LEVEL
 from twintube.common.files import write_bytes, write_text
 
 FOR_FMU = Annotated[
@@ -60,13 +61,6 @@ BLOCK = Annotated[
 ]
 VELOCITY = Annotated[float, typer.Option(metavar="M/S", help="Without a record: maximum velocity of a harmonic block.")]
 AMPLITUDE = Annotated[float, typer.Option(metavar="MM", help="Without a record: amplitude of the block.")]
-OIL_LEVEL = Annotated[
-    float | None, typer.Option(metavar="0..1", help="Oil, share of the intact volume; 1 if no dataset states it.")
-]
-GAS_LOST = Annotated[
-    bool | None,
-    typer.Option("--gas-lost/--gas-present", help="Whether the gas preload is lost; present if no dataset states it."),
-]
 CSV = Annotated[Path, typer.Option(metavar="FILE", help="CSV file for the result.")]
 PLOT = Annotated[
     Path | None,
@@ -97,20 +91,20 @@ def simulate(
     simulated. A force in the record is compared with the simulated one.
     """
     from twintube.dampers.freed_gas import acting, as_published
-    from twintube.data.records.motion import read_moved
+    from twintube.data import Record
 
     entry = simulated.listed(record, block)
-    chosen, measured, state = simulated.filled(simulated.named(damper, record, entry), entry, oil_level, gas_lost)
-    # A record of a bench is simulated as it is identified from: by the paper's equations, which are fitted to such records.
-    chosen = as_published(chosen) if published or entry else chosen
-    if measured is not None:
-        motion = simulated.motion_of(measured)
-        typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}")
-    else:
-        motion = simulated.block_motion(velocity, amplitude_mm) if record is None else read_moved(record, block)
-    for finding in motion.findings:
+    chosen, state = simulated.filled(simulated.named(damper, record, entry), entry, oil_level, gas_lost)
+    chosen = as_published(chosen) if published else chosen
+    typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}" if entry else f"{chosen.name}, {state}")
+    motion, findings = (
+        (simulated.block_motion(velocity, amplitude_mm), ())
+        if record is None
+        else simulated.driven_by(chosen, entry, record, block)
+    )
+    for finding in findings:
         typer.echo(str(finding))
-    result = simulated.run(chosen, motion, measured)
+    result = simulated.run(chosen, motion)
     simulated.warn(motion, record)
     text = simulated.as_csv(result, motion, for_fmu=for_fmu)
     keep_other(output, text.encode())
@@ -119,17 +113,11 @@ def simulate(
         f"{output}: {len(motion.time)} samples, {result.work[-1]:.1f} J dissipated, "
         f"force from {result.force.min():.0f} to {result.force.max():.0f} N; freed gas: {acting(chosen)}"
     )
-    if motion.force is not None:
-        typer.echo(simulated.against_measured(chosen, motion, measured, result))
+    if isinstance(motion, Record):
+        typer.echo(simulated.against_measured(chosen, motion, result))
     if plot is not None:
-        from twintube.report.simulated_record import picture
-
         name = f"{chosen.name}, {record.name if record else 'harmonic block'}"
-        drawn = picture(
-            name, motion.time, motion.stroke, result.velocity,
-            simulated=result.force, measured=motion.force, usable=simulated.usable(motion, measured),
-        )  # fmt: skip
-        write_bytes(plot, drawn)
+        write_bytes(plot, simulated.drawn(name, motion, result))
         typer.echo(f"{plot}: stroke and force over time, force over stroke and velocity")
 
 

@@ -12,7 +12,6 @@ import typer
 import twintube
 
 PLATFORMS = ("linux64", "aarch64-linux", "win64", "darwin64")
-CONTAINED = ("linux64", "win64", "darwin64")  # of the container's toolbox
 PLATFORMS_3 = ("x86_64-linux", "aarch64-linux", "x86_64-windows", "x86_64-darwin", "aarch64-darwin")  # of FMI 3.0
 ROADS = ("A", "B", "C", "D", "E")
 CARS = ("escort", "passat_b8")
@@ -61,14 +60,11 @@ AS_PUBLISHED = Annotated[
     bool, typer.Option("--as-published", help="The paper's equations alone: gas that cavitation frees stays gas.")
 ]
 PLATFORM = Annotated[
-    list[str] | None, one_of(CONTAINED, metavar="NAME", help=f"Only this platform; repeatable: {', '.join(CONTAINED)}.")
-]
-PLATFORM_OF_VERSION = Annotated[
     list[str] | None,
     one_of(
         dict.fromkeys(PLATFORMS + PLATFORMS_3),
         metavar="NAME",
-        help=f"Only this platform; repeatable: {', '.join(PLATFORMS)}; of FMI 3.0: {', '.join(PLATFORMS_3)}.",
+        help=f"Only this platform; repeatable: {', '.join(PLATFORMS)}, or as FMI 3.0 calls them: {', '.join(PLATFORMS_3)}.",
     ),
 ]
 SSP = Annotated[

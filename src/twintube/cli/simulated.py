@@ -5,14 +5,14 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from twintube.cli.states import in_state, in_words
 from twintube.errors import InputError, InputWarning
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from collections.abc import Sequence
 
     from twintube.dampers import Damper
-    from twintube.data import Record
+    from twintube.data import Finding, Record
     from twintube.data.records.motion import Motion
     from twintube.engine.simulation import Simulation
 
@@ -42,22 +42,17 @@ def named(damper: str | None, record: Path | None, entry: "tuple[Damper, Record]
 
 def filled(
     damper: "Damper", entry: "tuple[Damper, Record] | None", oil_level: float | None, gas_lost: bool | None
-) -> "tuple[Damper, Record | None, str]":
-    """Damper and record in the state that is given, or that the dataset says, and the state in words."""
-    level = oil_level if oil_level is not None else entry[1].oil_level if entry else None
-    preload = not gas_lost if gas_lost is not None else entry[1].gas_preload if entry else None
-    assumed = [ASSUMED if value is None else "" for value in (level, preload)]
-    level, preload = 1.0 if level is None else level, preload is not False
-    text = f"{100 * level:.4g} % of the oil{assumed[0]}, gas {'present' if preload else 'lost'}{assumed[1]}"
-    measured = None if entry is None else replace(entry[1], oil_level=level, gas_preload=preload)
-    return damper.with_(oil_level=level, gas_preload=int(preload)), measured, text
-
-
-def motion_of(measured: "Record") -> "Motion":
-    """The motion of a record."""
-    from twintube.data.records.motion import Motion
-
-    return Motion(measured.time, measured.stroke, measured.velocity, measured.force)
+) -> "tuple[Damper, str]":
+    """The damper in the state that is given, or that the dataset says, else as its parameter set; and the state in words."""
+    if entry is not None:
+        level, preload = entry[1].oil_level, entry[1].gas_preload
+        unknown = [level is None and oil_level is None, preload is None and gas_lost is None]
+        damper = damper.with_(oil_level=1.0 if level is None else level, gas_preload=int(preload is not False))
+    else:
+        unknown = [False, False]
+    state = in_state(damper, oil_level, gas_lost)
+    parts = zip(in_words(state).split(", "), unknown, strict=True)
+    return state, ", ".join(text + ASSUMED * assumed for text, assumed in parts)
 
 
 def block_motion(velocity: float, amplitude_mm: float) -> "Motion":
@@ -66,20 +61,33 @@ def block_motion(velocity: float, amplitude_mm: float) -> "Motion":
     from twintube.rig import signals
 
     signal = signals.harmonic_block(velocity, amplitude_mm * 1e-3)
-    return Motion(signal.time, signal.stroke, signal.velocity, None)
+    return Motion(signal.time, signal.stroke, signal.velocity)
 
 
-def run(damper: "Damper", motion: "Motion", measured: "Record | None") -> "Simulation":
-    """The simulation of a motion, or of a record as it is identified from."""
+def driven_by(
+    damper: "Damper", entry: "tuple[Damper, Record] | None", record: Path, block: int | None
+) -> "tuple[Motion | Record, Sequence[Finding]]":
+    """The motion or record in a file, of the damper's fill, and findings on how it was read."""
+    from twintube.data.records.motion import read_moved
+
+    fill = damper.parameters.oil_level, bool(damper.parameters.gas_preload)
+    if entry is None:
+        return read_moved(record, fill, block)
+    return replace(entry[1], oil_level=fill[0], gas_preload=fill[1]), entry[1].findings
+
+
+def run(damper: "Damper", motion: "Motion | Record") -> "Simulation":
+    """The simulation of a motion as it stands, or of a record as it is identified from."""
+    from twintube.data import Record
     from twintube.engine.simulate import simulate_quietly
     from twintube.fitting import prediction
 
-    if measured is None:
-        return simulate_quietly(damper, motion.stroke, motion.velocity, motion.time)
-    return prediction.driven(damper, prediction.calm(measured))
+    if isinstance(motion, Record):
+        return prediction.driven(damper, prediction.calm(motion))
+    return simulate_quietly(damper, motion.stroke, motion.velocity, motion.time)
 
 
-def warn(motion: "Motion", record: Path | None) -> None:
+def warn(motion: "Motion | Record", record: Path | None) -> None:
     """Warn where stroke and velocity of a motion do not agree."""
     from twintube.engine.simulate import disagreement
 
@@ -87,16 +95,17 @@ def warn(motion: "Motion", record: Path | None) -> None:
         warnings.warn(f"{'' if record is None else f'{record}: '}{doubtful}", InputWarning, stacklevel=1)
 
 
-def as_csv(result: "Simulation", motion: "Motion", *, for_fmu: bool) -> str:
+def as_csv(result: "Simulation", motion: "Motion | Record", *, for_fmu: bool) -> str:
     """The columns of the result and the measured force as CSV, `for_fmu` under the names of the FMU's variables."""
     from twintube.core.variables import Outputs, fmi_name
+    from twintube.data import Record
 
     head = ["time [s]", "stroke [m]", "velocity [m/s]"]
     columns: list[Any] = [motion.time, result.stroke, result.velocity]
     for name, values in result.columns.items():
         head.append(f"{name} [{result.units[name]}]")
         columns.append(values)
-    if motion.force is not None:
+    if isinstance(motion, Record):
         head.append("measured_force [N]")
         columns.append(motion.force)
     if for_fmu:
@@ -106,19 +115,25 @@ def as_csv(result: "Simulation", motion: "Motion", *, for_fmu: bool) -> str:
     return "\n".join(lines) + "\n"
 
 
-def usable(motion: "Motion", measured: "Record | None") -> "NDArray[np.bool_]":
-    """The samples (n,) that count."""
-    import numpy as np
-
-    return np.ones(len(motion.time), dtype=bool) if measured is None else measured.usable
-
-
-def against_measured(damper: "Damper", motion: "Motion", measured: "Record | None", result: "Simulation") -> str:
+def against_measured(damper: "Damper", record: "Record", result: "Simulation") -> str:
     """How far the simulated force is from the measured one."""
     from twintube.fitting import prediction
     from twintube.report.simulated_record import deviation
 
-    if measured is not None:
-        return deviation(*prediction.compared(damper, measured, result)).sentence
-    assert motion.force is not None
-    return deviation(motion.stroke, motion.force, result.force, usable(motion, None)).sentence
+    return deviation(*prediction.compared(damper, record, result)).sentence
+
+
+def drawn(name: str, motion: "Motion | Record", result: "Simulation") -> bytes:
+    """A picture of the simulation, beside the measurement where there is one."""
+    import numpy as np
+
+    from twintube.data import Record
+    from twintube.report.simulated_record import picture
+
+    is_record = isinstance(motion, Record)
+    return picture(
+        name, motion.time, motion.stroke, result.velocity,
+        simulated=result.force,
+        measured=motion.force if is_record else None,
+        usable=motion.usable if is_record else np.ones(len(motion.time), dtype=bool),
+    )  # fmt: skip

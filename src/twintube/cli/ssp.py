@@ -8,18 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from twintube.cli.base import VEHICLE, app
-from twintube.cli.options import AS_PUBLISHED, CAR, FRONT, PLATFORM, PLATFORM_OF_VERSION, REAR, SSP, WORN_AT
+from twintube.cli.options import AS_PUBLISHED, CAR, FRONT, PLATFORM, REAR, SSP, WORN_AT
 from twintube.cli.outputs import named, refuse_other
+from twintube.cli.states import WORN_GAS_LOST, WORN_OIL_LEVEL, state_in_words
 
 if TYPE_CHECKING:
     from twintube.dampers import Damper
 
-OIL_LEVEL = Annotated[
-    float, typer.Option(metavar="0..1", help="Oil of the worn dampers; below 1 their gas preload is lost.")
-]
 
-
-def four(front: str, rear: str, worn: str, oil_level: float, published: bool) -> list["Damper"]:
+def four(front: str, rear: str, worn: str, oil_level: float, *, gas_lost: bool, published: bool) -> list["Damper"]:
     """The dampers in the order of the wheels; raises ParameterError and InputError."""
     from twintube.dampers import load
     from twintube.vehicle.full.catalogue import Case
@@ -27,7 +24,7 @@ def four(front: str, rear: str, worn: str, oil_level: float, published: bool) ->
     from twintube.vehicle.full.study import dampers_of
 
     both = load(front, as_published=published), load(rear, as_published=published)
-    return list(dampers_of(*both, worn, Case("ride", 50.0, SMOOTH, 1, oil_level)))
+    return list(dampers_of(*both, worn, Case("ride", 50.0, SMOOTH, 1, oil_level, gas_preload=int(not gas_lost))))
 
 
 def progress() -> Callable[[str], None]:
@@ -42,11 +39,12 @@ def ssp(
     front: FRONT = "SA7",
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
-    oil_level: OIL_LEVEL = 1.0,
+    oil_level: WORN_OIL_LEVEL = 1.0,
+    gas_lost: WORN_GAS_LOST = False,
     speed: Annotated[float, typer.Option(metavar="KM/H", help="Speed at the start.")] = 50.0,
     car_file: CAR = "passat_b8",
     version: SSP = 1,
-    platform: PLATFORM_OF_VERSION = None,
+    platform: PLATFORM = None,
     published: AS_PUBLISHED = False,
 ) -> None:
     """Write the whole car as an SSP file of five FMUs.
@@ -59,12 +57,14 @@ def ssp(
     from twintube.vehicle.full.maneuvers import checked_speed
     from twintube.vehicle.full.run import full_car
 
-    whole = full_car(load_car(car_file), four(front, rear, worn, oil_level, published))
+    dampers = four(front, rear, worn, oil_level, gas_lost=gas_lost, published=published)
+    whole = full_car(load_car(car_file), dampers)
     if not named():
         refuse_other(output, same=members(output) == described(whole, checked_speed(speed), version))
     built = build_ssp(whole, checked_speed(speed), output, platform, progress=progress(), ssp=version)
     typer.echo(
-        f"{built}: {whole.name} with {front} and {rear}, {worn} at {oil_level:.0%} oil; {built.stat().st_size // 1024} kB"
+        f"{built}: {whole.name} with {front} and {rear}, {worn}: {state_in_words(oil_level, gas_lost=gas_lost)}; "
+        f"{built.stat().st_size // 1024} kB"
     )
 
 
@@ -74,7 +74,8 @@ def container(
     front: FRONT = "SA7",
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
-    oil_level: OIL_LEVEL = 1.0,
+    oil_level: WORN_OIL_LEVEL = 1.0,
+    gas_lost: WORN_GAS_LOST = False,
     step_ms: Annotated[
         float, typer.Option(metavar="MS", help="Communication step; the importer's must be a multiple.")
     ] = 1.0,
@@ -91,10 +92,11 @@ def container(
     from twintube.fmu.container import NAME, PLATFORMS, build_container
     from twintube.fmu.table import variables
 
-    dampers = four(front, rear, worn, oil_level, published)
+    dampers = four(front, rear, worn, oil_level, gas_lost=gas_lost, published=published)
     target = target_file(output, NAME)
     if target != output:
         inside = [start_values(target, f"resources/{i:02}/{XML}") for i in range(len(dampers))]
         refuse_other(target, same=inside == [{v.name: v.start for v in variables(damper)} for damper in dampers])
     built = build_container(dampers, target, step_ms / 1e3, platform or PLATFORMS, progress())
-    typer.echo(f"{built}: {front} and {rear}, {worn} at {oil_level:.0%} oil; {built.stat().st_size // 1024} kB")
+    state = state_in_words(oil_level, gas_lost=gas_lost)
+    typer.echo(f"{built}: {front} and {rear}, {worn}: {state}; {built.stat().st_size // 1024} kB")

@@ -8,6 +8,7 @@ import typer
 
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import AS_PUBLISHED, CAR, DAMPER, FREED_GAS, JSON_FILE, ROADS, SEED, one_of
+from twintube.cli.states import GAS_LOST, OIL_LEVEL, in_state, in_words
 from twintube.common.files import write_text
 from twintube.errors import ParameterError
 
@@ -17,8 +18,8 @@ from twintube.errors import ParameterError
 )
 def ride(
     damper: DAMPER,
-    oil_level: Annotated[float, typer.Option(metavar="0..1", help="Oil, share of the intact volume.")] = 1.0,
-    gas_lost: Annotated[bool, typer.Option("--gas-lost", help="The gas preload is lost.")] = False,
+    oil_level: OIL_LEVEL = None,
+    gas_lost: GAS_LOST = None,
     speed: Annotated[float, typer.Option(metavar="KM/H", help="Speed.", min=1.0, max=200.0)] = 50.0,
     road_class: Annotated[str, one_of(ROADS, help="Class of the road, ISO 8608.")] = "D",
     seconds: Annotated[float, typer.Option(metavar="S", help="Length.", min=20.0, max=3600.0)] = 120.0,
@@ -49,13 +50,13 @@ def ride(
     loaded, vehicle = dampers.load(damper, as_published=published), load_car(car)
     if freed_gas is not None:
         loaded = with_freed_gas(loaded, known(freed_gas, "--freed-gas").name)
-    state = loaded.with_(oil_level=oil_level, gas_preload=0 if gas_lost else 1)
+    state = in_state(loaded, oil_level, gas_lost)
     corner, route = vehicle.corner(loaded), track(speed, seconds, road_class=road_class, seed=seed)
     intact = run(loaded.with_(oil_level=1.0, gas_preload=1), corner, route)
     figures = measures(run(state, corner, route), corner, intact)
     conditions = {
         "damper": loaded.name,
-        "oil_level": oil_level,
+        "oil_level": state.parameters.oil_level,
         "gas_preload": state.parameters.gas_preload,
         "freed_gas": acting(state),
         "car": vehicle.name,
@@ -67,7 +68,7 @@ def ride(
     figures |= {"intact": measures(intact, corner)}
     if json_file is not None:
         write_text(json_file, json.dumps(conditions | figures, indent=1) + "\n")
-    typer.echo(f"{loaded.name}, {oil_level:.0%} oil, {'no ' if gas_lost else ''}preload; freed gas: {acting(state)}")
+    typer.echo(f"{loaded.name}, {in_words(state)}; freed gas: {acting(state)}")
     for line in lines(figures):
         typer.echo(line)
 

@@ -112,12 +112,6 @@ def as_published(damper: Damper) -> Damper:
     return with_freed_gas(damper, AS_PUBLISHED)
 
 
-def as_before(fitted: Damper, given: Damper) -> Damper:
-    """A damper that was fitted `as_published`, with DEFAULT again where that was `given` and the fit found no other way."""
-    default = not has_own(given) and way_of(own_values(fitted)) == AS_PUBLISHED
-    return fitted.with_(**values_of(DEFAULT)) if default else fitted
-
-
 def acting(damper: Damper) -> str:
     """Which way a parameter set holds, in words."""
     values = own_values(damper)
@@ -130,5 +124,5 @@ def acting(damper: Damper) -> str:
 def condition(damper: Damper, oil_level: float, gas_preload: int, name: str = DEFAULT) -> Damper:
     """The damper at an oil level with a way, or with the oil level as a factor of the fluid force (SCALAR)."""
     if name == SCALAR:
-        return as_published(damper.with_(gas_preload=0, **scalar_factor(oil_level)))
+        return as_published(damper.with_(gas_preload=gas_preload, **scalar_factor(oil_level)))
     return with_freed_gas(damper.with_(oil_level=oil_level, gas_preload=gas_preload), name)

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from twintube.dampers.freed_gas import as_published
 from twintube.data import LoadedDataset
 from twintube.diagnosis.measurement.edges import with_motion, without_outliers
 from twintube.diagnosis.measurement.faults import Fault, force_averaging, right_signs, unit_error
@@ -37,8 +36,7 @@ def put_right(dataset: LoadedDataset, turned: Fault | None, progress: Callable[[
     Raises InputError where a stroke leaves the tube.
     """
     progress("looking at the bench: signs, units, zeros, sampling")
-    # The paper's equations for the freed gas: records are blocks of seconds, too short for it to dissolve.
-    problem = Problem(as_published(dataset.damper), prepare(dataset))
+    problem = Problem(dataset.damper, prepare(dataset))
     remarks = []
     if not any(record.intact for record in problem.records):
         remarks.append("no record of the intact damper: what is wrong in every state looks like an effect of the oil loss")

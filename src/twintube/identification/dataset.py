@@ -11,7 +11,6 @@ from twintube.common.arrays import Array
 from twintube.common.showing import data_frame, picture
 from twintube.common.words import listed
 from twintube.dampers import Damper
-from twintube.dampers.freed_gas import as_before, as_published
 from twintube.data import LoadedDataset, Record, load_dataset, require_fills
 from twintube.data.findings import unconfirmed
 from twintube.engine.simulate import InputError
@@ -112,11 +111,9 @@ def identify_dataset(
 ) -> Result:
     """Identify the dataset's damper from its records for fitting and validate it on all; raises InputError.
 
-    The paper's equations alone are fitted, as the paper did it on blocks of seconds. Freed gas then does again in the
-    identified damper what it does in the given one.
+    Freed gas does what it does in the given damper.
     """
     require_known(dataset)
-    given, dataset = dataset.damper, replace(dataset, damper=as_published(dataset.damper))
     slow = [r for r in dataset.records if r.measurement == "quasi-static"]
     drives = [r for r in dataset.records if r.measurement == "stochastic"]
     sines = [harmonic(r) for r in dataset.records if r.measurement == "harmonic"]
@@ -152,7 +149,7 @@ def identify_dataset(
     damper = with_origin(damper, dataset, result, method=method, seed=seed, fitted=len(fitted), top=reach(measured))
     result = replace(result, damper=damper)
     rows = [validate_harmonic(damper, h, kind, result.offset) for h, kind in zip(sines, split, strict=True)]
-    result = replace(result, damper=as_before(damper, given))
+    result = replace(result, damper=damper)
     return Result(
         dataset, list(zip(sines, split, strict=True)), result, rows + validate_drives(damper, drives, result.offset),
         remarks + result.remarks + continuation(damper, measured) + noisy(damper, sines),

@@ -95,9 +95,9 @@ class Entry:
         return entry
 
 
-def conditions(levels: Iterable[float], gas_preload: int | None) -> list[Condition]:
-    """One state per oil level; with `gas_preload` None it is lost below 100 %, as in the paper's measurements."""
-    return [Condition(level, int(level >= 1.0) if gas_preload is None else gas_preload) for level in levels]
+def conditions(levels: Iterable[float], *, gas_lost: bool) -> list[Condition]:
+    """One state per oil level; below 100 % the gas preload may be lost, as in the paper's measurements, or kept."""
+    return [Condition(level, int(level >= 1.0 or not gas_lost)) for level in levels]
 
 
 def under(ways: Iterable[str], states: Iterable[Condition]) -> list[Condition]:

@@ -1,4 +1,4 @@
-"""The motion of a damper from a single file: what a simulation needs. Columns, units and formats are those of datasets."""
+"""A single file that no dataset.toml names, read as those of datasets: a motion to simulate, or a record to compare with."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -6,10 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from twintube.common.arrays import Array
-from twintube.data.convert.quantities import convert
+from twintube.data.check.quality import check_quality
+from twintube.data.convert.quantities import Table, convert
 from twintube.data.findings import Finding, Notes, UnreadableError
 from twintube.data.formats import Format
 from twintube.data.read.columns import read_raw
+from twintube.data.records.record import Record, velocity_of
+from twintube.data.sniff.values import kind_of
 from twintube.engine.simulate import InputError
 
 NEEDED = ("time", "stroke")
@@ -23,22 +26,51 @@ class Motion:
     time: Array
     stroke: Array
     velocity: Array
-    force: Array | None  # as in the file, whose sign nobody stated
-    findings: tuple[Finding, ...] = ()  # warnings and remarks on how the file was read
 
 
 def read_motion(path: Path) -> tuple[Array, Array, Array]:
     """Time [s], stroke [m] and velocity [m/s] of a file. Raises InputError with file, row and column, and OSError."""
-    motion = read_moved(path)
-    return motion.time, motion.stroke, motion.velocity
+    columns = read_table(path, Notes(path.name)).columns
+    return columns["time"], columns["stroke"], velocity_of(columns)[0]
 
 
-def read_moved(path: Path, block: int | None = None) -> Motion:
-    """The motion in a file, or in a block of it, and its force where there is one.
+def read_moved(path: Path, fill: tuple[float, bool], block: int | None = None) -> tuple[Motion | Record, list[Finding]]:
+    """What is in a file, or in a block of it, and findings on how it was read: a record where it holds a force.
 
-    Raises InputError with file, row and column, and OSError.
+    The record is of a damper with the `fill`, oil level [1] and preload; its kind is judged by its motion. The signs are as
+    in the file. Raises InputError with file, row and column, and OSError.
     """
     notes = Notes(path.name)
+    table = read_table(path, notes, block)
+    columns = table.columns
+    time, stroke, (velocity, source) = columns["time"], columns["stroke"], velocity_of(columns)
+    if "force" not in columns:
+        return Motion(time, stroke, velocity), notes.findings
+    kind = kind_of(time, stroke) or "stochastic"
+    notes.remark(f"taken as {kind}, judged by the speed and the turning points of the stroke")
+    usable = check_quality(table, np.zeros(len(time), dtype=bool), notes)
+    record = Record(
+        name=path.stem,
+        file=path.name,
+        measurement=kind,
+        oil_level=fill[0],
+        gas_preload=fill[1],
+        start_temperature=None,
+        split=None,
+        time=time,
+        stroke=stroke,
+        force=columns["force"],
+        velocity=velocity,
+        velocity_source=source,
+        temperature=columns.get("temperature"),
+        findings=(),
+        usable=usable,
+    )
+    return record, notes.findings
+
+
+def read_table(path: Path, notes: Notes, block: int | None = None) -> Table:
+    """The quantities in a file; raises InputError with file, row and column, and OSError."""
     form = Format(block=block)
     try:
         table = convert(read_raw(path, form), form, notes, NEEDED)
@@ -55,7 +87,4 @@ def read_moved(path: Path, block: int | None = None) -> Motion:
         rest = len(errors) - MOST_MESSAGES
         text = "; ".join(finding.text for finding in errors[:MOST_MESSAGES])
         raise InputError(f"{path.name}: {text}" + (f"; and {rest} more" if rest > 0 else ""))
-    time, stroke = table.columns["time"], table.columns["stroke"]
-    velocity = table.columns.get("velocity")
-    velocity = np.gradient(stroke, time) if velocity is None else velocity
-    return Motion(time, stroke, velocity, table.columns.get("force"), tuple(notes.findings))
+    return table

@@ -1,6 +1,6 @@
 """A record of a dataset: what was measured, and how a file becomes one."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -131,11 +131,7 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
     if own.failed or not entry.complete or not check_part(entry, table.columns["time"], usable, notes):
         return None
     c = table.columns
-    velocity, source = c.get("velocity"), MEASURED
-    if velocity is None:
-        velocity, source = np.gradient(c["stroke"], c["time"]), GRADIENT
-    elif computed(c["time"], c["stroke"], velocity):
-        source = GIVEN
+    velocity, source = velocity_of(c)
     return Record(
         name=Path(entry.file).stem + entry.label.removeprefix(entry.file),
         file=entry.label,
@@ -158,6 +154,14 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
         reference=entry.reference,
         reference_window=entry.reference_window,
     )
+
+
+def velocity_of(columns: Mapping[str, Array]) -> tuple[Array, str]:
+    """The velocity (n,) [m/s] of columns by name, from the stroke where there is none, and its source."""
+    time, stroke, velocity = columns["time"], columns["stroke"], columns.get("velocity")
+    if velocity is None:
+        return np.gradient(stroke, time), GRADIENT
+    return velocity, GIVEN if computed(time, stroke, velocity) else MEASURED
 
 
 def turned(table: Table, entry: Entry) -> Table:

@@ -10,7 +10,6 @@ from scipy.interpolate import PPoly
 
 from twintube.common.arrays import Array
 from twintube.core.checks import tube_limit
-from twintube.dampers.freed_gas import as_published
 from twintube.data import LoadedDataset, Record, check_dataset, load_dataset
 from twintube.data.records.signs import AS_STATED, TURNED, errors
 from twintube.diagnosis.measurement.signature import oscillating
@@ -75,7 +74,7 @@ def read(path: str | Path) -> tuple[LoadedDataset, Fault | None]:
             text = f"The force channel{of} has the other sign."
             return data, Fault("sign_flip", "Sign of the force channel", text, -1.0, records=names)
         # A channel that holds nothing but noise is no kN.
-        part = Problem(as_published(other.damper), prepare(replace(data, records=added)))
+        part = Problem(other.damper, prepare(replace(data, records=added)))
         if relative(part).mean() < RULES.followed_force:
             text = f"The force channel{of} holds kN for N."
             return data, Fault("unit_error", "Unit of the force: kN for N", text, 1e3, records=names)

@@ -64,8 +64,8 @@ def page(
         f"Whole car: {car.title}",
         [
             f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
-            f"without gas preload; grip {conditions['grip']} of a dry road's. Each figure is that of the "
-            "worn car over that of the intact car on the same road; the "
+            f"gas preload {conditions['gas_preload']}; grip {conditions['grip']} of a dry road's. Each figure is that "
+            "of the worn car over that of the intact car on the same road; the "
             f"band is that of {counted(conditions['seeds'], 'seed')}: other roads of the class, and a slip control whose "
             "thresholds and rates scatter by a quarter; of the full model also that of four ways of the gas that "
             "cavitation frees. F-v curves are stand-ins (assumed)."

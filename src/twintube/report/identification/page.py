@@ -10,7 +10,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from twintube.common.files import write_bytes, write_text
-from twintube.dampers.freed_gas import as_published
 from twintube.fitting.peak_velocity import as_csv, as_xlsx, peak_velocities
 from twintube.fitting.prediction import predicted
 from twintube.identification import Harmonic, Result
@@ -35,7 +34,7 @@ BADGES = {  # first word of a judgement, the best first -> badge, class of the s
 
 def live_part(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> str:
     """The same records to look into, as the identified model has them."""
-    damper, offset = as_published(result.identification.damper), result.identification.offset
+    damper, offset = result.identification.damper, result.identification.offset
     looks = []
     for record, split in chosen:
         first, last = int(record.marks[0]), int(record.marks[-1])

@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from twintube.core.kernel import fluid_force
-from twintube.dampers.freed_gas import as_published
 from twintube.fitting.parameters import DEGRADATION
 from twintube.fitting.prediction import predicted
 from twintube.fitting.splits import distinct
@@ -22,7 +21,7 @@ SPLITS = {"heldout": "not fitted", "fit": "fitted"}
 def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]], narrow: bool = False) -> Figure:
     """Force over stroke, first and last oscillation, measured and simulated."""
     figure, axes = style.grid(len(chosen), (3.7, 2.9), narrow)
-    damper, offset = as_published(result.identification.damper), result.identification.offset
+    damper, offset = result.identification.damper, result.identification.offset
     for ax, (record, split) in zip(axes.flat, chosen, strict=False):
         simulated = predicted(damper, record, offset)
         for colour, name, force in ((style.GREY, "measured", record.force), (style.RED, "simulated", simulated)):

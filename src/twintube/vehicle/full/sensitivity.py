@@ -122,7 +122,7 @@ def scaled(damper: Damper, factor: float) -> Damper:
 def wanted(level: float, seeds: Sequence[int], models: Sequence[str]) -> list[Case]:
     """The drives of a variant: intact, and worn with each model."""
     return [
-        Case(maneuver, SPEED, road, seed, oil, model)
+        Case(maneuver, SPEED, road, seed, oil, model, gas_preload=int(oil == 1.0))
         for maneuver, road in DRIVES
         for seed in seeds
         for oil, model in ((1.0, DEFAULT), *((level, name) for name in models))

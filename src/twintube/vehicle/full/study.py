@@ -27,14 +27,15 @@ USUAL = ("ride", "braking", "cornering")
 
 
 def dampers_of(front: Damper, rear: Damper, worn: str, case: Case) -> list[Damper]:
-    """The four dampers, those of `worn` at the case's oil level without preload; raises InputError for an unknown place."""
+    """The four dampers, those of `worn` in the case's state; raises InputError for an unknown place."""
     if worn not in WORN:
         raise InputError(f"worn {worn}: must be one of {', '.join(WORN)}")
     several = []
     for i in range(len(WHEELS)):
         damper = front if i < 2 else rear
         bad = i in WORN[worn] and not case.intact
-        several.append(condition(damper, case.oil_level if bad else 1.0, 0 if bad else 1, case.model if bad else DEFAULT))
+        state = (case.oil_level, case.gas_preload, case.model) if bad else (1.0, 1, DEFAULT)
+        several.append(condition(damper, *state))
     return several
 
 
@@ -71,8 +72,11 @@ def cases(
     *,
     seeds: int,
     grips: tuple[float, float] = (1.0, 1.0),
+    gas_lost: bool = False,
 ) -> list[Case]:
     """All cases, the intact ones included; the drives of Table 3 have roads and speeds of their own, all others speeds.
+
+    Below 100 % oil the worn dampers keep their gas preload unless `gas_lost`.
 
     On a smooth road seeds differ in the slip control alone; where neither differs there is one. Raises InputError where
     nothing is left to drive.
@@ -90,7 +94,7 @@ def cases(
                 if (maneuver.smooth if road == SMOOTH else maneuver.uneven)
             ]
         wanted += [
-            Case(name, speed, road, seed, level, model, grips)
+            Case(name, speed, road, seed, level, model, grips, int(level == 1.0 or not gas_lost))
             for speed, road, differs in places
             for seed in range(1, (seeds if differs else 1) + 1)
             for level in (1.0, *(x for x in levels if x != 1.0))
