@@ -2,7 +2,7 @@
 
 python build_fmu.py SA8
 python build_fmu.py SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu
-python build_fmu.py --parameters my_damper.toml
+python build_fmu.py my_damper.toml
 python build_fmu.py SA8 --as-published
 python build_fmu.py SA8 --kind python
 python build_fmu.py SA8 --fmi 3
@@ -10,7 +10,7 @@ python build_fmu.py --test twintube_SA8.fmu
 """
 
 from twintube.cli.base import standalone
-from twintube.cli.fmu import fmu
+from twintube.cli.fmu import FORMER, fmu
 
 if __name__ == "__main__":
-    standalone(fmu)()
+    standalone(fmu, FORMER)()

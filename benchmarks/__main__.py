@@ -3,6 +3,7 @@
 import json
 import os
 import platform
+import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -26,6 +27,8 @@ from benchmarks.short_steps import bench_short_steps
 from benchmarks.small_strokes import bench_small_strokes
 from benchmarks.steps import bench_steps
 from benchmarks.tiring import bench_rough_road, bench_tiring
+from twintube.cli.base import standalone
+from twintube.cli.tables import car_sensitivity, sensitivity
 from twintube.engine import compiled
 from twintube.errors import UserError
 from worlds.scoring import tables as score_tables
@@ -55,8 +58,12 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
 FEW = {"identify": SEEDS, "calibration": DRAWS}  # seeds by default, where not MANY
 MANY = 10
 OTHERS = ("oil_leak",)
+OWN: dict[str, Callable[..., None]] = {
+    "sensitivity": sensitivity,
+    "car_sensitivity": car_sensitivity,
+}  # options of their own
 TABLES: dict[str, Callable[[Any], str]] = {"diagnosis": score_tables, "importers": as_table}
-NAMES = ", ".join((*BENCHMARKS, *SEEDED, *OTHERS))
+NAMES = ", ".join((*BENCHMARKS, *SEEDED, *OTHERS, *OWN))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 
@@ -93,7 +100,7 @@ def main(
     tables: Annotated[Path | None, typer.Option(help="Tables of oil_leak in Markdown.")] = None,
     page: Annotated[
         Path | None,
-        typer.Option("--write", exists=True, dir_okay=False, help="Page to put the table into, between its marks."),
+        typer.Option("--output", exists=True, dir_okay=False, help="Page to put the table into, between its marks."),
     ] = None,
     damper: Annotated[Path | None, typer.Option(help="Parameter file for oil_leak; by default the paper's eight.")] = None,
 ) -> None:
@@ -109,7 +116,7 @@ def main(
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)
         raise typer.Exit(2)
     if page is not None and name not in TABLES:
-        typer.echo(f"error: --write: {name} has no table for a page, only {' and '.join(TABLES)}", err=True)
+        typer.echo(f"error: --output: {name} has no table for a page, only {' and '.join(TABLES)}", err=True)
         raise typer.Exit(2)
     seeds = FEW.get(name, MANY) if seeds is None else seeds
     compiled.module()
@@ -132,5 +139,12 @@ def main(
         json_file.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
 
 
+def run(words: list[str]) -> None:
+    """`main`, or a table that has options of its own: `python -m benchmarks car_sensitivity -h`."""
+    if words and words[0] in OWN:
+        standalone(OWN[words[0]])(words[1:], prog_name=f"python -m benchmarks {words[0]}")
+    app(words)
+
+
 if __name__ == "__main__":
-    app()
+    run(sys.argv[1:])

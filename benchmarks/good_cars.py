@@ -17,9 +17,9 @@ from typing import Annotated, Any
 
 import typer
 from scipy import stats
-from tqdm import tqdm
 
 from twintube.cli.base import standalone
+from twintube.common.bars import Bar
 from twintube.driving import study
 from twintube.driving.channels import PLACES
 from twintube.driving.draws import GROUPS, PER_CAR, REFERENCES, draw
@@ -53,7 +53,7 @@ def driven(plan: Plan, judged: int, processes: int) -> Iterator[list[dict[str, A
     """The rows of each drive."""
     which = numbers(judged)
     with ProcessPoolExecutor(processes) as pool:
-        yield from tqdm(pool.map(partial(good_rows, plan), which), total=len(which), unit="drive")
+        yield from Bar(pool.map(partial(good_rows, plan), which), total=len(which), unit="drive")
 
 
 def counts(model: Model, file: Path) -> list[dict[str, Any]]:

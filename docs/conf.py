@@ -67,7 +67,7 @@ html_show_sourcelink = False
 
 
 def adapt(app: object, name: str, text: list[str]) -> None:
-    """`twintube variables` writes a table without a title; the page about the explorer is optional."""
+    """`twintube dampers --variables` writes a table without a title; the page about the explorer is optional."""
     if name == "variables":
         text[0] = f"# Variables\n\n{text[0]}"
     elif name == "index" and not (HERE / "explorer.md").exists():

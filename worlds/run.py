@@ -17,8 +17,7 @@ from pathlib import Path
 from threading import Event
 from typing import Any, Final
 
-from tqdm import tqdm
-
+from twintube.common.bars import Bar
 from twintube.common.files import write_text
 from twintube.errors import UserError
 from twintube.provenance import fingerprint
@@ -112,7 +111,7 @@ def run(jobs: Sequence[Job], output: Path, *, workers: int = 1, timeout: float =
     counts: dict[str, int] = {}
     stopping = Event()
     with (
-        tqdm(total=len(jobs), initial=len(jobs) - len(left), unit="dataset") as bar,
+        Bar(total=len(jobs), initial=len(jobs) - len(left), unit="dataset") as bar,
         ThreadPoolExecutor(workers) as threads,  # they wait for programs
     ):
         try:

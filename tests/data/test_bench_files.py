@@ -51,7 +51,7 @@ def new_dataset(tmp_path: Path, text: str, name: str) -> Path:
     source = tmp_path / "source" / name
     source.parent.mkdir(exist_ok=True)
     source.write_bytes(text.encode())
-    state = ["--oil-level", "0.56", "--gas-lost", "--damper", "SA8"]
+    state = ["--oil-level", "0.56", "--gas-lost", "SA8"]
     run = RUNNER.invoke(app, ["new-dataset", str(tmp_path / "new"), "--from", str(source), *state])
     assert run.exit_code == 0, run.output
     return tmp_path / "new"

@@ -121,10 +121,10 @@ def test_a_worker_of_another_version_is_refused() -> None:
         ("study driving --seed -1", "seed = -1: must not be below 0"),
         ("study driving --processes 0", "processes = 0: must be at least 1"),
         ("study variants --drives 3", "--drives: only with the study driving"),
-        ("drive --write a.csv", "the ending .csv: must be one of"),
-        ("drive --write a.parquet --road-class F", "--road-class F: must be one of"),
-        ("drive --write a.parquet --worn left", "--worn left: must be one of"),
-        ("drive --write a.parquet --car bus", "bus"),
+        ("drive --output a.csv", "the ending .csv: must be one of"),
+        ("drive --output a.parquet --road-class F", "--road-class F: must be one of"),
+        ("drive --output a.parquet --worn left", "--worn left: must be one of"),
+        ("drive --output a.parquet --car bus", "bus"),
     ],
 )
 def test_bad_input_ends_with_one_line(line: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -136,7 +136,7 @@ def test_bad_input_ends_with_one_line(line: str, message: str, tmp_path: Path, m
 
 def test_a_drive_is_written_with_its_truth(tmp_path: Path) -> None:
     path = tmp_path / "drive.parquet"
-    options = "--minutes 0.2 --worn rear --oil-level 0.5 --gas-lost --speed 60 --road-class A --write"
+    options = "--minutes 0.2 --worn rear --oil-level 0.5 --gas-lost --speed 60 --road-class A --output"
     run = RUNNER.invoke(app, ["drive", *options.split(), str(path)])
     assert run.exit_code == 0, run.output
     signals = read(path)

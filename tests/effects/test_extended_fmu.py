@@ -27,7 +27,7 @@ def motion(i: int) -> tuple[float, float]:
 def test_extended_fmu_is_the_model_to_the_bit(sa8: Damper, everything: dict[str, Any], kind: str, tmp_path: Path) -> None:
     damper = sa8.with_(**everything)
     (tmp_path / "extended.toml").write_text(to_toml(damper))
-    arguments = ["--parameters", str(tmp_path / "extended.toml"), "--output", str(tmp_path / "extended.fmu")]
+    arguments = [str(tmp_path / "extended.toml"), "--output", str(tmp_path / "extended.fmu")]
     arguments += ["--kind", kind, *(["--platform", fmpy.platform] if kind == "native" else [])]
     run = CliRunner().invoke(app, ["fmu", *arguments])
     assert run.exit_code == 0, run.output

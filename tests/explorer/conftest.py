@@ -15,7 +15,7 @@ def explorer(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("explorer")
     text = files("twintube.dampers").joinpath("SA2.toml").read_text(encoding="utf-8")
     (folder / "mine.toml").write_text(text.replace('name = "SA2"', f'name = "{OWN}"'), encoding="utf-8")
-    arguments = ["explore", "--parameters", str(folder / "mine.toml"), "--output", str(folder / "explorer.html")]
+    arguments = ["explore", str(folder / "mine.toml"), "--output", str(folder / "explorer.html")]
     done = CliRunner().invoke(app, arguments)
     assert done.exit_code == 0, done.output
     return folder / "explorer.html"

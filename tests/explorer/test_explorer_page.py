@@ -23,7 +23,7 @@ def test_the_page_is_one_file_without_a_network(explorer: Path) -> None:
 
 
 @pytest.mark.parametrize(("arguments", "message"), [
-    (["--parameters", "none.toml"], "neither a file nor one of"),
+    (["none.toml"], "neither a file nor one of"),
     (["--output", "."], "is a folder, must be a file"),
     (["--output", "no/such/folder.html"], "does not exist"),
 ])  # fmt: skip

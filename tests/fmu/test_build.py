@@ -166,7 +166,7 @@ def test_control_characters_of_a_name_reach_neither_page_nor_files() -> None:
 def test_control_characters_of_a_file_do_not_reach_the_terminal(tmp_path: Path) -> None:
     text = CliRunner().invoke(app, ["dampers", "SA8"]).output.replace('"SA8"', '"\\u001b[31mred\\u0007"', 1)
     (tmp_path / "odd.toml").write_text(text, encoding="utf-8")
-    for command in (["fmu", str(tmp_path / "odd.toml"), "--kind", "python"], ["ssv", str(tmp_path / "odd.toml")]):
+    for command in (["fmu", str(tmp_path / "odd.toml"), "--kind", "python"], ["fmu", "--ssv", str(tmp_path / "odd.toml")]):
         run = CliRunner().invoke(app, [*command, "--output", str(tmp_path / "out")])
         assert "red" in run.output
         assert "\x1b" not in run.output and "\x07" not in run.output
@@ -203,7 +203,8 @@ def test_bad_arguments_are_refused_before_compiling(
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--parameters", "mine.toml", "SA7"], "damper = SA7 and --parameters mine.toml: give one of them"),
+        (["--parameters", "mine.toml", "SA7"], "Got unexpected extra argument (mine.toml)"),
+        (["SA8", "--ssv", "--kind", "python"], "--ssv: holds parameters for every library, leave out kind"),
         (["SA8", "--platform", "linux46"], "platform = linux46: must be one of linux64, aarch64-linux, win64, darwin64"),
         (["SA8", "--kind", "python", "--platform", "linux64"], "--platform linux64: only for the native kind"),
         (["SA8", "--output", "file/a.fmu"], "file"),

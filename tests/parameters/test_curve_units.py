@@ -132,7 +132,7 @@ def test_values_that_are_hardly_meant_are_doubted(tmp_path: Path, name: str, val
 
 def test_commands_say_it_once_and_go_on(tmp_path: Path) -> None:
     path = file(tmp_path, *scaled(1.0, 1e-3))
-    done = CliRunner().invoke(app, ["ssv", str(path), "--output", str(tmp_path / "own.ssv")])
+    done = CliRunner().invoke(app, ["fmu", "--ssv", str(path), "--output", str(tmp_path / "own.ssv")])
     said = done.stderr.splitlines()
     assert done.exit_code == 0
     assert [line.split(":")[:2] for line in said] == [["warning", " own.toml"]] * 2

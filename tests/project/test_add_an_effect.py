@@ -122,7 +122,7 @@ def test_the_generated_parts_know_it(copy: Path) -> None:
     stubs = run(copy, "-m", "twintube.stubs")
     assert stubs.returncode == 0, stubs.stderr
     assert "groove_share: float" in (copy / "twintube" / "core" / "effects" / "__init__.pyi").read_text(encoding="utf-8")
-    table = run(copy, "-m", "twintube", "variables")
+    table = run(copy, "-m", "twintube", "dampers", "--variables")
     assert "| `bypass_groove.groove_share` |" in table.stdout, table.stderr
 
 

@@ -87,12 +87,12 @@ def test_the_command_writes_between_the_marks_only(tmp_path: Path, monkeypatch: 
     monkeypatch.setitem(command.BENCHMARKS, "importers", lambda: {"tool 1.0": cells})
     page = tmp_path / "page.md"
     page.write_text("before\n<!-- table: importers -->\nold\n<!-- end of table -->\nafter\n", encoding="utf-8")
-    run = CliRunner().invoke(command.app, ["importers", "--write", str(page)])
+    run = CliRunner().invoke(command.app, ["importers", "--output", str(page)])
     assert run.exit_code == 0, run.output
     before, table, after = parts(page, "importers")
     assert (before, after) == ("before\n<!-- table: importers -->\n", "<!-- end of table -->\nafter\n")
     assert figures(table) == {"tool 1.0": cells}
     page.write_text("no marks\n", encoding="utf-8")
-    run = CliRunner().invoke(command.app, ["importers", "--write", str(page)])
+    run = CliRunner().invoke(command.app, ["importers", "--output", str(page)])
     assert (run.exit_code, page.read_text(encoding="utf-8")) == (2, "no marks\n")
     assert "the lines <!-- table: importers --> and <!-- end of table --> are missing" in run.output

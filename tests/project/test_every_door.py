@@ -19,6 +19,7 @@ from twintube.dampers import Damper, to_toml
 from twintube.dampers.freed_gas import DEFAULT, with_freed_gas
 from twintube.data import Record, load_dataset
 from twintube.demo.damper_fmu import DamperFmu
+from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.put_right import put_right
 from twintube.engine.simulation import Simulation
 from twintube.fitting.oscillations import harmonic
@@ -65,7 +66,7 @@ def block(mine: Path) -> Path:
 def record(block: Path) -> Record:
     """The record of a dataset of its own."""
     folder = block.parent / "dataset"
-    run("new-dataset", str(folder), "--from", str(block), "--damper", str(block.parent / "mine.toml"), *STATE)
+    run("new-dataset", str(folder), "--from", str(block), str(block.parent / "mine.toml"), *STATE)
     (only,) = load_dataset(folder).records
     return only
 
@@ -128,7 +129,9 @@ def test_identification_and_diagnosis_have_the_force_of_the_record(worn: Damper,
     assert apart(predicted(dataset.damper, h, 0.0)[span], h.force[span]) < DIGITS
     judged = put_right(dataset, None, lambda text: None).problem
     assert judged.given.parameters == dataset.damper.parameters
-    assert apart(judged.forces({}), judged.measured) < 10 * DIGITS  # mean forces in intervals
+    # Means over intervals are not those of the finer record: the same way of the gas is nearer by far, not equal.
+    other = Problem(other_way(judged.given), judged.records, usual=judged.usual)
+    assert apart(judged.forces({}), judged.measured) < 0.2 * apart(other.forces({}), judged.measured)
 
 
 @pytest.mark.parametrize(("kind", "fmi"), [("native", 2), ("native", 3), ("python", 2)])

@@ -24,7 +24,7 @@ TIME: Array = np.arange(0.0, 6.0, 0.002)
 STROKE: Array = 45.0 * np.sin(2 * np.pi / 1.5 * TIME)  # [mm]
 SPEED: Array = np.gradient(STROKE, TIME)
 FORCE: Array = 2000.0 * np.sign(SPEED) * np.abs(SPEED / 200.0) ** 0.7 + 3.0 * np.sin(97.0 * TIME)  # [N]
-STATE = ["--oil-level", "0.6", "--gas-lost", "--damper", "SA8"]
+STATE = ["--oil-level", "0.6", "--gas-lost", "SA8"]
 
 
 def table(head: str, columns: Sequence[Array], delimiter: str = ",", decimal: str = ".") -> str:
@@ -92,7 +92,7 @@ def test_what_no_file_tells_is_unknown_and_the_reference_comes_first(tmp_path: P
     monkeypatch.chdir(tmp_path)
     for name, gain in (("after.csv", 0.8), ("before.csv", 1.0)):
         Path(name).write_text(table("time [s],stroke [mm],force [N]\n", (TIME, STROKE, gain * FORCE)))
-    run = RUNNER.invoke(app, ["new-dataset", "set", "--from", "after.csv", "--reference", "before.csv", "--damper", "SA8"])
+    run = RUNNER.invoke(app, ["new-dataset", "set", "--from", "after.csv", "--reference", "before.csv", "SA8"])
     assert run.exit_code == 0, run.output
     records = load_dataset("set").records
     assert [(r.file, r.reference, r.state) for r in records] == [("before.csv", True, "1"), ("after.csv", False, "2")]
@@ -143,7 +143,7 @@ def test_the_template_names_every_key(tmp_path: Path) -> None:
         (["--from", "a.pdf"], "a.pdf: unknown format '.pdf', must be one of .csv"),
         (["--from", "nowhere.csv"], "nowhere.csv"),
         (["--from", "good.csv", "--from", "text.csv"], "text.csv: no table"),
-        (["--from", "good.csv", "--damper", "sa9"], "error: unknown damper sa9"),
+        (["--from", "good.csv", "sa9"], "error: unknown damper sa9"),
         (["--from", "empty.csv"], "empty.csv: no table"),
     ],
 )

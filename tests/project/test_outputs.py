@@ -34,7 +34,7 @@ def refused(done: Result, *words: str) -> None:
     ("command", "first", "second", "file"),
     [
         (["simulate", "--velocity", "2"], ["SA8"], ["SA1"], "simulation.csv"),
-        (["ssv"], ["SA8"], ["SA8", "--gas-lost"], "parameters.ssv"),
+        (["fmu", "--ssv"], ["SA8"], ["SA8", "--gas-lost"], "parameters.ssv"),
         (["study"], ["one.toml"], ["two.toml"], "study.parquet"),
     ],
 )
@@ -125,9 +125,9 @@ def test_an_interrupted_identification_goes_on_and_no_other_takes_its_journal(mo
 
 
 def test_the_excitations_of_another_damper_stay_and_the_fmu_reads_those_made_for_it() -> None:
-    assert run("rig", "SA8", "--for-fmu").exit_code == 0
-    assert run("rig", "SA8", "--for-fmu").exit_code == 0
-    refused(run("rig", "SA1", "--for-fmu"), "rig holds a result made from damper = SA8")
+    assert run("paper", "rig", "SA8", "--for-fmu").exit_code == 0
+    assert run("paper", "rig", "SA8", "--for-fmu").exit_code == 0
+    refused(run("paper", "rig", "SA1", "--for-fmu"), "rig holds a result made from damper = SA8")
     head, first = Path("rig/01_quasi_static.csv").read_text().splitlines()[:2]
     assert head == "time,stroke,velocity"
     assert abs(float(first.split(",")[1])) < 0.1  # m

@@ -34,7 +34,7 @@ def test_equations_1_to_41_are_tagged_in_the_kernel() -> None:
 
 
 def test_table_of_variables_is_current() -> None:
-    table = CliRunner().invoke(app, ["variables"]).output
+    table = CliRunner().invoke(app, ["dampers", "--variables"]).output
     assert table in (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
 
 

@@ -75,7 +75,7 @@ def test_braking_loads_the_front_and_ends_at_rest() -> None:
 
 
 def test_rig_command_writes_the_plan(tmp_path: Path) -> None:
-    run = CliRunner().invoke(app, ["rig", "SA6", "--output", str(tmp_path / "x")])
+    run = CliRunner().invoke(app, ["paper", "rig", "SA6", "--output", str(tmp_path / "x")])
     assert run.exit_code == 0, run.output
     plan_file = json.loads((tmp_path / "x" / "plan.json").read_text())
     assert len(plan_file["signals"]) == 19

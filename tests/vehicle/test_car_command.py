@@ -7,6 +7,8 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
+from twintube.cli.base import standalone
+from twintube.cli.tables import car_sensitivity
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.report.car.conclusion import read_inspection, section
 from twintube.vehicle.cars import FOLDER
@@ -129,8 +131,8 @@ def test_a_car_file_is_refused_with_quantity_value_range_and_line(tmp_path: Path
     assert old in text
     file = tmp_path / "car.toml"
     file.write_text(text.replace(old, new))
-    for command in ("car", "inspect", "car-sensitivity"):
-        run = CliRunner().invoke(app, [command, "--car", str(file)])
+    for program, words in ((app, ["car"]), (app, ["inspect"]), (standalone(car_sensitivity), [])):
+        run = CliRunner().invoke(program, [*words, "--car", str(file)])
         assert run.exit_code == 2
         assert run.output.startswith("error: ") and "car.toml: " in run.output and message in run.output
         assert run.output.count("\n") == 1

@@ -84,7 +84,7 @@ def test_a_container_drives_as_the_compiled_dampers_do(car: FullCar, tmp_path: P
         "--output",
         str(tmp_path),
     ]
-    command = CliRunner().invoke(app, ["container", *arguments])
+    command = CliRunner().invoke(app, ["ssp", "--container", *arguments])
     assert command.exit_code == 0, command.output
     file = tmp_path / "twintube_dampers.fmu"
     description = fmpy.read_model_description(str(file))

@@ -1,4 +1,4 @@
-"""`twintube car-sensitivity`: every assumed value reaches the car, and the figures are those of the drives."""
+"""`python -m benchmarks car_sensitivity`: every assumed value reaches the car, and the figures are those of the drives."""
 
 import json
 import math
@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from twintube.cli import app
+from twintube.cli.base import standalone
+from twintube.cli.tables import car_sensitivity
 from twintube.dampers import ParameterError, load
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.vehicle.cars import FOLDER, METAS, load_car
@@ -67,7 +68,7 @@ def test_table_picture_and_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         monkeypatch.setattr(f"{module}.DRIVES", drives)
     file, out = tmp_path / "s.json", tmp_path / "page"
     run = CliRunner().invoke(
-        app, ["car-sensitivity", "--seeds", "1", "--draws", "3", "--json", str(file), "--output", str(out)]
+        standalone(car_sensitivity), ["--seeds", "1", "--draws", "3", "--json", str(file), "--output", str(out)]
     )
     assert run.exit_code == 0, run.output
     found = json.loads(file.read_text())
@@ -80,5 +81,5 @@ def test_table_picture_and_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert run.output.count("| height | -50 to +50 mm |") == 1
     assert (out / "sensitivity.png").read_bytes().startswith(b"\x89PNG")
     assert "All assumed values" in (out / "sensitivity.html").read_text(encoding="utf-8")
-    run = CliRunner().invoke(app, ["car-sensitivity", "--oil-level", "1"])
+    run = CliRunner().invoke(standalone(car_sensitivity), ["--oil-level", "1"])
     assert run.exit_code == 2 and run.output == "error: oil_level = 1: must be below 1 for a worn damper\n"

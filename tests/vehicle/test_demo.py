@@ -53,7 +53,7 @@ def test_demo_writes_the_summary_and_the_pictures(tmp_path: Path) -> None:
 
 
 def test_demo_answers_bad_input_with_one_line(tmp_path: Path) -> None:
-    run = CliRunner().invoke(app, ["demo", "--damper", "SA9", "--output", str(tmp_path / "x")])
+    run = CliRunner().invoke(app, ["demo", "SA9", "--output", str(tmp_path / "x")])
     assert run.exit_code == 2
     assert run.stderr.startswith("error: unknown damper SA9")
     (tmp_path / "file").write_text("")

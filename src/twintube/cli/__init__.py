@@ -7,11 +7,13 @@ from twintube.cli import (  # noqa: F401  # registers the commands
     drive,
     explore,
     fmu,
+    former,
     inspect,
     measured,
     model,
     monitor,
     paper,
+    rig,
     ssp,
     vehicle,
 )

@@ -1,7 +1,7 @@
 """What all commands share: the application, and answers to bad input."""
 
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from contextvars import ContextVar
 from pathlib import Path
@@ -26,12 +26,23 @@ STYLE: dict[str, Any] = {
 # Groups of commands in the help, in this order.
 MODEL, BENCH, VEHICLE, PAPER = "Model and FMU", "Bench data", "Vehicle", "Paper"
 PANELS = (MODEL, BENCH, VEHICLE, PAPER)
+# Former names, which work for a release: what is typed now, and for commands of another shape, which `former.py` holds,
+# what is said.
 MOVED = {
     "claims": "paper claims",
     "reproduce": "paper figures",
     "readings": "paper readings",
     "calibrate": "paper calibrate",
+    "rig": "paper rig",
+    "variables": "dampers --variables",
 }
+REPLACED = {
+    "ssv": "twintube fmu --ssv",
+    "container": "twintube ssp --container",
+    "sensitivity": "python -m benchmarks sensitivity",
+    "car-sensitivity": "python -m benchmarks car_sensitivity",
+}
+LASTS = "the former name works until the next release"
 # The context of the running command; Typer has it in a module of its own, which was click's in former versions.
 RUNNING: ContextVar[Any] = ContextVar("running")
 USAGE_ERROR: Any = typer.BadParameter.__bases__[0]  # click's UsageError, which Typer does not pass on
@@ -100,13 +111,39 @@ def check_place(path: Path) -> None:
         raise InputError(f"{path}: {above} is not a folder")
 
 
+def renamed(words: Sequence[str], former: Mapping[str, str], say: Callable[[str], None]) -> list[str]:
+    """The words behind a command with its `former` options under their names of now, an empty one for an argument."""
+    kept: list[str] = []
+    arguments: list[str] = []
+    rest = iter(words)
+    for word in rest:
+        name, sign, value = word.partition("=")
+        new = former.get(name)
+        if new:
+            say(f"{name} is {new} now; {LASTS}")
+            kept.append(new + sign + value)
+        elif new is None or not (value := value or next(rest, "")):
+            kept.append(word)
+        else:
+            say(f"{name} {value} is just {value} now; {LASTS}")
+            arguments.append(value)
+    return kept + arguments
+
+
 class Command(TyperCommand):
     """A command that looks at the place of its output before it computes, and answers bad input with one line."""
 
-    def make_context(self, *arguments: Any, **options: Any) -> Any:
-        """Read the command line."""
+    former: Mapping[str, str] = {}
+
+    def make_context(self, info_name: str | None, args: list[str], parent: Any = None, **options: Any) -> Any:
+        """Read the command line; a script of its own keeps the names that it has."""
+
+        def say(text: str) -> None:
+            if parent is not None:
+                typer.echo(f"{parent.command_path} {info_name}: {text}", err=True)
+
         with parsing():
-            return super().make_context(*arguments, **options)
+            return super().make_context(info_name, renamed(args, self.former, say), parent, **options)
 
     def invoke(self, ctx: Any) -> Any:
         """Run it."""
@@ -142,11 +179,11 @@ class Group(TyperGroup):
 
     def list_commands(self, ctx: Any) -> list[str]:
         """The names in the order of the alphabet."""
-        return sorted(self.commands)
+        return sorted(name for name, command in self.commands.items() if not command.hidden)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """A section for each group."""
-        width = max(map(len, self.commands))
+        width = max(map(len, self.list_commands(ctx)))
         for title in PANELS:
             known: list[tuple[str, Any]] = [(name, self.commands[name]) for name in self.list_commands(ctx)]
             rows = [(f"{name:{width}}", first_line(each)) for name, each in known if each.rich_help_panel == title]
@@ -155,10 +192,14 @@ class Group(TyperGroup):
                     formatter.write_dl(rows)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        """As Typer does, and say where a command went that had another name."""
+        """As Typer does; a command that had another name runs, and says the one of now."""
+        known = self.commands.get(args[0])
+        if known is None and args[0] in MOVED:
+            typer.echo(f"'twintube {args[0]}' is 'twintube {MOVED[args[0]]}' now; {LASTS}", err=True)
+            args = [*MOVED[args[0]].split(), *args[1:]]
+        elif known is not None and known.hidden:
+            typer.echo(f"'twintube {args[0]}' is '{REPLACED[args[0]]}' now; {LASTS}", err=True)
         with parsing():
-            if args[0] in MOVED and args[0] not in self.commands:
-                ctx.fail(f"'twintube {args[0]}' is 'twintube {MOVED[args[0]]}' now")
             return super().resolve_command(ctx, args)
 
 
@@ -170,18 +211,21 @@ def first_line(command: Any) -> str:
 class App(typer.Typer):
     """An application of such commands."""
 
-    def command(self, *arguments: Any, **options: Any) -> Callable[[CommandFunctionType], CommandFunctionType]:
-        """As Typer's."""
-        return super().command(*arguments, **({"cls": Command} | options))
+    def command(
+        self, *arguments: Any, former: Mapping[str, str] | None = None, **options: Any
+    ) -> Callable[[CommandFunctionType], CommandFunctionType]:
+        """As Typer's; `former` options are read as those of now, or as an argument where that is empty."""
+        own = type("Command", (Command,), {"former": former or {}})
+        return super().command(*arguments, **({"cls": own} | options))
 
 
 app = App(**STYLE, name="twintube", cls=Group, no_args_is_help=True)
 
 
-def standalone(command: Callable[..., None]) -> typer.Typer:
+def standalone(command: Callable[..., None], former: Mapping[str, str] | None = None) -> typer.Typer:
     """An application of one command, for the scripts at the top level."""
     alone = App(**STYLE, add_completion=False)
-    alone.command()(command)
+    alone.command(former=former)(command)
     return alone
 
 

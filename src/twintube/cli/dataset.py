@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from twintube.cli.base import BENCH, app
-from twintube.cli.options import damper_option
+from twintube.cli.options import DAMPER_ARGUMENT
 from twintube.cli.states import GAS
 from twintube.common.extras import extra_of
 from twintube.errors import InputError
@@ -18,12 +18,16 @@ DRIVE_EXAMPLE = "drive"  # `twintube drive --speed 80 --road-class C --minutes 0
 
 
 @app.command(
-    "new-dataset", rich_help_panel=BENCH, epilog="Example: twintube new-dataset my_dataset --from block.csv --damper SA8"
+    "new-dataset",
+    rich_help_panel=BENCH,
+    epilog="Example: twintube new-dataset my_dataset SA8 --from block.csv",
+    former={"--damper": "", "--gas-present": "--gas-kept"},
 )
 def new_dataset(
     folder: Annotated[
         Path, typer.Argument(metavar="FOLDER", help="Of the new dataset; files that lie in it are taken, too.")
     ],
+    damper: Annotated[str, DAMPER_ARGUMENT] = "",
     source: Annotated[
         list[Path] | None,
         typer.Option("--from", metavar="FILE", help="A measured record to copy into the folder; repeatable."),
@@ -35,7 +39,6 @@ def new_dataset(
             help="A record of the damper as it was, before whatever happened to it; taken like --from; repeatable.",
         ),
     ] = None,
-    damper: Annotated[str, damper_option("A name of `twintube dampers` or a parameter file.")] = "",
     oil_level: Annotated[
         float | None,
         typer.Option(

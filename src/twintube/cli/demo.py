@@ -1,4 +1,4 @@
-"""The main job, and the sensitivity of its result to the assumptions."""
+"""The main job."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,19 +6,18 @@ from typing import Annotated
 import typer
 
 from twintube.cli.base import VEHICLE, app
-from twintube.cli.options import CAR, SEED, STEP_MS, damper_option
-from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
-from twintube.common.files import write_text
+from twintube.cli.options import CAR, DAMPER_ARGUMENT, SEED, STEP_MS
+from twintube.cli.outputs import check_folder, mark_folder, of_options
 
-DAMPER = Annotated[str, damper_option("A named damper or a parameter file.")]
+FORMER = {"--damper": ""}
 
 
-@app.command(rich_help_panel=VEHICLE, epilog="Example: twintube demo --damper SA7 --output results/front")
+@app.command(rich_help_panel=VEHICLE, epilog="Example: twintube demo SA7 --output results/front", former=FORMER)
 def demo(
+    damper: Annotated[str, DAMPER_ARGUMENT] = "SA8",
     output: Annotated[Path, typer.Option(metavar="FOLDER", help="For summary.json and the pictures.")] = Path(
         "results/vehicle_demo"
     ),
-    damper: DAMPER = "SA8",
     car: CAR = "passat_b8",
     seconds: Annotated[float, typer.Option(metavar="S", help="Length of each ride.", min=20.0, max=3600.0)] = 120.0,
     step_ms: Annotated[float, typer.Option(metavar="MS", help="Communication step.", min=0.05, max=1.0)] = STEP_MS,
@@ -43,23 +42,3 @@ def demo(
     typer.echo(table(result))
     typer.echo("\n".join(result["sentences"]))
     typer.echo(f"{output / 'summary.json'} and {', '.join(p.name for p in pictures)}")
-
-
-@app.command(rich_help_panel=VEHICLE, epilog="Example: twintube sensitivity --output docs/sensitivity.md")
-def sensitivity(
-    output: Annotated[Path, typer.Option(metavar="FILE", help="Markdown file for the table.")] = Path(
-        "results/sensitivity.md"
-    ),
-    damper: DAMPER = "SA8",
-    car: CAR = "passat_b8",
-) -> None:
-    """Vary every assumption about the quarter car, one by one.
-
-    It writes the table of the dynamic load coefficient (DLC).
-    """
-    from twintube.demo.sensitivity import page
-
-    text = page(damper, car)
-    keep_other(output, text.encode())
-    write_text(output, text)
-    typer.echo(text)

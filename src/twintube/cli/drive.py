@@ -14,10 +14,11 @@ from twintube.errors import InputError
 @app.command(
     rich_help_panel=VEHICLE,
     epilog="Example: twintube drive --speed 80 --road-class B --minutes 5 --worn rear_left --oil-level 0.4 --gas-lost "
-    "--write signals.parquet",
+    "--output signals.parquet",
+    former={"--write": "--output"},
 )
 def drive(
-    write_to: Annotated[Path, typer.Option("--write", metavar="FILE", help="Signals: .parquet, or .mf4 (extra mdf).")],
+    output: Annotated[Path, typer.Option(metavar="FILE", help="Signals: .parquet, or .mf4 (extra mdf).")],
     speed: Annotated[float, typer.Option(metavar="KM/H", help="Mean speed.", min=20.0, max=200.0)] = 80.0,
     road_class: Annotated[str, one_of(ROADS, help="Class of the road, ISO 8608.")] = "B",
     minutes: Annotated[float, typer.Option(metavar="MIN", help="Length.", min=0.1, max=60.0)] = 5.0,
@@ -44,7 +45,7 @@ def drive(
     from twintube.vehicle.full.study import WORN
     from twintube.vehicle.road import GD_N0
 
-    check_suffix(write_to)
+    check_suffix(output)
     if road_class not in GD_N0:
         raise InputError(f"--road-class {road_class}: must be one of {', '.join(GD_N0)}")
     if worn not in WORN:
@@ -56,9 +57,9 @@ def drive(
         road_class, speed, 60.0 * minutes, seed, temperature=temperature, random=seed
     )  # fmt: skip
     signals = driven(scene(vehicle, conditions, Wear(levels, gas)))
-    write(signals, write_to)
+    write(signals, output)
     typer.echo(
-        f"{write_to}: {minutes:g} min of {vehicle.car.name} at {speed:g} km/h on a road of class {road_class}, "
+        f"{output}: {minutes:g} min of {vehicle.car.name} at {speed:g} km/h on a road of class {road_class}, "
         f"{len(signals.values)} channels every {signals.interval * 1e3:g} ms; {worn}: "
         f"{state_in_words(oil_level, gas_lost=gas_lost)}"
     )

@@ -7,13 +7,14 @@ import typer
 
 from twintube.cli.base import MODEL, app
 from twintube.cli.outputs import keep_other
+from twintube.cli.progress import progress
 from twintube.common.files import write_text
 
 
-@app.command(rich_help_panel=MODEL, epilog="Example: twintube explore --output explorer.html")
+@app.command(rich_help_panel=MODEL, epilog="Example: twintube explore --output explorer.html", former={"--parameters": ""})
 def explore(
-    parameters: Annotated[
-        list[Path] | None, typer.Option(metavar="FILE", help="A parameter file (TOML) beside SA1 to SA8; repeatable.")
+    files: Annotated[
+        list[Path] | None, typer.Argument(metavar="DAMPER", help="Parameter files (TOML) beside SA1 to SA8.")
     ] = None,
     output: Annotated[Path, typer.Option(metavar="FILE", help="HTML file.")] = Path("explorer.html"),
 ) -> None:
@@ -27,7 +28,8 @@ def explore(
 
     if output.is_dir():
         raise IsADirectoryError(f"{output}: is a folder, must be a file")
-    text = page([load(file) for file in parameters or []], lambda said: typer.echo(said, err=True))
+    with progress() as say:
+        text = page([load(file) for file in files or []], say)
     keep_other(output, text.encode())
     write_text(output, text)
     typer.echo(f"{output}: {len(text.encode()) // 1000} kB; open it in a browser")

@@ -1,19 +1,23 @@
-"""Commands about the FMU: build it, write its parameters."""
+"""The command about the FMU: build it, test it, write its parameters."""
 
-import time
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from twintube.cli.base import MODEL, app
-from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, PLATFORM, SSP
-from twintube.cli.outputs import keep_other, refuse_other
+from twintube.cli.options import AS_PUBLISHED, DAMPER_ARGUMENT, PLATFORM
+from twintube.cli.outputs import keep_other, named, refuse_other, typed
+from twintube.cli.progress import progress
 from twintube.cli.states import GAS_LOST, OIL_LEVEL, in_state, in_words
 from twintube.common.files import write_text
 from twintube.common.words import printable
 
-PARAMETERS = Annotated[Path | None, typer.Option(metavar="FILE", help="A parameter file (TOML) instead of a named damper.")]
+if TYPE_CHECKING:
+    from twintube.dampers import Damper
+
+SSV = Path("parameters.ssv")
+FORMER = {"--parameters": ""}
 
 
 def tested(fmu: Path) -> None:
@@ -33,11 +37,14 @@ def tested(fmu: Path) -> None:
         raise typer.Exit(1)
 
 
-@app.command(rich_help_panel=MODEL, epilog="Example: twintube fmu SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu")
+@app.command(
+    rich_help_panel=MODEL,
+    epilog="Example: twintube fmu SA8 --oil-level 0.6 --gas-lost --output rear_60.fmu",
+    former=FORMER,
+)
 def fmu(
     ctx: typer.Context,
     damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
-    parameters: PARAMETERS = None,
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = None,
     kind: Annotated[
@@ -47,12 +54,18 @@ def fmu(
     fmi: Annotated[Literal[2, 3], typer.Option(metavar="2|3", help="Version of FMI, 2.0 or 3.0.")] = 2,
     platform: PLATFORM = None,
     published: AS_PUBLISHED = False,
-    output: Annotated[Path, typer.Option(metavar="FILE|FOLDER", help="An .fmu file, or a folder for it.")] = Path(),
+    ssv: Annotated[
+        bool,
+        typer.Option("--ssv", help="Build nothing: write the parameters as SSV, of SSP 1.0 or with --fmi 3 of 2.0."),
+    ] = False,
+    output: Annotated[
+        Path, typer.Option(metavar="FILE|FOLDER", help="An .fmu file, or a folder for it; with --ssv an .ssv file.")
+    ] = Path(),
     test: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Build nothing: run this FMU against its own reference run.")
     ] = None,
 ) -> None:
-    """Build the FMU of a damper and validate it, or test one.
+    """Build the FMU of a damper, test one, or write parameters.
 
     Without a damper it is that of SA8; fmpy validates it. Gas that cavitation frees dissolves again, unless --as-published
     asks for the paper's equations alone or the parameter set says what freed gas does.
@@ -68,26 +81,23 @@ def fmu(
     from twintube.fmu.table import variables
 
     if test is not None:
-        sources = {name: ctx.get_parameter_source(name) for name in ctx.params if name != "test"}
-        others = [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
-        if others:
+        if others := [name for name in typed(ctx) if name != "test"]:
             raise BuildError(f"--test {test}: a test builds nothing, leave out {', '.join(others)}")
         tested(test)
         return
-    began = time.monotonic()
-
-    def progress(text: str) -> None:
-        typer.echo(f"{time.monotonic() - began:4.0f} s  {text}", err=True)
-
-    if damper is not None and parameters is not None:
-        raise BuildError(f"damper = {damper} and --parameters {parameters}: give one of them")
     if platform and kind == "python":
         raise BuildError(f"--platform {platform[0]}: only for the native kind; the Python kind runs on linux64 and win64")
-    chosen = in_state(load(parameters or damper or "SA8", as_published=published), oil_level, gas_lost)
+    chosen = in_state(load(damper or "SA8", as_published=published), oil_level, gas_lost)
+    if ssv:
+        if others := [name for name in typed(ctx) if name in ("kind", "platform")]:
+            raise BuildError(f"--ssv: holds parameters for every library, leave out {', '.join(others)}")
+        write_ssv(chosen, output if named() else SSV, 1 if fmi == 2 else 2)
+        return
     target = target_file(output, file_name(model_name(chosen), fmi))
     if target != output:
         refuse_other(target, same=start_values(target) == {v.name: v.start for v in variables(chosen)})
-    built = build_fmu(chosen, target, kind, platform, progress=progress, fmi=fmi)
+    with progress() as say:
+        built = build_fmu(chosen, target, kind, platform, progress=say, fmi=fmi)
     typer.echo(
         f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI {fmi}.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"
@@ -95,24 +105,11 @@ def fmu(
     )
 
 
-@app.command(rich_help_panel=MODEL, epilog="Example: twintube ssv SA8 --oil-level 0.6 --gas-lost --output worn.ssv")
-def ssv(
-    damper: DAMPER,
-    oil_level: OIL_LEVEL = None,
-    gas_lost: GAS_LOST = None,
-    published: AS_PUBLISHED = False,
-    version: SSP = 1,
-    output: Annotated[Path, typer.Option(metavar="FILE", help="SSV file for the parameters.")] = Path("parameters.ssv"),
-) -> None:
-    """Write the parameters of a damper for the FMU's importer.
-
-    The file holds System Structure Parameter Values (SSV) of SSP.
-    """
-    from twintube.dampers import load
+def write_ssv(damper: "Damper", output: Path, version: Literal[1, 2]) -> None:
+    """Write the parameters of a damper as System Structure Parameter Values of a version of SSP."""
     from twintube.fmu.ssv import to_ssv
 
-    chosen = in_state(load(damper, as_published=published), oil_level, gas_lost)
-    text = to_ssv(chosen, ssp=version)
+    text = to_ssv(damper, ssp=version)
     keep_other(output, text.encode())
     write_text(output, text)
-    typer.echo(f"{output}: parameters of {printable(chosen.name)}, {printable(chosen.title)}; {in_words(chosen)}")
+    typer.echo(f"{output}: parameters of {printable(damper.name)}, {printable(damper.title)}; {in_words(damper)}")

@@ -81,7 +81,8 @@ SCATTER = Annotated[int, typer.Option(metavar="N", help="Cars and testers drawn 
 
 @app.command(
     rich_help_panel=VEHICLE,
-    epilog="Example: twintube inspect SA8 SA1 --method eusama --oil-level 1 --oil-level 0.5 --json inspect.json",
+    epilog="Example: twintube inspect SA8 SA1 --method eusama --oil-level 1 --oil-level 0.5 --gas-lost --json inspect.json",
+    former={"--with-preload": "--gas-kept"},
 )
 def inspect(
     names: NAMES = None,
@@ -102,8 +103,7 @@ def inspect(
 
     It says from which oil level on each method sees the loss.
     """
-    from tqdm import tqdm
-
+    from twintube.common.bars import Bar
     from twintube.dampers.freed_gas import VARIED, known
     from twintube.inspection import LEVELS as USUAL_LEVELS
     from twintube.inspection import USUAL, Setting, conditions, inspected, method, study
@@ -129,7 +129,7 @@ def inspect(
     entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, ways=ways, setting=setting)]
     detections = []
     if scatter:
-        with tqdm(total=scatter * len(loaded), unit="car", leave=False) as bar:
+        with Bar(total=scatter * len(loaded), unit="car", leave=False) as bar:
             detections = study(
                 loaded, vehicle, states, wanted,
                 count=scatter, seed=seed, ways=ways, plates=plates, processes=processes, progress=bar.update,

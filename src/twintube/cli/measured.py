@@ -123,8 +123,7 @@ def identify(
     They are validated on records that the search did not see, and it is said what they are good for. An interrupted run
     continues when it is started again with the same output folder.
     """
-    from tqdm import tqdm
-
+    from twintube.common.bars import Bar
     from twintube.dampers import to_toml
     from twintube.data import load_dataset
     from twintube.identification import METHODS, PAPER, QUICK, identify_dataset, require_known, summary
@@ -139,7 +138,7 @@ def identify(
     journal = output / "journal"
     journal.mkdir(parents=True, exist_ok=True)
     mark_folder(output, made_from)
-    with tqdm(total=budget.generations(method), unit="generation", leave=False) as bar:
+    with Bar(total=budget.generations(method), unit="generation", leave=False) as bar:
 
         def progress(title: str, error: float) -> None:
             bar.set_description(title)
@@ -186,9 +185,8 @@ def diagnose(
     The model is extended by the cause and judged on records that it was not fitted to. extended.toml is written where
     something is named that changes the parameter set. docs/diagnosis.md gives the hit rates.
     """
-    from tqdm import tqdm
-
     from twintube import evidence
+    from twintube.common.bars import Bar
     from twintube.dampers import to_toml
     from twintube.evidence.contract import as_json
     from twintube.report.common.titles import in_words
@@ -196,7 +194,7 @@ def diagnose(
 
     made_from = {"command": "diagnose", "dataset": str(dataset.resolve())}
     check_folder(output, ("diagnosis.json",), made_from)
-    with tqdm(bar_format="{elapsed}  {desc}", leave=False) as bar:
+    with Bar(bar_format="{elapsed}  {desc}", leave=False) as bar:
 
         def progress(text: str) -> None:
             bar.set_description_str(in_words(text))

@@ -1,7 +1,5 @@
-"""Commands about the model: parameter sets, simulation, excitations."""
+"""Commands about the model: parameter sets, simulation."""
 
-import json
-import re
 from dataclasses import fields
 from pathlib import Path
 from typing import Annotated
@@ -9,11 +7,12 @@ from typing import Annotated
 import typer
 
 from twintube.cli import simulated
-from twintube.cli.base import BENCH, MODEL, app
-from twintube.cli.options import AS_PUBLISHED, DAMPER, DAMPER_ARGUMENT, SEED
-from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
+from twintube.cli.base import MODEL, app
+from twintube.cli.options import AS_PUBLISHED, DAMPER_ARGUMENT
+from twintube.cli.outputs import keep_other
 from twintube.cli.states import GAS_LOST, OIL_LEVEL
 from twintube.common.files import write_bytes, write_text
+from twintube.errors import InputError
 
 FOR_FMU = Annotated[
     bool, typer.Option("--for-fmu", help="Columns as the FMU names them, in SI units: for fmpy simulate --input-file.")
@@ -21,7 +20,12 @@ FOR_FMU = Annotated[
 
 
 @app.command("dampers", rich_help_panel=MODEL, epilog="Example: twintube dampers SA8")
-def list_dampers(damper: Annotated[str | None, DAMPER_ARGUMENT] = None) -> None:
+def list_dampers(
+    damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
+    variables: Annotated[
+        bool, typer.Option("--variables", help="All inputs, outputs and parameters as Markdown, in place of the dampers.")
+    ] = False,
+) -> None:
     """List the named dampers, or show one as a parameter file.
 
     The list has the oil level at which their chambers fall short. A parameter file (TOML) has the sources of its values.
@@ -29,6 +33,11 @@ def list_dampers(damper: Annotated[str | None, DAMPER_ARGUMENT] = None) -> None:
     from twintube import dampers
     from twintube.dampers.dead_length import bounds, collapse_level
 
+    if variables and damper is not None:
+        raise InputError(f"--variables: are those of every damper, leave out {damper}")
+    if variables:
+        print_variables()
+        return
     if damper is not None:
         chosen = dampers.load(damper)
         typer.echo(dampers.to_toml(chosen), nl=False)
@@ -71,6 +80,7 @@ PLOT = Annotated[
 @app.command(
     rich_help_panel=MODEL,
     epilog="Example: twintube simulate SA8 --oil-level 0.6 --gas-lost --velocity 1.0 --output loop.csv",
+    former={"--gas-present": "--gas-kept"},
 )
 def simulate(
     damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
@@ -121,52 +131,7 @@ def simulate(
         typer.echo(f"{plot}: stroke and force over time, force over stroke and velocity")
 
 
-@app.command(rich_help_panel=BENCH, epilog="Example: twintube rig SA8 --output excitations")
-def rig(
-    damper: DAMPER,
-    output: Annotated[Path, typer.Option(metavar="FOLDER", help="For one CSV per measurement and plan.json.")] = Path("rig"),
-    seed: SEED = 1,
-    recovery: Annotated[
-        bool, typer.Option("--recovery", help="The plan that decides what becomes of gas that cavitation frees.")
-    ] = False,
-    for_fmu: FOR_FMU = False,
-) -> None:
-    """Write the excitations of a bench for a damper.
-
-    They are those of the paper's measurement plan (Table 3).
-    """
-    import numpy as np
-    from tqdm import tqdm
-
-    from twintube import dampers
-    from twintube.rig.plan import RECOVERY_LEVELS, REST, recovery_plan
-    from twintube.vehicle.plan import plan
-
-    chosen = dampers.load(damper)
-    check_folder(output, ("plan.json",), of_options())
-    mark_folder(output, of_options())
-    listed = []
-    wanted = recovery_plan(chosen) if recovery else plan(chosen, seed)
-    for m in tqdm(list(wanted), unit="signal", leave=False):
-        name = f"{m.number:02}_{re.sub(r'[^a-z0-9.]+', '_', m.name.lower()).strip('_')}.csv"
-        scale, head = (1.0, "time,stroke,velocity") if for_fmu else (1e3, "time [s],stroke [mm],velocity [mm/s]")
-        table = np.column_stack([m.signal.time, m.signal.stroke * scale, m.signal.velocity * scale])
-        lines = [head] + [f"{t:.9g},{z:.9g},{v:.9g}" for t, z, v in table]
-        write_text(output / name, "\n".join(lines) + "\n")
-        start, end = (float(m.signal.time[m.signal.marks[i]]) for i in (0, -1))
-        listed.append({"number": m.number, "name": m.name, "measurement": m.kind, "file": name,
-                       "measured_from_s": start, "measured_to_s": end})  # fmt: skip
-    about = {"damper": chosen.name, "seed": seed, "rest_before_each_s": REST, "signals": listed}
-    about["assumed"] = "block velocities, strokes of the drives (quarter car, road, obstacles), maximum stroke"
-    if recovery:
-        about["oil_levels_without_preload"] = [*RECOVERY_LEVELS, *chosen.measured_levels]
-        about["record_too"] = "temperature of the oil or the outer tube: a minute above v_cav heats the damper"
-    write_text(output / "plan.json", json.dumps(about, indent=1) + "\n")
-    typer.echo(f"{output}: {len(listed)} signals for {chosen.name}, see plan.json")
-
-
-@app.command(rich_help_panel=MODEL, epilog="Example: twintube variables > docs/variables.md")
-def variables() -> None:
+def print_variables() -> None:
     """Print all inputs, outputs and parameters as Markdown."""
     from twintube.core.effects import Parameters
     from twintube.core.variables import Inputs, Outputs, fmi_name

@@ -20,6 +20,12 @@ def named(option: str = "output") -> bool:
     return bool(RUNNING.get().get_parameter_source(option).name != "DEFAULT")
 
 
+def typed(context: Any) -> list[str]:
+    """The parameters of a command that its user gave."""
+    sources = {name: context.get_parameter_source(name) for name in context.params}
+    return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+
+
 def written_on(path: Path) -> str:
     """When a file was last written, for messages."""
     return datetime.fromtimestamp(path.stat().st_mtime).strftime("%Y-%m-%d %H:%M")

@@ -21,7 +21,7 @@ BEGINNING = Annotated[str, one_of(STARTS, help="Where an oscillation begins.")]
 
 @paper.callback()
 def about() -> None:
-    """Evaluate the paper: claims, figures, readings, calibrate."""
+    """Measure and judge as the paper: rig, claims, figures, readings."""
 
 
 @paper.command(rich_help_panel=PAPER, epilog="Example: twintube paper figures --output reproduction")
@@ -73,13 +73,12 @@ def claims(
     ] = False,
 ) -> None:
     """Evaluate the paper's statements C1 to C17 with its parameters."""
-    from tqdm import tqdm
-
     from twintube.claims import EVALUATORS, evaluate
+    from twintube.common.bars import Bar
 
     readings = dict(parsed_reading(text) for text in reading or [])
     claims_one_by_one = evaluate(readings, bench(start, freed_gas), rear=rear_curve)
-    results = list(tqdm(claims_one_by_one, total=len(EVALUATORS), unit="claim", leave=False))
+    results = list(Bar(claims_one_by_one, total=len(EVALUATORS), unit="claim", leave=False))
     if json_file is not None:
         write_text(
             json_file, json.dumps([asdict(c) | {"kind": c.kind, "evidence": c.evidence} for c in results], indent=1) + "\n"
@@ -158,17 +157,16 @@ def readings(
 
     Varied are readings, start, position, amplitude, what freed gas does, and the F-v curve.
     """
-    from tqdm import tqdm
-
     from twintube.claims.compare import alternatives, compare
+    from twintube.common.bars import Bar
 
     table = []
-    for other, effects in tqdm(compare(), total=len(alternatives()), unit="choice", leave=False):
+    for other, effects in Bar(compare(), total=len(alternatives()), unit="choice", leave=False):
         flips = [f"{e.id} {'holds' if e.holds else 'fails'}" for e in effects if e.flips]
-        tqdm.write_text(f"{other.name} = {other.value}: {', '.join(flips) or 'no claim flips'}")
+        Bar.write(f"{other.name} = {other.value}: {', '.join(flips) or 'no claim flips'}")
         for effect in effects:
             if effect.moves:
-                tqdm.write_text(f"      {effect.id:4}{effect.moves}")
+                Bar.write(f"      {effect.id:4}{effect.moves}")
         table.append({"choice": other.name, "value": other.value, "claims": [asdict(effect) for effect in effects]})
     if json_file is not None:
         write_text(json_file, json.dumps(table, indent=1) + "\n")

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-from tqdm import tqdm
-
+from twintube.common.bars import Bar
 from twintube.common.readable import unit_of
 from twintube.dampers import Damper, ParameterError, freed_gas
 from twintube.dampers.dead_length import bounds
@@ -94,7 +93,7 @@ class Rides:
             return dict(self.group(job[0], levels, job[1]))
 
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            for figures_by_key in tqdm(pool.map(work, jobs), total=len(jobs), unit="setting", desc=label):
+            for figures_by_key in Bar(pool.map(work, jobs), total=len(jobs), unit="setting", desc=label):
                 self.results.update(figures_by_key)
 
     def get(self, speed: float, level: float | None, setting: Setting, figure: str) -> Any:

@@ -111,7 +111,7 @@ class SingleFmus(FourDampers):
 
 
 class ContainerFmu(FourDampers):
-    """The FMU that `twintube container` writes, initialised at stroke 0; a context manager. Raises FmuError."""
+    """The FMU that `twintube ssp --container` writes, initialised at stroke 0; a context manager. Raises FmuError."""
 
     def __init__(self, fmu: Path, **start_values: float) -> None:
         names = [f"{wheel}." for wheel in WHEELS]

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import fmpy
-from tqdm import tqdm
 
+from twintube.common.bars import Bar
 from twintube.common.files import write_text
 from twintube.common.processes import pool
 from twintube.core import effects
@@ -60,7 +60,7 @@ def run_all(fmu: Path, car: Car, todo: list[RideCase], *, seconds: float, dt: fl
     """All cases on all cores."""
     with pool() as workers:
         futures = {workers.submit(run, fmu, car, case, seconds=seconds, dt=dt, seed=seed): case for case in todo}
-        bar = tqdm(as_completed(futures), total=len(todo), unit="ride", desc="quarter car with the FMU")
+        bar = Bar(as_completed(futures), total=len(todo), unit="ride", desc="quarter car with the FMU")
         return {futures[future]: future.result() for future in bar}
 
 

@@ -1,4 +1,4 @@
-"""Table of the dependence of the wheel load on every assumption: `twintube sensitivity`."""
+"""Table of the dependence of the wheel load on every assumption: `python -m benchmarks sensitivity`."""
 
 from collections.abc import Callable
 from typing import Any
@@ -135,7 +135,7 @@ def page(damper: str, car: str) -> str:
     return "\n".join([
         "# Sensitivity of the wheel load", "",
         "How far each assumption moves the dynamic load coefficient (DLC) of a quarter car: the standard deviation of",
-        f"the wheel load over the static one. `twintube sensitivity --damper {damper}` makes this page.", "",
+        f"the wheel load over the static one. `python -m benchmarks sensitivity {damper}` makes this page.", "",
         f"- Vehicle: {vehicle.title}. Class D road, {SECONDS:.0f} s, DLC from 5 s on, mean of {len(SEEDS)} roads.",
         f"- Gas preload lost. Default, all assumed: freed gas `{DEFAULT}`, links {links:g} N s/m, dead length",
         f"  {1e3 * p.dead_length:g} mm, full cavitation from {100 * p.cavitation_loss:g} % of oil loss.",

@@ -10,8 +10,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from tqdm import tqdm
-
+from twintube.common.bars import Bar
 from twintube.common.files import replacing
 from twintube.common.words import counted
 from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED
@@ -179,7 +178,7 @@ def run(
         Path(plan.signals).mkdir(parents=True, exist_ok=True)
     journal, head = journal_of(output), json.dumps({"plan": plan.text, "version": version_mark()})
     cases = begun(journal, head)
-    bar = tqdm(total=len(plan), initial=len(cases), unit="drive", leave=False, disable=None if progress else True)
+    bar = Bar(total=len(plan), initial=len(cases), unit="drive", leave=False, disable=None if progress else True)
     # Written anew, without a line that was cut short.
     with journal.open("w", encoding="utf-8") as file, bar:
         for text in (head, *map(json.dumps, cases)):

@@ -29,7 +29,7 @@ def module(progress: Callable[[str], None] = lambda text: None) -> bytes:
     """The module, compiled by ziglang or from the cache of libraries; raises BuildError."""
     try:
         binaries.require_compiler()
-        progress("the module; its first compilation takes half a minute")
+        progress("the module; compiled once, which takes minutes")
         return binaries.library(texts(), TARGET, FILE, COMPILED, FLAGS)
     except (binaries.CompilerError, StaleTranslationError) as error:
         raise BuildError(str(error)) from error

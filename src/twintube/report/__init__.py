@@ -2,7 +2,7 @@
 
     diagnosis            `twintube diagnose`
     identification       `twintube identify`
-    car                  `twintube car` and `twintube car-sensitivity`
+    car                  `twintube car` and `python -m benchmarks car_sensitivity`
     inspection           `twintube inspect`
     paper                `twintube paper figures`
     monitor.py           `twintube monitor`

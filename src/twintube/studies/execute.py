@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-from tqdm import tqdm
 
 from twintube.common.arrays import Array
+from twintube.common.bars import Bar
 from twintube.common.files import replacing
 from twintube.common.processes import MOST, pool
 from twintube.studies.cases import RESULTS, chunk, version_mark
@@ -71,7 +71,7 @@ def run(
         replacing(output) as part,
         closing(parts),
         pq.ParquetWriter(part, schema(study), compression="zstd") as writer,
-        tqdm(total=len(study), unit="case", leave=False, disable=None if progress else True) as bar,
+        Bar(total=len(study), unit="case", leave=False, disable=None if progress else True) as bar,
     ):
         waiting: list[pa.Table] = []
         for span, values in zip(spans, parts, strict=True):

@@ -1,1 +1,1 @@
-"""`twintube car` and `twintube car-sensitivity` show these: the page of the whole car, that of its assumed values."""
+"""Pages of the whole car, of `twintube car`, and of its assumed values, of `python -m benchmarks car_sensitivity`."""

@@ -16,7 +16,7 @@ from twintube.vehicle.full.catalogue import MANEUVERS
 
 LEVELS = "Dots and lines: the model; open squares: a scalar factor in its place. Bars span seeds and ways of the freed gas."
 BESIDE = "`twintube inspect --json FILE`, then `twintube car --inspection FILE`: what an inspection sees of the same loss."
-VARY = "`twintube car-sensitivity` shows what the assumed values of the car do to these figures."
+VARY = "`python -m benchmarks car_sensitivity` shows what the assumed values of the car do to these figures."
 SHOWN = 0.01  # relative change [1] that is told
 
 

@@ -108,7 +108,7 @@ def next_step(answer: Answer) -> str:
     elif first.kind == "fault":
         steps += [REPAIRS[name] for name in first.name.split("+")]
     elif first.kind == "effect":
-        steps.append("build the extended set into an FMU: `twintube fmu --parameters extended.toml`")
+        steps.append("build the extended set into an FMU: `twintube fmu extended.toml`")
     elif first.kind == STATE:
         steps.append("state the true fill in dataset.toml")
     elif first.kind == NONE and answer.asked:

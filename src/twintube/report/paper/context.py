@@ -5,12 +5,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
 from twintube import dampers
 from twintube.claims import EVALUATORS, Claim
 from twintube.claims.claim import block
 from twintube.common.arrays import Array
+from twintube.common.bars import Bar
 from twintube.dampers import Damper
 from twintube.engine.simulate import simulate, work_between
 from twintube.engine.simulation import Simulation
@@ -60,7 +59,7 @@ class Context:
             records = [self.records.get(job) for job in harmonic_jobs(name, BLOCKS)]
             slow = self.records.get(slow_jobs(name)[0])
             file = self.folder / "identified" / f"{name}-{self._key()}.toml"
-            with tqdm(total=fitted.generations(self.quick), unit="generation", desc=f"identify {name}", leave=False,
+            with Bar(total=fitted.generations(self.quick), unit="generation", desc=f"identify {name}", leave=False,
                       disable=not self.progress) as bar:  # fmt: skip
 
                 def advance(title: str, error: float) -> None:

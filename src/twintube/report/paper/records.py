@@ -11,9 +11,9 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
-from tqdm import tqdm
 
 from twintube.common.arrays import Array
+from twintube.common.bars import Bar
 from twintube.common.files import replacing
 from twintube.common.processes import pool
 from twintube.dampers import load
@@ -133,7 +133,7 @@ class Records:
         """Compute the missing records, longest first, in worker processes."""
         self.folder.mkdir(parents=True, exist_ok=True)
         missing = sorted({j for j in jobs if not (self.folder / j.file).exists()}, key=lambda j: (j.kind, j.value))
-        with tqdm(total=len(missing), unit="record", desc="virtual rig", leave=False, disable=not self.progress) as bar:
+        with Bar(total=len(missing), unit="record", desc="virtual rig", leave=False, disable=not self.progress) as bar:
             if len(missing) <= FEW_JOBS or self.processes == 1:
                 for job in missing:
                     compute(job, self.folder)

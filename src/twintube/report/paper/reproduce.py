@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
+from twintube.common.bars import Bar
 from twintube.common.files import write_bytes
 from twintube.dampers import ParameterError
 from twintube.engine.simulate import InputError
@@ -103,7 +102,7 @@ def reproduce(
     context = Context(output, quick=quick, processes=processes, progress=progress)
     context.records.prepare(job for number in numbers for job in FIGURES[number].jobs())
     entries, sections, pictures, verdicts = [], [], [], {}
-    for number in tqdm(numbers, unit="figure", leave=False, disable=not progress):
+    for number in Bar(numbers, unit="figure", leave=False, disable=not progress):
         plot = FIGURES[number].draw(context)
         png = style.png(plot.figure)
         path = output / f"figure_{number:02}.png"

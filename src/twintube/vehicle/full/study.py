@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
 
+from twintube.common.bars import Bar
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED, condition
 from twintube.engine.simulate import InputError
@@ -115,7 +115,7 @@ def drive_all(
 def driven_all(jobs: Sequence[tuple[CarSet, Sequence[Damper], Case]], progress: bool = True) -> list[dict[str, Any]]:
     """The entries of cars with four dampers and what they drive, on all cores; else as `drive_all`."""
     with ThreadPoolExecutor(os.cpu_count()) as threads:
-        bar = tqdm(threads.map(entry, jobs), total=len(jobs), unit="drive", leave=False, disable=None if progress else True)
+        bar = Bar(threads.map(entry, jobs), total=len(jobs), unit="drive", leave=False, disable=None if progress else True)
         return list(bar)
 
 
