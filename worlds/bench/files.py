@@ -15,10 +15,12 @@ from scipy.io import savemat
 
 from twintube.common.arrays import Array
 from twintube.common.files import replacing, write_text
+from twintube.dampers import Damper, to_toml
 
 Columns = Mapping[str, Array]  # by header: "time [s]", "stroke [mm]", "force [N]", and more
 # Of a logger, in those units; of the force so many that kilonewtons written as newtons still have their noise.
 DIGITS: Final = {"time": 7, "stroke": 5, "force": 4, "velocity": 3, "temperature": 1}
+PARAMETERS: Final = "damper.toml"
 BASIC: Final = (TIME := "time [s]", STROKE := "stroke [mm]", FORCE := "force [N]")
 
 
@@ -111,12 +113,18 @@ def in_milliseconds(layout: Layout) -> Layout:
 
 
 def write_dataset(
-    folder: Path, title: str, damper: str, layout: Layout, records: Sequence[tuple[str, dict[str, Any], Columns]]
+    folder: Path, title: str, damper: str | Damper, layout: Layout, records: Sequence[tuple[str, dict[str, Any], Columns]]
 ) -> None:
-    """Write records, each a name, its entries and its columns, and dataset.toml, which comes last."""
+    """Write records, each a name, its entries and its columns, and dataset.toml, which comes last.
+
+    A damper that is no name is written as a parameter file: what it says of freed gas is not that of the named one.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     columns = records[0][2]
-    document: dict[str, Any] = {"title": title, "damper": damper, **layout.manifest(columns)}
+    if isinstance(damper, Damper):
+        write_text(folder / PARAMETERS, to_toml(damper))
+    named = PARAMETERS if isinstance(damper, Damper) else damper
+    document: dict[str, Any] = {"title": title, "damper": named, **layout.manifest(columns)}
     if layout.names and TIME not in layout.names:
         times = columns[TIME]
         document["sample_rate_Hz"] = float(f"{(len(times) - 1) / float(times[-1] - times[0]):.6g}")

@@ -193,7 +193,9 @@ def write(trial: Trial, folder: str | Path) -> Path:
         if record.velocity is not None:
             columns["velocity [mm/s]"] = 1e3 * record.velocity
         records.append((record.file.removesuffix(".parquet"), entries, columns))
-    write_dataset(Path(folder), f"Bench, damper {trial.damper}", trial.damper, LAYOUTS["parquet"], records)
+    write_dataset(
+        Path(folder), f"Bench, damper {trial.damper}", load(trial.damper, as_published=True), LAYOUTS["parquet"], records
+    )
     return Path(folder)
 
 

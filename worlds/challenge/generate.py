@@ -173,7 +173,7 @@ def save(seed: int, trial: Attempt, folder: Path, rng: RNG) -> None:
     ]
     layout = LAYOUTS[bench.format]
     title = f"Bench {bench.damper.name}, campaign {seed}"
-    write_dataset(folder, title, bench.damper.name, in_milliseconds(layout) if bench.milliseconds else layout, records)
+    write_dataset(folder, title, bench.damper, in_milliseconds(layout) if bench.milliseconds else layout, records)
 
 
 def logged(samples: list[Array], run: Run, bench: Bench, *, sigma: float, step: float, rng: RNG) -> dict[str, Array]:

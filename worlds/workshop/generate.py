@@ -62,7 +62,7 @@ def save(seed: int, day: Day, samples: Sequence[Samples], *, noise_N: float, zer
         y = force + zero + noise_N * coloured(draw, len(force), day.noise_memory)
         entries = {"measurement": record.measurement, "oil_level": record.level, "gas_preload": record.preload}
         records.append((record.name, entries, {TIME: time, STROKE: 1e3 * x, FORCE: y}))
-    write_dataset(folder, str(draw.choice(TITLES)), day.damper.name, LAYOUTS[layout], records)
+    write_dataset(folder, str(draw.choice(TITLES)), day.damper, LAYOUTS[layout], records)
     return layout
 
 
