@@ -130,10 +130,9 @@ def drawn(name: str, motion: "Motion | Record", result: "Simulation") -> bytes:
     from twintube.data import Record
     from twintube.report.simulated_record import picture
 
-    is_record = isinstance(motion, Record)
     return picture(
         name, motion.time, motion.stroke, result.velocity,
         simulated=result.force,
-        measured=motion.force if is_record else None,
-        usable=motion.usable if is_record else np.ones(len(motion.time), dtype=bool),
+        measured=motion.force if isinstance(motion, Record) else None,
+        usable=motion.usable if isinstance(motion, Record) else np.ones(len(motion.time), dtype=bool),
     )  # fmt: skip
