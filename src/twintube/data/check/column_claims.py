@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from twintube.common.words import printable, shown
-from twintube.data.convert.column_names import MEASURED, SET_POINT, WORDS, fits, is_set_point
+from twintube.data.convert.column_names import MEASURED, SET_POINT, fits, is_set_point, named_like
 from twintube.data.convert.masses import is_mass, weight_advice
 from twintube.data.convert.quantities import equal_units, per_unit
-from twintube.data.convert.units import BRACKETS, OTHER_UNITS, split_header, unit_of
+from twintube.data.convert.units import BRACKETS, OTHER_UNITS, plain, split_header, unit_of
 from twintube.data.findings import Notes
 from twintube.data.formats import Format, Raw
 
@@ -35,6 +35,7 @@ class Claim:
 
 def claims(name: str, quantity: str) -> Iterator[Claim]:
     """The units that the name of a column of a quantity holds: `Load (lbf)`, `Load, lbf`, `Load_lbf`, `Load in lbf`."""
+    name = plain(name)
     for inside in BRACKETS.finditer(name):
         yield from bracketed(inside[1], inside[0].startswith("["), quantity)
     bare = BRACKETS.sub(" ", name).strip().strip('"').strip()
@@ -109,8 +110,7 @@ def check_unit(name: str, quantity: str, stated: str, header: str, *, scaled: bo
 
 def check_word(name: str, quantity: str, header: str, notes: Notes) -> None:
     """A warning where a name holds the word of another quantity, and none of its own."""
-    low = name.lower()
-    held = [other for other, some in WORDS.items() if any(word in low for word in some)]
+    held = list(named_like(name))
     own = any(claim.kind == "unit" and says_unit(claim.unit, quantity) for claim in claims(name, quantity))
     if held and quantity not in held and not own:
         notes.warning(f"column {shown(name)} is named like a {held[0]}, dataset.toml takes it for the {quantity}", header)

@@ -1,7 +1,7 @@
 """Which column of a foreign file is which quantity: names and units as test benches write them, English and German."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -11,11 +11,11 @@ from twintube.data.convert.units import OTHER_UNITS, PLAIN_UNITS
 SYMBOLS = {"t": "time", "z": "stroke", "x": "stroke", "s": "stroke", "F": "force", "v": "velocity", "T": "temperature"}
 # Of two words that both fit the earlier line counts: `Kolbengeschwindigkeit` is a velocity, `Lastweg` a stroke.
 WORDS = {
-    "velocity": ("velocity", "geschw", "speed", "veloc"),
-    "temperature": ("temp",),
-    "stroke": ("stroke", "weg", "hub", "displ", "position", "travel", "auslenkung", "lvdt"),
-    "force": ("force", "kraft", "load", "last", "fz"),
-    "time": ("time", "zeit", "elapsed", "seconds", "sekunden"),
+    "velocity": re.compile(r"velocity|geschw|speed|veloc|скорост"),
+    "temperature": re.compile(r"temp(?!o|s\b)|темп"),  # temps and tempo are times
+    "stroke": re.compile(r"stroke|weg|hub|displ|position|travel|auslenkung|lvdt|перемещ|位移"),
+    "force": re.compile(r"force|kraft|load|last|fz|усили|нагрузк|力"),
+    "time": re.compile(r"time|zeit|temps\b|tempo\b|tiempo|elapsed|seconds|sekunden|время|时间"),
 }
 SET_POINT = ("soll", "set", "setpoint", "setpt", "sp", "target", "command", "commanded", "cmd", "demand", "desired", "ref",
              "reference", "nominal", "program", "sollwert", "vorgabe")  # fmt: skip
@@ -44,6 +44,12 @@ def is_set_point(name: str) -> bool:
     )
 
 
+def named_like(name: str) -> Iterator[str]:
+    """The quantities whose words a name holds, the one that counts first."""
+    low = name.lower()
+    return (quantity for quantity, some in WORDS.items() if some.search(low))
+
+
 def fits(quantity: str, unit: str) -> bool:
     """Whether a unit is one of a quantity."""
     try:
@@ -64,7 +70,7 @@ def likeness(name: str, unit: str) -> tuple[str, float]:
     elif symbol in SYMBOLS or symbol.lower() in SYMBOLS:
         quantity, score = SYMBOLS.get(symbol, SYMBOLS.get(symbol.lower(), "")), 2.5
     else:
-        quantity = next((q for q, words in WORDS.items() if any(word in low for word in words)), "")
+        quantity = next(named_like(name), "")
         score = 3.0 if quantity else 0.0
     if unit and quantity and not fits(quantity, unit) and unit in (*PLAIN_UNITS, *OTHER_UNITS):
         quantity, score = "", 0.0  # `Zeit [N]` is neither, `Kraft [V]` needs a scale

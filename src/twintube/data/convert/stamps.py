@@ -11,13 +11,16 @@ from twintube.common.words import shown
 
 DAY, HOUR = 86400.0, 3600.0  # [s]
 STAMP = re.compile(
-    r"""\s*(?:(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}\.\d{1,2}\.(?:\d{4}|\d{2})|\d{1,2}/\d{1,2}/(?:\d{4}|\d{2}))[T\s]\s*)?
+    r"""\s*(?:(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}\.\d{1,2}\.(?:\d{4}|\d{2})
+    |\d{1,2}-[a-z]{3}-\d{4}|\d{1,2}/\d{1,2}/(?:\d{4}|\d{2}))[T\s]\s*)?
     (?P<hour>\d{1,2}):(?P<minute>\d{2}):(?P<second>\d{2})(?:[.,:](?P<fraction>\d+))?
-    \s*(?P<half>[AaPp][Mm])?\s*(?P<zone>Z|UTC|[+-]\d{2}:?\d{2})?\s*""",
-    re.VERBOSE | re.ASCII,
+    \s*(?P<half>[ap]m)?\s*(?P<zone>Z|UTC|[+-]\d{2}:?\d{2})?\s*""",
+    re.VERBOSE | re.ASCII | re.IGNORECASE,
 )
 MINUTES = re.compile(r"\s*(?P<minute>\d{1,3}):(?P<second>\d{2})(?:[.,](?P<fraction>\d+))?\s*", re.ASCII)
 PARTS = re.compile(r"[-/.]")
+# Of 13-May-2026, as MATLAB writes a date
+MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 
 
 def is_stamp(cell: object) -> bool:
@@ -77,7 +80,10 @@ def numbered(dates: set[str], order: str) -> dict[str, int] | None:
     """The number of each day since the first, with the slashed ones in this order; None where one does not exist."""
     ordinals = {}
     for text in dates:
-        a, b, c = (int(x) for x in PARTS.split(text))
+        try:
+            a, b, c = (int(x) if x.isdigit() else MONTHS.index(x.lower()) + 1 for x in PARTS.split(text))
+        except ValueError:  # a word that is no month
+            return None
         if a > 99:
             year, month, day = a, b, c
         else:

@@ -1,6 +1,8 @@
 """Units as test benches write them, and the name and unit in a header."""
 
 import re
+from collections.abc import Sequence
+from unicodedata import normalize
 
 UNIT_NAMES = {
     "sec": "s", "sek": "s", "second": "s", "seconds": "s", "sekunden": "s", "msec": "ms", "millisekunden": "ms",
@@ -10,21 +12,30 @@ UNIT_NAMES = {
     "inch": "in", "inches": "in", '"': "in", "mil": "thou", "mils": "thou", "foot": "ft", "feet": "ft", "micron": "um",
     "microns": "um", "lb": "lbf", "lbs": "lbf", "mm/sec": "mm/s", "m/sec": "m/s", "in/sec": "in/s", "ips": "in/s",
     "ft/sec": "ft/s", "fps": "ft/s", "kmh": "km/h", "kph": "km/h",
+    "с": "s", "сек": "s", "мс": "ms", "мкс": "us", "м": "m", "мм": "mm", "см": "cm", "мкм": "um", "н": "N", "кн": "kN",
+    "кгс": "kgf", "м/с": "m/s", "мм/с": "mm/s", "см/с": "cm/s", "км/ч": "km/h", "°с": "degC",
+    "days": "day", "tage": "day",
 }  # fmt: skip
 # Kept by their case: ms is not MS, mm not Mm.
-PLAIN_UNITS = ("s", "ms", "us", "m", "mm", "cm", "um", "in", "ft", "thou", "N", "kN", "daN", "kgf", "lbf", "m/s", "mm/s",
-               "cm/s", "in/s", "ft/s", "km/h", "mph", "degC", "degF", "K")  # fmt: skip
+PLAIN_UNITS = ("s", "ms", "us", "day", "m", "mm", "cm", "um", "in", "ft", "thou", "N", "kN", "daN", "kgf", "lbf", "m/s",
+               "mm/s", "cm/s", "in/s", "ft/s", "km/h", "mph", "degC", "degF", "K")  # fmt: skip
 OTHER_UNITS = ("V", "mV", "A", "mA", "%", "-", "1", "bar", "psi", "Pa", "MPa", "Hz", "rpm", "1/min", "mm/m", "J", "W")
 NUMBER = re.compile(r"\s*[+-]?[0-9]+([.,][0-9]*)?([eE][+-]?[0-9]+)?\s*")
 BRACKETS = re.compile(r"[\[(<{]\s*([^\[\](){}<>]*?)\s*[\])>}]")
 HEADER = re.compile(r"(.*?)\s*(?:\[(.*)\]|\((.*)\))", re.DOTALL)
 FEWEST = 2  # cells with a unit make a row of units
+FULL_WIDTH = str.maketrans("（）［］＜＞｛｝", "()[]<>{}")  # brackets as Chinese and Japanese programs write them
+
+
+def plain(text: str) -> str:
+    """A header without blanks around it, its brackets those of ASCII."""
+    return text.strip().translate(FULL_WIDTH)
 
 
 def unit_of(text: str) -> str:
     """A unit as `twintube` writes it; "" for a text that is not one."""
-    text = text.strip().replace("\N{MASCULINE ORDINAL INDICATOR}", "°").replace("\N{GREEK SMALL LETTER MU}", "u")
-    text = text.replace("\N{MICRO SIGN}", "u").replace("s^-1", "/s")
+    text = text.strip().replace("\N{MASCULINE ORDINAL INDICATOR}", "°")
+    text = normalize("NFKC", text).replace("\N{GREEK SMALL LETTER MU}", "u").replace("s^-1", "/s")  # also ℃, ㎜, µ
     if text in PLAIN_UNITS:
         return text
     low = text.lower()
@@ -33,8 +44,9 @@ def unit_of(text: str) -> str:
 
 def split_header(header: str) -> tuple[str, str]:
     """Name and unit of `name [unit]` or `name (unit)`."""
-    parts = HEADER.fullmatch(header.strip())
-    return (parts[1], (parts[2] if parts[2] is not None else parts[3]).strip()) if parts else (header.strip(), "")
+    text = plain(header)
+    parts = HEADER.fullmatch(text)
+    return (parts[1], (parts[2] if parts[2] is not None else parts[3]).strip()) if parts else (text, "")
 
 
 def name_and_unit(header: str) -> tuple[str, str]:
@@ -42,7 +54,7 @@ def name_and_unit(header: str) -> tuple[str, str]:
 
     A unit in brackets that is not known is handed on as it is, so that it can be said.
     """
-    text = header.strip().strip('"').strip()
+    text = plain(header).strip('"').strip()
     bracketed = re.fullmatch(r"(.*?)\s*[\[(<{]\s*([^\])>}]*?)\s*[\])>}]", text)
     if bracketed and unit_of(bracketed[2]):
         return bracketed[1], unit_of(bracketed[2])
@@ -60,9 +72,9 @@ def name_and_unit(header: str) -> tuple[str, str]:
     return text, ""
 
 
-def units_row(cells: list[str]) -> list[str] | None:
+def units_row(cells: Sequence[str]) -> list[str] | None:
     """The units in a row under the header, without their brackets; None where the row is another one."""
-    texts = [cell.strip().strip("[]()").strip() for cell in cells]
+    texts = [plain(cell).strip("[]()").strip() for cell in cells]
     written = [text for text in texts if text]
     known = [text for text in written if unit_of(text) or text in OTHER_UNITS]
     if len(known) < FEWEST or any(NUMBER.fullmatch(text) and text != "1" for text in written):
