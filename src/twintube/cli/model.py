@@ -66,7 +66,7 @@ RECORD = Annotated[
 ]
 BLOCK = Annotated[
     int | None,
-    typer.Option(metavar="N", min=1, help="Of a text file with several tables: the number of the one, from 1."),
+    typer.Option(metavar="N", min=1, help="Of a file with several tables: the number of the one, from 1."),
 ]
 VELOCITY = Annotated[float, typer.Option(metavar="M/S", help="Without a record: maximum velocity of a harmonic block.")]
 AMPLITUDE = Annotated[float, typer.Option(metavar="MM", help="Without a record: amplitude of the block.")]

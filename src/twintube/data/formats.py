@@ -4,6 +4,7 @@ import codecs
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -13,6 +14,7 @@ TEXT = {
     ".csv": ",", ".txt": "whitespace", ".dat": "whitespace", ".asc": "whitespace", ".prn": "whitespace",
     ".out": "whitespace", ".tsv": "\t", ".tab": "\t", ".lvm": "\t",
 }  # the delimiter where none is given  # fmt: skip
+WORKBOOKS = (".xlsx", ".xlsm", ".xls")
 TEXT_BYTES = 256_000_000
 BINARY_BYTES = 4_000_000_000
 MOST_COLUMNS = 256  # a wider table is not a recording of channels
@@ -45,7 +47,7 @@ class Format:
     encoding: str = DEFAULT_ENCODING
     skip_rows: int = 0
     sheet: str | None = None  # of a workbook; None: the first
-    block: int | None = None  # of a text file with several tables, from 1; None: there is one
+    block: int | None = None  # of a text or sheet with several tables, from 1; None: there is one
     group: str | int | None = None  # of an MDF file: its name, or its number from 0; None: the channels are in one
     sample_rate: float | None = None  # [Hz] instead of a column of times
     channels: Mapping[str, Channel] = field(default_factory=dict)  # by quantity
@@ -63,10 +65,17 @@ class Raw:
     decimal: str = ""  # where the format states its decimal sign
     meant: dict[str, str] = field(default_factory=dict)  # column -> quantity [unit], where the format tells it
     without: Sequence[str] = ()  # the last names, where no row has cells under them
+    empty: Sequence[str] = ()  # other names with nothing but empty cells under them
+    sheets: Sequence[str] = ()  # of a workbook, where nobody chose the one that is read, the first
     blank: Sequence[int] = ()  # rows that were skipped because they hold nothing
     spaced: bool = False  # whether some of the blank rows hold separators, and so may be samples that were lost
     nothing: str = EMPTY  # what a cell without a value means
     over: dict[str, list[str]] = field(default_factory=dict)  # what skipped rows say over columns of a list
+
+
+def usual_delimiter(path: Path) -> str:
+    """The delimiter of a text file where none is given; a text named .xls is parted by tabs."""
+    return TEXT.get(path.suffix.lower(), "\t")
 
 
 def known_encoding(name: str) -> bool:

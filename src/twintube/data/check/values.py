@@ -14,6 +14,7 @@ from twintube.data.findings import Notes, more
 
 # Time. Rigs sample at 100 Hz to some kHz; beyond these limits s and ms are mixed up.
 SHORTEST_STEP, LONGEST_STEP = 1e-5, 0.5  # [s]
+DAY = 86400.0  # [s]
 NEIGHBOURS = 21  # steps whose median is usual: a rig may sample its blocks differently
 GAP = 1.5  # of the usual step: a sample is missing; jitter is allowed for on top
 BIG_GAP = 10.0  # of the usual step: what the damper did meanwhile is unknown
@@ -43,21 +44,33 @@ def check(table: Table, limit: float | None, notes: Notes) -> None:
     check_units(table, notes)
     check_stroke(table, limit, notes)
     kept = sound(table)
-    if len(kept.rows) < FEWEST_SAMPLES:
-        return
-    check_velocity(kept, notes)
-    check_work(kept, notes)
+    if len(kept.rows) >= FEWEST_SAMPLES:
+        check_velocity(kept, notes)
+    ordered = selected(table, finite(table))  # work needs the order of the samples, not their times
+    if len(ordered.rows) >= FEWEST_SAMPLES:
+        check_work(ordered, notes)
+
+
+def finite(table: Table) -> NDArray[np.bool_]:
+    """The samples (n,) whose cells are all numbers."""
+    good: NDArray[np.bool_] = np.all(np.isfinite(np.vstack(list(table.columns.values()))), axis=0)
+    return good
+
+
+def selected(table: Table, good: NDArray[np.bool_]) -> Table:
+    """The table with these samples alone."""
+    if good.all():
+        return table
+    return Table({name: values[good] for name, values in table.columns.items()}, table.headers, table.rows[good])
 
 
 def sound(table: Table) -> Table:
     """The samples whose cells are numbers and whose times rise; the others are reported by `check`."""
     time = table.columns["time"]
-    good: NDArray[np.bool_] = np.all(np.isfinite(np.vstack(list(table.columns.values()))), axis=0)
+    good = finite(table)
     latest = np.maximum.accumulate(np.where(np.isfinite(time), time, -np.inf))
     good[1:] &= time[1:] > latest[:-1]
-    if good.all():
-        return table
-    return Table({name: values[good] for name, values in table.columns.items()}, table.headers, table.rows[good])
+    return selected(table, good)
 
 
 @dataclass(frozen=True)
@@ -89,9 +102,9 @@ def check_time(table: Table, notes: Notes) -> None:
         return
     median = float(np.median(step))
     if not SHORTEST_STEP <= median <= LONGEST_STEP:
-        notes.error(
-            f"time step = {median:g} s: must be from {SHORTEST_STEP:g} to {LONGEST_STEP:g} s; s and ms mixed up?", header
-        )
+        days = SHORTEST_STEP <= DAY * median <= LONGEST_STEP
+        why = "days, as Excel counts them? then write [day]" if days else "s and ms mixed up?"
+        notes.error(f"time step = {median:g} s: must be from {SHORTEST_STEP:g} to {LONGEST_STEP:g} s; {why}", header)
     local: Array = median_filter(step, NEIGHBOURS, mode="nearest")
     ratio = step / local
     usual = 1.4826 * float(np.median(np.abs(ratio - 1.0)))

@@ -30,6 +30,16 @@ def cells(values: Any, header: str, rows: NDArray[np.int64], decimal: str, notes
     return numbers
 
 
+def slow_cells(values: Any, header: str, rows: NDArray[np.int64], decimal: str, notes: Notes) -> Array:
+    """Floats (n,) of a channel that some loggers write in few rows: between its cells it is a straight line."""
+    written = np.array([cell is not None and not (isinstance(cell, str) and not cell.strip()) for cell in values])
+    at = np.flatnonzero(written)
+    if len(at) in (0, len(values)):
+        return cells(values, header, rows, decimal, notes)
+    notes.remark(f"a value in {len(at)} of {len(values)} {notes.counted}s; between them it is interpolated", header)
+    return np.interp(np.arange(len(values)), at, cells([values[i] for i in at], header, rows[at], decimal, notes))
+
+
 def plain(values: Sequence[str], header: str, rows: NDArray[np.int64], decimal: str, notes: Notes) -> Sequence[str]:
     """The cells with a point as decimal sign and no thousands separators; raises ValueError where they may be either."""
     text = "\n".join(values)

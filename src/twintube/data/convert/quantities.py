@@ -12,7 +12,7 @@ from twintube.common.arrays import Array
 from twintube.common.words import listed, printable, shown
 from twintube.dampers.damper import suggestion
 from twintube.dampers.quantity import parsed, quantity, registry
-from twintube.data.convert.cells import cells, number
+from twintube.data.convert.cells import cells, number, slow_cells
 from twintube.data.convert.inferred import say_inferred
 from twintube.data.convert.masses import is_mass, is_weight_of
 from twintube.data.convert.stamps import is_stamp, seconds
@@ -100,7 +100,7 @@ def convert(
     """
     notes.counted = raw.counted
     before = len(notes.findings)
-    sources = chosen(raw, form, notes)
+    sources = chosen(raw, form, notes, needed)
     say_inferred(raw, form, {source.header: source.column for source in sources.values()}, notes)
     rows = np.asarray(raw.rows, dtype=np.int64)
     columns: dict[str, Array] = {}
@@ -148,7 +148,11 @@ def column(raw: Raw, name: str, source: Source, form: Format, *, kept: NDArray[n
             return stamped(values, source.header, rows, notes)
         channel = form.channels.get(name, AS_STATED)
         carried, stated = raw.units.get(source.column, ""), split_header(source.header)[1]
-        read = cells(values, source.header, rows, raw.decimal or form.decimal, notes, empty=raw.nothing)
+        decimal = raw.decimal or form.decimal
+        if name == "temperature":
+            read = slow_cells(values, source.header, rows, decimal, notes)
+        else:
+            read = cells(values, source.header, rows, decimal, notes, empty=raw.nothing)
         numbers = scaled(read, name, stated or carried, channel)
         if channel.gain is None and carried and stated and not equal_units(name, carried, stated):
             notes.error(f"the file gives {shown(source.column)} in {printable(carried)}, not in {stated}", source.header)
@@ -210,8 +214,9 @@ def rising(raw: Raw, decimal: str) -> list[str]:
     return found
 
 
-def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, Source]:
-    """The source of each quantity."""
+def chosen(raw: Raw, form: Format, notes: Notes, needed: Sequence[str]) -> dict[str, Source]:
+    """The source of each quantity; one that is not needed has none where no row has a cell for it."""
+    without = (*raw.empty, *raw.without)
     if isinstance(form.columns, dict):
         pairs = list(form.columns.items())
     else:
@@ -232,7 +237,9 @@ def chosen(raw: Raw, form: Format, notes: Notes) -> dict[str, Source]:
             there = listed(map(printable, raw.columns))
             notes.error(f"the file has no {shown(column)} but {there}{suggestion(column, raw.columns)}", header)
         elif name not in UNITS:
-            unused.append(shown(header))
+            unused += [shown(header)] if column not in without else []
+        elif column in without and name not in needed:
+            continue
         elif name in sources:
             notes.error(f"{name} is there already as {shown(sources[name].header)}", header)
         else:

@@ -115,7 +115,7 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "file": (good_path, f"the name of a file, not of a folder, at most {LONGEST_PATH} characters"),
     "block": (
         lambda x: type(x) is int and 1 <= x <= MOST_RECORDS,
-        f"an integer from 1 to {MOST_RECORDS}, the number of a table in a text file",
+        f"an integer from 1 to {MOST_RECORDS}, the number of a table in a text or sheet",
     ),
     "measurement": (lambda x: isinstance(x, str) and x in MEASUREMENTS, f"one of {', '.join(MEASUREMENTS)}"),
     "oil_level": (

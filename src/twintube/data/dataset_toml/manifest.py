@@ -88,7 +88,7 @@ def read_manifest(content: dict[str, Any], toml: str, title: str, notes: Notes) 
         section = sections[number - 1] if number <= len(sections) else Section(None, [])
         entries.append(entry(table, number, section, shared, notes))
         file, form = entries[-1].file, entries[-1].form
-        part = file, form.block, form.sheet, form.group
+        part = file, part_of(form)
         if file and part in seen:
             notes.error(f"{entries[-1].where}file = {shown(file)} is named by a record before", "file", entries[-1].line)
             entries[-1] = replace(entries[-1], file="", complete=False)
@@ -99,13 +99,19 @@ def read_manifest(content: dict[str, Any], toml: str, title: str, notes: Notes) 
 def labelled(entries: list[Entry]) -> list[Entry]:
     """With a label of its own for each record of a file that holds several."""
     records = Counter(entry.file for entry in entries)
-    return [replace(e, label=f"{e.file}, {part_of(e.form)}") if records[e.file] > 1 and e.file else e for e in entries]
+    return [
+        replace(e, label=f"{e.file}, {part_of(e.form) or 'the whole'}") if records[e.file] > 1 and e.file else e
+        for e in entries
+    ]
 
 
 def part_of(form: Format) -> str:
-    """What of a file a record is, in words."""
-    parts = {"block": form.block, "sheet": form.sheet, "group": form.group}
-    return ", ".join(f"{key} {value}" for key, value in parts.items() if value is not None) or "the whole"
+    """What of a file a record is, in words; empty for the whole file."""
+    headers = form.columns if isinstance(form.columns, list) else []
+    places = [i for i, header in enumerate(headers, start=1) if header]
+    beside = f"{places[0]} to {places[-1]}" if places and len(places) < len(headers) else None  # runs beside each other
+    parts = {"sheet": form.sheet, "block": form.block, "group": form.group, "columns": beside}
+    return ", ".join(f"{key} {value}" for key, value in parts.items() if value is not None)
 
 
 def valid(

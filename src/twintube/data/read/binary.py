@@ -1,5 +1,6 @@
 """Binary records, read by a child process: whatever a damaged file does to its library, this process goes on."""
 
+import codecs
 import json
 import os
 import signal
@@ -7,7 +8,6 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -16,24 +16,35 @@ import numpy as np
 
 from twintube.common.extras import extra_of
 from twintube.data.findings import UnreadableError
-from twintube.data.formats import EMPTY, Format, Raw
+from twintube.data.formats import EMPTY, WORKBOOKS, Format, Raw
 from twintube.data.read.binary_child import READERS, is_hdf5
+from twintube.data.read.sheets import Cells, read_sheet
 
 SCRIPT = Path(__file__).with_name("binary_child.py")
 SECONDS, BYTES_PER_SECOND = 30.0, 5e6  # of processor time that a child may take: to start, and for its files
 BUSY = 20.0  # times that long by the clock: other work on the machine makes no file damaged
 MOST_DEATHS = 5  # children that may end on a file before the others are not tried any more
+LOOK = 1000  # bytes that tell a text from a workbook
 PACKAGES = {
     ".mf4": "asammdf", ".mdf": "asammdf", ".parquet": "pyarrow", ".pq": "pyarrow",
-    ".xlsx": "python_calamine", ".xlsm": "python_calamine", ".xls": "python_calamine",
+    **dict.fromkeys(WORKBOOKS, "python_calamine"),
 }  # fmt: skip
 # The child's libraries would start threads for each core, which take address space.
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "ARROW_NUM_THREADS": "1", "PYTHONFAULTHANDLER": ""}
 
 
 def is_binary(path: Path) -> bool:
-    """Whether the file is one of these formats, by its ending."""
-    return path.suffix.lower() in READERS
+    """Whether the file is one of these formats, by its ending; many machines name a text .xls, for Excel to open it."""
+    return path.suffix.lower() in READERS and not is_text_xls(path)
+
+
+def is_text_xls(path: Path) -> bool:
+    """Whether a file named .xls is a table of text, and neither a workbook nor a web page."""
+    if path.suffix.lower() != ".xls" or not path.is_file():
+        return False
+    with path.open("rb") as file:
+        start = file.read(LOOK).removeprefix(codecs.BOM_UTF8)
+    return start.isascii() and start[:1].isalnum() and b"\0" not in start and not start.startswith(b"PK\x03")
 
 
 def check_package(path: Path) -> None:
@@ -59,16 +70,29 @@ def read_binary(files: Sequence[tuple[Path, Format]]) -> Iterator[Raw | Unreadab
             ended = child(folder, [(i, *files[i]) for i in waiting])
             while waiting and (folder / f"{waiting[0]}.json").is_file():
                 i = waiting.pop(0)
-                yield answer(folder, i, request(files[i][1])["wanted"])
+                yield answer(folder, i, files[i][1])
             if waiting:
                 yield UnreadableError(ended)
                 waiting.pop(0)
                 deaths += 1
 
 
-def child(folder: Path, files: list[tuple[int, Path, Format]]) -> str:
+def first_rows(path: Path, count: int) -> dict[str, list[Cells]]:
+    """The first rows of each sheet of a workbook, by its name; raises UnreadableError."""
+    with tempfile.TemporaryDirectory(prefix="twintube_") as name:
+        folder = Path(name)
+        ended = child(folder, [(0, path, Format())], first_rows=count)
+        file = folder / "0.json"
+        said: dict[str, Any] = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {"error": ended}
+    if "error" in said:
+        raise UnreadableError(said["error"])
+    rows: dict[str, list[Cells]] = said["rows"]
+    return rows
+
+
+def child(folder: Path, files: list[tuple[int, Path, Format]], first_rows: int | None = None) -> str:
     """Let a child read the files into `folder`; what to say of the first one without an answer."""
-    requests = [(i, str(path.absolute()), request(form)) for i, path, form in files]
+    requests = [(i, str(path.absolute()), request(form) | {"first_rows": first_rows}) for i, path, form in files]
     (folder / "requests.json").write_text(json.dumps(requests), encoding="utf-8")
     seconds = SECONDS + sum(path.stat().st_size for _, path, _ in files) / BYTES_PER_SECOND
     with subprocess.Popen(
@@ -97,14 +121,19 @@ def request(form: Format) -> dict[str, Any]:
     """What dataset.toml says about the file; `wanted` are the names that it asks for, None where it does not say."""
     names = [channel.column for channel in form.channels.values() if channel.column is not None]
     wanted = [*form.columns.values(), *names] if isinstance(form.columns, dict) else None
-    return {"wanted": wanted, "sheet": form.sheet, "group": form.group, "skip_rows": form.skip_rows}
+    return {"wanted": wanted, "sheet": form.sheet, "group": form.group, "first_rows": None}
 
 
-def answer(folder: Path, number: int, wanted: list[str] | None) -> Raw | UnreadableError:
-    """What the child read from a file, which has as many samples as the longest of the `wanted` columns."""
+def answer(folder: Path, number: int, form: Format) -> Raw | UnreadableError:
+    """What the child read from a file, which has as many samples as the longest of the wanted columns."""
     said = json.loads((folder / f"{number}.json").read_text(encoding="utf-8"))
     if "error" in said:
         return UnreadableError(said["error"])
+    if "sheet" in said:
+        try:
+            return read_sheet(said["rows"][said["sheet"]], said["sheet"], said["sheets"], form)
+        except UnreadableError as error:
+            return error
     file = folder / f"{number}.npz"
     columns: dict[str, Any] = {}
     with np.load(file, allow_pickle=False) as arrays:
@@ -117,7 +146,6 @@ def answer(folder: Path, number: int, wanted: list[str] | None) -> Raw | Unreada
             # A list shows which cells hold nothing; a NaN of an array is a value of the file.
             columns[name] = [None if e else v for v, e in zip(values, empty, strict=True)] if np.any(empty) else values
     file.unlink()
+    wanted = request(form)["wanted"]
     longest = max((len(values) for name, values in columns.items() if wanted is None or name in wanted), default=0)
-    rows = said["rows"]
-    raw = Raw(columns, range(longest), "sample", said["units"], said["refused"], nothing=said["nothing"] or EMPTY)
-    return raw if rows is None else replace(raw, rows=rows, counted="row", blank=said["blank"])
+    return Raw(columns, range(longest), "sample", said["units"], said["refused"], nothing=said["nothing"] or EMPTY)

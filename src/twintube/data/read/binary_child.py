@@ -1,9 +1,9 @@
 """Reads .mat, .parquet, .mf4, .xlsx and .json files in a process of its own: a damaged file can crash these libraries.
 
 Run as a script by `binary.py` with a folder as its argument. `requests.json` there lists number, path and request of each
-file: the wanted columns, and for workbooks the sheet and the rows to skip. File i becomes `i.npz` with the columns `c0`,
-`c1`, ... and `i.json` with their names, or with the message why it cannot be read. Imports nothing of this package, which
-would take a second.
+file: the wanted columns, and for workbooks the sheet. File i becomes `i.npz` with the columns `c0`, `c1`, ... and `i.json`
+with their names, or with the rows of a sheet, or with the message why it cannot be read. Imports nothing of this package,
+which would take a second.
 """
 
 import json
@@ -20,6 +20,7 @@ import numpy as np
 
 MEMORY = 4 << 30  # [bytes] address space where the system can limit it
 MOST_VALUES = 64_000_000  # numbers in all columns of a file
+MOST_CELLS = 20_000_000  # of a sheet
 MOST_COLUMNS = 1000
 MOST_WIDE = 64  # columns of a matrix; a wider one is not a recording of channels
 LONGEST_NAME = 500
@@ -28,10 +29,9 @@ DEEPEST = 3  # tables within tables of a JSON file
 MOST_NESTED = 8  # structs and cells within each other
 MOST_LISTED = 20  # channel groups in a message
 HDF5 = b"\x89HDF"
-NUMERIC = re.compile(r"\s*[+-]?[0-9](?!/)")  # how a number or a date begins, and not the unit 1/min
 QUANTITIES = ("time", "stroke", "force", "velocity", "temperature")
 ELEMENT = re.compile(r"(.+)\[([0-9]{1,4})\]")  # of several channels of one name
-Request = dict[str, Any]  # wanted: names in the file, or None; sheet, group: a name or None; skip_rows: before the header
+Request = dict[str, Any]  # wanted: names in the file, or None; sheet, group: a name or None; first_rows: of all sheets
 
 
 class UnreadableError(ValueError):
@@ -46,8 +46,6 @@ class Columns:
         self.empty: dict[str, np.ndarray[Any, Any]] = {}  # where a cell holds nothing
         self.units: dict[str, str] = {}
         self.refused: dict[str, str] = {}  # columns that hold no numbers, and what they hold
-        self.rows: list[int] | None = None  # of the samples in a workbook
-        self.blank: list[int] = []  # rows between them that hold nothing
         self.nothing = ""  # what a cell without a value means, where it is not just empty
         self.count = 0
 
@@ -339,38 +337,23 @@ def listed_groups(groups: Sequence[int], titles: list[str]) -> str:
     return ", ".join(named) + (f" and {len(groups) - MOST_LISTED} more" if len(groups) > MOST_LISTED else "")
 
 
-def workbook(path: str, request: Request) -> Columns:
-    """A sheet of a workbook: header, a row of units where there is one, samples."""
+def workbook(path: str, request: Request) -> dict[str, Any]:
+    """The rows of a sheet of a workbook, numbers, texts and None; where first rows are asked for, these of all sheets."""
     from python_calamine import CalamineWorkbook
 
     with CalamineWorkbook.from_path(path) as book:
-        sheet = request["sheet"] or book.sheet_names[0]
-        if sheet not in book.sheet_names:
-            raise UnreadableError(f"no sheet {sheet!r} among {', '.join(book.sheet_names)[:300]}")
-        rows = [[plain_cell(cell) for cell in row] for row in book.get_sheet_by_name(sheet).to_python(skip_empty_area=False)]
-    skipped = next((i for i in range(request["skip_rows"], len(rows)) if any(c is not None for c in rows[i])), len(rows))
-    while rows and all(cell is None for cell in rows[-1]):
-        rows.pop()
-    if len(rows) <= skipped:
-        raise UnreadableError(f"sheet {sheet!r} is empty" + (f" after {skipped} rows" if skipped else ""))
-    headers = ["" if cell is None else str(cell).strip() for cell in rows[skipped]]
-    if not any(isinstance(cell, str) for cell in rows[skipped]):
-        raise UnreadableError(f"row {skipped + 1}: numbers where the header must be; set skip_rows")
-    for header in headers:
-        if header and headers.count(header) > 1:
-            raise UnreadableError(f"row {skipped + 1}: two columns are named {header[:60]!r}")
-    columns = Columns()
-    numbered = list(enumerate(rows))[skipped + 1 :]
-    body = [(number, row) for number, row in numbered if any(cell is not None for cell in row)]
-    if len(body) > 1 and all(cell is None or (isinstance(cell, str) and not NUMERIC.match(cell)) for cell in body[0][1]):
-        columns.units = {h: c.strip("[]() ") for h, c in zip(headers, body[0][1], strict=True) if h and c is not None}
-        body = body[1:]
-    columns.rows = [number + 1 for number, _ in body]
-    columns.blank = [i + 1 for i, row in numbered if body and i > body[0][0] and all(cell is None for cell in row)]
-    for i, header in enumerate(headers):
-        if header:
-            columns.put(header, [row[i] for _, row in body])
-    return columns
+        names = book.sheet_names
+        sheet = request["sheet"] or names[0]
+        if sheet not in names:
+            raise UnreadableError(f"no sheet {sheet!r} among {', '.join(names)[:300]}")
+        most, rows = request["first_rows"], {}
+        for name in names if most else [sheet]:
+            found = book.get_sheet_by_name(name)
+            if found.total_height * found.total_width > MOST_CELLS:
+                raise UnreadableError(f"sheet {name!r} has more than {MOST_CELLS} cells")
+            cells = found.to_python(skip_empty_area=False, nrows=most)
+            rows[name] = [[plain_cell(cell) for cell in row] for row in cells]
+    return {"sheets": names, "sheet": sheet, "rows": rows}
 
 
 def plain_cell(cell: Any) -> Any:
@@ -432,7 +415,7 @@ def collect_split(content: dict[str, Any], columns: Columns) -> bool:
     return True
 
 
-READERS: dict[str, Callable[[str, Request], Columns]] = {
+READERS: dict[str, Callable[[str, Request], Columns | dict[str, Any]]] = {
     ".parquet": parquet,
     ".pq": parquet,
     ".mat": matlab,
@@ -450,6 +433,8 @@ def read(path: str, request: Request, target: Path) -> dict[str, Any]:
     ending = Path(path).suffix.lower()
     try:
         columns = READERS[ending](path, request)
+        if isinstance(columns, dict):
+            return columns
         arrays: dict[str, Any] = {f"c{i}": np.asarray(values) for i, values in enumerate(columns.values.values())}
         arrays |= {f"e{i}": columns.empty[name] for i, name in enumerate(columns.values) if name in columns.empty}
         np.savez(target, **arrays)
@@ -460,8 +445,8 @@ def read(path: str, request: Request, target: Path) -> dict[str, Any]:
     except Exception as error:  # the libraries raise nearly everything on a damaged file
         return {"error": f"not a readable {ending} file ({type(error).__name__}: {str(error)[:500]})"}
     return {
-        "names": list(columns.values), "units": columns.units, "refused": columns.refused, "rows": columns.rows,
-        "blank": columns.blank, "nothing": columns.nothing,
+        "names": list(columns.values), "units": columns.units, "refused": columns.refused,
+        "nothing": columns.nothing,
     }  # fmt: skip
 
 

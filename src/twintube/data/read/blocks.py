@@ -1,15 +1,21 @@
-"""Several tables in one text file: where each begins, and how one is chosen.
+"""Several tables in one text or sheet: where each begins, and how one is chosen.
 
-A machine that goes on in the same file writes the names again. A block begins with a row of names over rows of numbers;
-what stands before the names belongs to it, too.
+A machine that goes on in the same file writes the names again, or only begins its time again. A block begins with a row of
+names over rows of numbers, and what stands before the names belongs to it, too; or where the time is back at its first.
 """
 
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from twintube.data.convert.cells import number
+from twintube.data.convert.quantities import quantity_of
+from twintube.data.convert.stamps import is_stamp
 from twintube.data.convert.units import units_row
 from twintube.data.findings import UnreadableError
+from twintube.data.formats import Format
 
 Row = tuple[int, list[str]]  # its number in the file, and its cells
 FEWEST_ROWS = 3  # of numbers: what a record needs; a smaller table in a head is none
@@ -26,21 +32,23 @@ def odd_rows(rows: Sequence[Row]) -> list[int]:
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a text that hold something, and the others."""
+    """The rows of a table that hold something, and the others."""
 
     table: list[Row]
     blank: list[Row]
     starts: list[int]  # places in the table where blocks begin
+    heads: list[int]  # by block: where its names are, which it may share with the block before
 
 
-def ruled(rows: list[Row]) -> Rows:
+def ruled(rows: list[Row], form: Format) -> Rows:
     """Blank rows and blocks told apart."""
     odd = odd_rows(rows)
     blank = {i for i in odd if not filled(rows[i][1])}
-    if not blank:
-        return Rows(rows, [], starts_of(rows, odd))
-    table = [row for i, row in enumerate(rows) if i not in blank]
-    return Rows(table, [rows[i] for i in sorted(blank)], starts_of(table, odd_rows(table)))
+    table = [row for i, row in enumerate(rows) if i not in blank] if blank else rows
+    named = starts_of(table, odd_rows(table) if blank else odd)
+    ends = [*named[1:], len(table)] if named else []
+    starts = [(place, head) for head, end in zip(named, ends, strict=True) for place in restarts(table, head, end, form)]
+    return Rows(table, [rows[i] for i in sorted(blank)], [place for place, _ in starts], [head for _, head in starts])
 
 
 def starts_of(table: Sequence[Row], odd: Sequence[int]) -> list[int]:
@@ -50,6 +58,45 @@ def starts_of(table: Sequence[Row], odd: Sequence[int]) -> list[int]:
     if (not starts or starts[0] > 0) and are_numbers(table[:FEWEST_ROWS]):
         starts.insert(0, 0)
     return starts
+
+
+def restarts(table: Sequence[Row], head: int, end: int, form: Format) -> list[int]:
+    """The head of a block and the places where its time begins again, if that is so wherever it goes back."""
+    names = table[head][1]
+    at = None if form.sample_rate is not None else time_place(names, form)
+    if at is None:
+        return [head]
+    first = head + head_rows(table, head)
+    cells = [row[at] if at < len(row) else "" for _, row in table[first:end]]
+    if any(map(is_stamp, cells[:1])):
+        return [head]
+    try:
+        times = np.array([cell.replace(",", ".") for cell in cells] if form.decimal == "," else cells, dtype=float)
+    except ValueError:
+        times = np.array([number(cell, form.decimal) for cell in cells], dtype=float)
+    steps = np.diff(times)
+    if not (steps < 0).any() or not (steps > 0).any():
+        return [head]
+    back = np.flatnonzero(steps < 0) + 1
+    last = np.minimum(back + FEWEST_ROWS - 1, len(times) - 1)
+    goes_on = (last - back == FEWEST_ROWS - 1) & (times[last] < times[back - 1])  # a single wrong time begins nothing
+    begins = goes_on & (times[back] <= times[0] + np.median(steps[steps > 0]) / 2)
+    return [head, *(first + back).tolist()] if begins.all() else [head]
+
+
+def time_place(names: Sequence[str], form: Format) -> int | None:
+    """The place of the time in a row, as far as dataset.toml or the names tell."""
+    if isinstance(form.columns, dict):
+        wanted = next((column for header, column in form.columns.items() if quantity_of(header) == "time"), None)
+        return next((i for i, name in enumerate(names) if name.strip() == wanted), None)
+    return next((i for i, name in enumerate(form.columns or names) if quantity_of(name) == "time"), None)
+
+
+def head_rows(table: Sequence[Row], head: int) -> int:
+    """The number of rows of names and units where a block begins."""
+    if is_numbers(table[head][1]):
+        return 0
+    return 2 if head + 1 < len(table) and units_row(table[head + 1][1]) is not None else 1
 
 
 def is_header(table: Sequence[Row], i: int) -> bool:
@@ -97,13 +144,15 @@ def chosen(rows: Rows, block: int | None) -> list[Row]:
         return table
     if block is None or block > len(starts):
         raise UnreadableError(which([table[i][0] for i in starts], block))
-    first = starts[block - 1]
+    first, head = starts[block - 1], rows.heads[block - 1]
+    over = table[head : head + head_rows(table, head)] if head < first else []
     if block == len(starts):
-        return table[first:]
+        return over + table[first:]
     last = starts[block]
-    while last > first + 1 and foreign(table[last - 1][1], len(filled(table[first][1]))):
-        last -= 1
-    return table[first:last]
+    if rows.heads[block] == last:
+        while last > first + 1 and foreign(table[last - 1][1], len(filled(table[first][1]))):
+            last -= 1
+    return over + table[first:last]
 
 
 def foreign(cells: Sequence[str], width: int) -> bool:

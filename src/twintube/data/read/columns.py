@@ -5,7 +5,7 @@ from pathlib import Path
 
 from twintube.common.reading import ReadError, check_regular
 from twintube.data.findings import UnreadableError
-from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, Format, Raw
+from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, WORKBOOKS, Format, Raw
 from twintube.data.read.binary import check_package, is_binary, read_binary
 from twintube.data.read.binary_child import READERS
 from twintube.data.read.text import TextReader
@@ -51,11 +51,12 @@ def refusal(path: Path, form: Format) -> UnreadableError | OSError | None:
     try:
         if ending not in TEXT and ending not in READERS:
             raise UnreadableError(f"unknown format {ending!r}, must be one of {', '.join([*TEXT, *READERS])}")
-        if is_binary(path) and form.block is not None:
+        sheets = ending in WORKBOOKS  # tables of cells, as texts are
+        if is_binary(path) and form.block is not None and not sheets:
             raise UnreadableError(f"block = {form.block}: is for several tables in a text file, not for {ending}")
-        if is_binary(path) and isinstance(form.columns, list):
+        if is_binary(path) and isinstance(form.columns, list) and not sheets:
             raise UnreadableError(
-                "columns: a list is for text files without header, here it must be a table: header = name in the file"
+                "columns: a list is for text and workbooks without header, here it must be a table: header = its name"
             )
         check_regular(path, BINARY_BYTES if is_binary(path) else TEXT_BYTES)
         with path.open("rb"):

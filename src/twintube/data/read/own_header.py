@@ -1,26 +1,26 @@
 """The file's own header where dataset.toml names the columns in its place: it may say other units."""
 
 import csv
-import io
 import re
 from collections.abc import Sequence
-from itertools import islice
 
-from twintube.data.convert.units import NUMBER, units_row
+from twintube.data.convert.units import units_row
+from twintube.data.read.blocks import is_numbers
 
 NEAREST = 3  # rows over the numbers: names, units and a blank one
 
 
-def texts_over(text: str, delimiter: str, skipped: int, headers: Sequence[str]) -> dict[str, list[str]]:
-    """By header of `columns`: what the last rows that are skipped hold over that column, units in square brackets."""
+def texts_over(rows: Sequence[Sequence[str]], headers: Sequence[str]) -> dict[str, list[str]]:
+    """By header of `columns`: what the last rows that are skipped hold over that column, units in square brackets.
+
+    A row with fewer cells than columns is none of names; one with more has names without cells.
+    """
     over: dict[str, list[str]] = {}
-    width = len(headers)
-    for line in list(islice(io.StringIO(text), skipped))[-NEAREST:]:
-        cells = cells_of(line.rstrip("\r\n"), delimiter, width)
-        if len(cells) != width or all(NUMBER.fullmatch(cell) for cell in cells):
+    for cells in rows[-NEAREST:]:
+        if len(cells) < len(headers) or is_numbers(cells):
             continue
         units = units_row(cells)
-        for header, cell, unit in zip(headers, cells, units or cells, strict=True):
+        for header, cell, unit in zip(headers, cells, units or cells, strict=False):
             if header and cell.strip():
                 over.setdefault(header, []).append(f"[{unit}]" if units else cell.strip())
     return over

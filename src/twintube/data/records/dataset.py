@@ -108,8 +108,9 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None, 
         named = [
             entry for entry in manifest.entries if entry.file and (toml.parent / entry.file).resolve() == only.resolve()
         ]
-        if block is not None:
-            named = [entry for entry in named if entry.form.block == block]
+        if block is not None:  # of tables in sheets or beside each other the one of this number
+            blocks = any(entry.form.block for entry in named)
+            named = [entry for entry in named if entry.form.block == block] if blocks else named[block - 1 : block]
         manifest = replace(manifest, entries=named)
         if not named:
             return Dataset(title, None, [], [])
