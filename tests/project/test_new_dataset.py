@@ -194,7 +194,7 @@ def test_measurements_are_told_by_their_motion(tmp_path: Path) -> None:
     for name, stroke in (("quasi-static", ramp), ("stochastic", drive)):
         path = tmp_path / f"{name}.csv"
         path.write_text(table("time [s],stroke [mm],force [N]\n", (seconds, stroke, stroke)))
-        assert sniff(path).measurement == name
+        assert sniff(path)[0].measurement == name
 
 
 @pytest.mark.parametrize("order", [("velocity", "force"), ("force", "velocity")])
@@ -205,7 +205,7 @@ def test_without_a_header_the_velocity_is_the_derivative_of_the_stroke(order: tu
     path = tmp_path / "a.txt"
     path.write_text(table("", (seconds, 50.0 * np.sin(2 * np.pi * seconds), *(channels[name] for name in order))))
     units = {"velocity": "velocity [mm/s]", "force": "force [N]"}
-    assert sniff(path).reading["columns"] == ["time [s]", "stroke [mm]", *(units[name] for name in order)]
+    assert sniff(path)[0].reading["columns"] == ["time [s]", "stroke [mm]", *(units[name] for name in order)]
 
 
 @pytest.mark.parametrize(

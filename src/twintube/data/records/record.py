@@ -19,7 +19,7 @@ from twintube.data.convert.quantities import Table, convert
 from twintube.data.dataset_toml.manifest import Entry
 from twintube.data.findings import Finding, Notes, UnreadableError
 from twintube.data.read.columns import Outcome
-from twintube.data.sniff.hints import suggest_columns
+from twintube.data.sniff.hints import LACKS, suggest_columns
 from twintube.engine.simulate import InputError
 
 MEASURED = "measured"
@@ -120,7 +120,7 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
         return None
     table = convert(outcome, entry.form, own, window=entry.window)
     if table is None:
-        if any(finding.message.startswith(("no column", "no unit")) for finding in own.findings):
+        if any(finding.message.startswith(LACKS) for finding in own.findings):
             suggest_columns(outcome, entry.form, own)
         return None
     check_names(outcome, entry.form, table.headers, own)

@@ -1,68 +1,145 @@
-"""The records of a text file for a new dataset.toml: one, or one for each of its blocks."""
+"""The records of a text file or a workbook for a new dataset.toml: one, or one for each of its sheets, runs and blocks."""
 
+from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 
+from twintube.common.words import listed, shown
 from twintube.data.convert.column_names import assigned
+from twintube.data.convert.quantities import convert
 from twintube.data.convert.units import unit_of
 from twintube.data.dataset_toml.keys import MOST_RECORDS
-from twintube.data.findings import UnreadableError
-from twintube.data.formats import DEFAULT_ENCODING, TEXT, Format, Raw
+from twintube.data.dataset_toml.manifest import form_of
+from twintube.data.findings import Notes, UnreadableError
+from twintube.data.formats import Format, Raw, usual_delimiter
+from twintube.data.read.binary import check_package, first_rows, is_binary
+from twintube.data.read.blocks import Rows
 from twintube.data.read.lvm import X
-from twintube.data.read.text import TextReader, cut_text, decoded, is_lvm
-from twintube.data.sniff.text import LINE_END, MOST_ROWS, sniff, sniffed
-from twintube.data.sniff.text import decoded as beginning
-from twintube.data.sniff.values import Sniffed, judge
+from twintube.data.read.sheets import Cells, sheet_rows
+from twintube.data.read.tables import table_of
+from twintube.data.read.text import TextReader, cut_text, is_lvm
+from twintube.data.read.text import decoded as whole_text
+from twintube.data.sniff.grids import Grid, Lines, Sheet
+from twintube.data.sniff.text import LINE_END, MOST_ROWS, decoded, sniff, sniffed, with_encoding
+from twintube.data.sniff.values import Sniffed, judge, say_motion
 from twintube.engine.simulate import InputError
 
 
 def sniff_records(path: Path) -> list[Sniffed]:
-    """What dataset.toml should say about each record of a text file; raises InputError and OSError."""
+    """What dataset.toml should say about each record of a text file or a workbook; raises InputError and OSError."""
+    if is_binary(path):
+        return sniff_sheets(path)
     if is_lvm(path):
         return sniff_lvm(path)
-    whole = sniff(path)
-    form = Format(
-        delimiter=whole.reading.get("delimiter"),
-        decimal=whole.reading.get("decimal", "."),
-        encoding=whole.reading.get("encoding", DEFAULT_ENCODING),
-    )
+    found = sniff(path)
+    if len(found) > 1:
+        return found
+    (whole,) = found
+
+    def grid(start: int, end: int | None) -> Grid:
+        lines = LINE_END.split(whole_text(path, form_of(whole.reading).encoding))
+        return Lines(lines[start:end], usual_delimiter(path), [whole.reading.get("delimiter") or usual_delimiter(path)])
+
+    return with_blocks(str(path), whole, lambda form: cut_text(path, form).rows, grid)
+
+
+def sniff_sheets(path: Path) -> list[Sniffed]:
+    """The tables in the sheets of a workbook; raises InputError where it has none."""
     try:
-        rows = cut_text(path, form).rows
-        starts = [rows.table[i][0] for i in rows.starts]
-        lines = LINE_END.split(decoded(path, form.encoding)) if 1 < len(starts) <= MOST_RECORDS else []
+        check_package(path)
+        sheets = first_rows(path, MOST_ROWS)
+    except UnreadableError as error:
+        raise InputError(f"{path}: {error}") from error
+    found: list[Sniffed] = []
+    refused = {}
+    for name, rows in sheets.items():
+        place = f"{path}, sheet {shown(name)}"
+        try:
+            own = of_sheet(place, rows)
+        except InputError as error:
+            refused[name] = str(error)
+            continue
+        for guess in own if len(sheets) > 1 else []:
+            guess.reading["sheet"] = name
+        found += own
+    if not found:
+        raise InputError("; ".join(refused.values()))
+    if refused:
+        found[0].facts.append(f"sheets without a record: {listed(map(shown, refused))}")
+    return found
+
+
+def of_sheet(place: str, rows: list[Cells]) -> list[Sniffed]:
+    """The tables of a sheet; raises InputError where it has none."""
+    found = sniffed(place, Sheet(rows))
+    if len(found) > 1:
+        return found
+    cut = lambda form: sheet_rows(rows, form)  # noqa: E731 - said once
+    return with_blocks(place, found[0], cut, lambda start, end: Sheet(rows[start:end]))
+
+
+def with_blocks(
+    place: str, whole: Sniffed, cut: Callable[[Format], Rows], grid: Callable[[int, int | None], Grid]
+) -> list[Sniffed]:
+    """The records of a table's blocks, or the one of the `whole` table.
+
+    `cut` gives its rows as a form says, `grid` a part of it by the numbers of rows from 0.
+    """
+    form = form_of(whole.reading)
+    try:
+        rows = cut(form if isinstance(form.columns, list) else replace(form, skip_rows=0))
+        if isinstance(form.columns, list) and len(set(rows.heads)) != 1:
+            rows = cut(replace(form, columns=None, skip_rows=0))
+            form = replace(form, columns=None)
     except UnreadableError:  # the checks of the new dataset say why
         return [whole]
-    if not lines:
+    if not 1 < len(rows.starts) <= MOST_RECORDS:
         return [whole]
-    ways = [form.delimiter or TEXT[path.suffix.lower()]], [form.decimal]
-    found = []
-    for number, (start, end) in enumerate(zip(starts, [*starts[1:], len(lines)], strict=True), start=1):
-        try:
-            guess = sniffed(path, lines[start - 1 : min(end - 1, start + MOST_ROWS)], form.encoding, *ways)
-        except InputError:
-            continue
-        guess.reading.pop("skip_rows", None)  # a block begins with its names
+    firsts = [rows.table[i][0] - 1 for i in rows.starts]
+    found: list[Sniffed] = []
+    last = whole
+    for number, start in enumerate(firsts, start=1):
+        named = rows.heads[number - 1] == rows.starts[number - 1] and not isinstance(form.columns, list)
+        end = firsts[number] if number < len(firsts) else None
+        if named:
+            try:
+                (last,) = sniffed(place, grid(start, min(end or start + MOST_ROWS, start + MOST_ROWS)), [form.decimal])
+            except (InputError, ValueError):
+                continue
+            last.reading.pop("skip_rows", None)  # a block begins with its names
+            last = with_encoding([last], form.encoding)[0]
+        guess = deepcopy(last)
         guess.reading["block"] = number
+        if not named or len(rows.starts) > len(set(rows.heads)):
+            of_restart(guess, rows)
         found.append(guess)
     # A small table in the head of a file, of gains or limits, is no record: nothing moves there.
-    moving = [guess for guess in found if guess.measurement] or found
-    return moving if len(moving) > 1 else [whole]
+    return [guess for guess in found if guess.measurement] or found or [whole]
+
+
+def of_restart(guess: Sniffed, rows: Rows) -> None:
+    """Sampling and kind of a block that shares its names with the one before."""
+    form = form_of(guess.reading)
+    guess.facts = [fact for fact in guess.facts if "rows looked at" not in fact]
+    try:
+        table = convert(table_of(rows, form, form.delimiter or ""), form, Notes(""))
+    except UnreadableError:
+        return
+    if table is not None:
+        say_motion(table.columns["time"], table.columns["stroke"], guess)
 
 
 def sniff_lvm(path: Path) -> list[Sniffed]:
     """The segments of a file that LabVIEW wrote; raises InputError."""
     try:
-        form = Format(encoding=beginning(path)[1])
+        form = Format(encoding=decoded(path)[1])
         count = min(len(cut_text(path, form).segments), MOST_RECORDS)
         reader = TextReader()
         raws = [reader.read(path, replace(form, block=number)) for number in range(1, count + 1)]
     except UnreadableError as error:
         raise InputError(f"{path}: {error}") from error
-    found = [of_lvm(raw) for raw in raws]
-    if form.encoding != DEFAULT_ENCODING:
-        for guess in found:
-            guess.reading["encoding"] = form.encoding
-            guess.doubts.append(f"encoding: the file is not UTF-8, {form.encoding} is assumed")
+    found = with_encoding([of_lvm(raw) for raw in raws], form.encoding)
     if count > 1:
         for number, guess in enumerate(found, start=1):
             guess.reading["block"] = number
@@ -77,7 +154,7 @@ def of_lvm(raw: Raw) -> Sniffed:
     pairs = [("time" if name == X else name, unit_of(unit) or unit) for name, unit in zip(names, units, strict=True)]
     columns = assigned(pairs, result.doubts)
     result.facts.append("columns in the file: " + ", ".join(names))
-    result.reading["columns"] = {name: names[i] for name, (i, _) in columns.items()}
+    result.reading["columns"] = dict(enumerate(names))
     judge(columns, [list(row) for row in zip(*raw.columns.values(), strict=True)], raw.decimal, result)
     if result.reading.get("columns") == {header: name for name, header in raw.meant.items()}:
         del result.reading["columns"]  # the file says it itself

@@ -10,24 +10,33 @@ from twintube.common.arrays import Array
 from twintube.common.words import printable
 from twintube.data.convert.cells import number
 from twintube.data.convert.column_names import assigned
-from twintube.data.convert.quantities import EXAMPLES, rising
+from twintube.data.convert.curves import CURVE, is_curve
+from twintube.data.convert.quantities import EXAMPLES, quantity_of, rising
 from twintube.data.convert.units import name_and_unit
 from twintube.data.findings import Notes
 from twintube.data.formats import Format, Raw
 from twintube.data.sniff.values import guessed
 
+LACKS = ("no column", "no unit")  # how the findings on missing columns begin
 LOOK = 10_000  # samples whose size tells a unit
 
 
 def suggest_columns(raw: Raw, form: Format, notes: Notes) -> None:
-    """A remark with the key to set, the names as far as the file tells them."""
-    if form.columns is not None or not raw.columns:
-        return
+    """What to do where columns are missing: a remark with the key to set, the names as far as the file tells them.
+
+    A table of an F-v curve, which has none of them, is said in place of all that it lacks.
+    """
     names = list(raw.columns)
     pairs = [name_and_unit(name) for name in names]
     fitting = assigned(
         [(name, unit or raw.units.get(full, "")) for full, (name, unit) in zip(names, pairs, strict=True)], []
     )
+    if is_curve(map(quantity_of, form.columns) if isinstance(form.columns, dict) else fitting):
+        notes.findings[:] = [finding for finding in notes.findings if not finding.message.startswith(LACKS)]
+        notes.error(CURVE)
+        return
+    if form.columns is not None or not raw.columns:
+        return
     found = {quantity: (names[i], unit) for quantity, (i, unit) in fitting.items()}
     if "time" not in found and (late := rising(raw, form.decimal)):
         found["time"] = late[0], ""

@@ -14,7 +14,8 @@ from twintube.common.files import replacing, write_text
 from twintube.common.reading import MB, ReadError, check_regular
 from twintube.common.words import CONTROL
 from twintube.data.dataset_toml.keys import FILE, NOT_SURE, READING, UNKNOWN
-from twintube.data.formats import TEXT
+from twintube.data.dataset_toml.manifest import form_of, part_of
+from twintube.data.formats import TEXT, WORKBOOKS
 from twintube.data.read.binary_child import READERS
 from twintube.data.sniff.blocks import sniff_records
 from twintube.data.sniff.values import Sniffed
@@ -34,7 +35,7 @@ READING_HELP = """
 #
 # columns = {"time [s]" = "Zeit", "stroke [mm]" = "Weg", "force [kN]" = "Kraft"}
 #     quantity [unit] = name in the file. Needed: time, stroke, force; optional: velocity, temperature.
-#     A list gives the columns of a text file without header: ["time [s]", "stroke [mm]", "", "force [N]"]
+#     A list gives the columns of a text or sheet without header: ["time [s]", "stroke [mm]", "", "force [N]"]
 #     Times may be date-time stamps. Units may stand in a row of their own under the header.
 # channels = {force = {column = "AI1 [V]", scale = "500 N/V", offset = "-12 N"}}
 #     For volts and counts: quantity = scale times what is in the file, plus offset. column and offset may be left out.
@@ -56,7 +57,7 @@ RECORD_HELP = """
 #
 # [[record]]
 # file = "oil060_1.0.csv"     # CSV, text, LabVIEW .lvm, Excel, JSON, Parquet, MATLAB .mat or MDF 4, relative to this file
-# block = 2                   # optional: which of several tables in a text file, the first is 1
+# block = 2                   # optional: which of several tables in a text or sheet, the first is 1
 # measurement = "harmonic"    # quasi-static, harmonic or stochastic
 # oil_level = 0.6             # share of the intact oil volume, "unknown" where nobody knows it; or instead of it
 # oil_volume_mL = 164
@@ -126,7 +127,7 @@ def new_dataset(
     records = [
         (file.name, guess, file.resolve() in before)
         for file in files
-        for guess in (sniff_records(file) if file.suffix.lower() in TEXT else [Sniffed({})])
+        for guess in (sniff_records(file) if file.suffix.lower() in (*TEXT, *WORKBOOKS) else [Sniffed({})])
     ]
     text, doubts = template(folder, records, damper, state or Fill())
     for target, file in copies.items():
@@ -180,9 +181,9 @@ def entry(
         body.append(f'{key} = "{UNKNOWN}"  # {UNKNOWN_FILL[key]}' if value is None else f"{key} = {quoted(value)}")
     body += ["reference = true"] if reference else []
     body += [f"{key} = {quoted(value)}" for key, value in guess.reading.items() if key not in shared]
-    block = f", block {guess.reading['block']}" if "block" in guess.reading else ""
+    part = part_of(form_of(guess.reading))
     for doubt in guessed + missing:
-        doubts.setdefault(said(doubt), []).append(said(name + block))
+        doubts.setdefault(said(doubt), []).append(said(f"{name}, {part}" if part else name))
     comments = [f"# {said(fact)}" for fact in guess.facts] + [f"# NOT SURE: {said(doubt)}" for doubt in missing]
     return "\n".join(["", "[[record]]", *comments, *body]) + "\n" + not_sure([said(doubt) for doubt in guessed])
 

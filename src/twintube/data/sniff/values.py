@@ -16,7 +16,8 @@ from twintube.data.convert.stamps import is_stamp, seconds
 ALIKE = 0.15  # spread of the turning points of a harmonic record over their mean
 FEWEST = 16  # samples of which a kind is told
 SLOW = 5e-3  # [m/s] up to which a record is quasi-static; the paper's ramps have 1 mm/s
-LONGEST_STEP = 0.2  # [s] of a record: what is longer is in ms
+USUAL_STEP = 6e-3  # [s] in the middle of the steps of rigs, 0.2 ms to 0.2 s: the nearest unit is taken
+TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "day": 86400.0}  # [s]; Excel counts days
 COLDEST = 200.0  # [K] of a damper: what is above is no degC
 PART = rf"(?<=\d)[ '’{SPACES}](?=\d{{3}}(?!\d))"  # between thousands
 GROUPED = re.compile(PART, re.ASCII)
@@ -71,26 +72,30 @@ def judge(columns: dict[str, tuple[int, str]], body: list[list[str]], decimal: s
             result.missing.append(f"{name}: no column looks like it; complete `columns`, or {or_else}")
     write_columns(columns, headers, result)
     if "time" in known:
-        steps = np.diff(known["time"])
-        steps = steps[np.isfinite(steps) & (steps > 0)]
-        if len(steps):
-            step = float(np.median(steps))
-            result.facts.append(f"{len(body)} rows looked at, {1 / step:.4g} Hz, {len(body) * step:.4g} s")
-    if "time" in known and "stroke" in known:
-        result.measurement = kind_of(known["time"], known["stroke"])
+        say_motion(known["time"], known.get("stroke"), result)
+
+
+def say_motion(time: Array, stroke: Array | None, result: Sniffed) -> None:
+    """Sampling and kind of the measurement."""
+    steps = np.diff(time)
+    steps = steps[np.isfinite(steps) & (steps > 0)]
+    if len(steps):
+        step = float(np.median(steps))
+        result.facts.append(f"{len(time)} rows looked at, {1 / step:.4g} Hz, {len(time) * step:.4g} s")
+    if stroke is not None:
+        result.measurement = kind_of(time, stroke)
 
 
 def write_columns(columns: dict[str, tuple[int, str]], headers: dict[str, str], result: Sniffed) -> None:
     """`columns` as dataset.toml wants it: left out, header = name in the file, or a list by position."""
     stated = result.reading["columns"]
     if isinstance(stated, dict):
-        pairs = {headers[name]: source for name, source in stated.items()}
+        pairs = {headers[name]: stated[i] for name, (i, _) in columns.items()}
         result.reading["columns"] = pairs
         if all(header == source for header, source in pairs.items()):
             del result.reading["columns"]
         return
-    width = max([len(stated), *(i + 1 for i, _ in columns.values())])
-    listed = [""] * width
+    listed = [""] * len(stated)
     for name, (i, _) in columns.items():
         listed[i] = headers[name]
     result.reading["columns"] = listed
@@ -120,7 +125,8 @@ def guessed(name: str, values: Array) -> str:
         return EXPECTED_UNIT[name]
     span = float(np.ptp(finite))
     if name == "time":
-        return "ms" if float(np.median(np.abs(np.diff(finite)))) >= LONGEST_STEP else "s"
+        step = float(np.median(np.abs(np.diff(finite)))) or USUAL_STEP
+        return min(TIMES, key=lambda unit: abs(np.log(step * TIMES[unit] / USUAL_STEP)))
     if name == "temperature":
         return "K" if float(np.median(finite)) > COLDEST else "degC"
     limit, small, large = {"stroke": (1.0, "m", "mm"), "force": (60.0, "kN", "N"), "velocity": (10.0, "m/s", "mm/s")}[name]
