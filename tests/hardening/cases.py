@@ -132,7 +132,7 @@ ENCODINGS = {
     for name in ("idna", "punycode", "utf-7", "rot13", "base64", "unicode_escape", "raw_unicode_escape", "undefined", "zip", "",
                  "utf-9", "x" * 199, "../../etc/passwd", "utf-8\\u00e9")
 } | {
-    "UTF-16 without its mark": record(CSV.encode("utf-16-le"), "no column 'time [s]'"),
+    "UTF-16 without its mark": record(CSV.encode("utf-16-le"), "set encoding = 'utf-16-le'"),
     "UTF-16 cut": record(CSV.encode("utf-16")[:-1], "not a text in utf-16"),
     "UTF-8 read as UTF-16": dataset(CSV.encode()[: len(CSV) // 2 * 2], "no column 'time [s]'", "encoding = 'utf-16'"),
     "UTF-8 read as ASCII": dataset(CSV.replace("force", "für").encode(), "not a text in ascii", "encoding = 'ascii'"),
