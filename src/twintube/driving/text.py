@@ -13,7 +13,8 @@ from twintube.data.convert.stamps import is_stamp, seconds
 from twintube.data.findings import Notes
 from twintube.data.formats import Format
 from twintube.data.read.text import TextReader
-from twintube.data.sniff.text import DELIMITERS, LINE_END, LOOK, cut, decoded
+from twintube.data.sniff.grids import DELIMITERS, cut
+from twintube.data.sniff.text import LINE_END, LOOK, decoded
 from twintube.data.sniff.values import NUMBER
 from twintube.driving.channels import TIME
 from twintube.driving.columns import channel_of

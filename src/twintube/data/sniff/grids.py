@@ -40,15 +40,7 @@ class Lines:
 
     def cells(self, numbers: Sequence[int], delimiter: str, _: str) -> list[list[str]]:
         """The cells of some lines, without empty ones at their end."""
-        lines = [self.lines[i] for i in numbers]
-        if delimiter == "whitespace":
-            rows = [split_white(line) for line in lines]
-        else:
-            try:
-                rows = [next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), []) for line in lines]
-            except csv.Error:
-                return [[] for _ in lines]
-        return [trimmed(row) for row in rows]
+        return cut([self.lines[i] for i in numbers], delimiter)
 
 
 @dataclass(frozen=True)
@@ -85,3 +77,13 @@ def trimmed(row: list[str]) -> list[str]:
     while cells and not cells[-1]:
         cells.pop()
     return cells
+
+
+def cut(lines: Sequence[str], delimiter: str) -> list[list[str]]:
+    """The cells of each line, without empty ones at its end."""
+    if delimiter == "whitespace":
+        return [trimmed(split_white(line)) for line in lines]
+    try:
+        return [trimmed(next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])) for line in lines]
+    except csv.Error:
+        return [[] for _ in lines]
