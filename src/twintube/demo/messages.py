@@ -27,15 +27,21 @@ def over_oil_level(result: dict[str, Any]) -> str:
 
 
 def development(result: dict[str, Any]) -> str:
-    """When the damping is lost, at the highest oil level that loses it."""
+    """When the damping power is first below half, at the highest oil level at which it ever is."""
     name, block = result["damper"], result["speeds"][-1]
     speed = f"at {block['speed_kmh']:.0f} km/h"
     lost = next((e for e in drawn(block) if e["time_to_failure_s"] is not None), None)
     if lost is None:
         return f"{name} keeps more than half of its damping power for {result['seconds']:.0f} s {speed} at every level drawn"
-    time = lost["time_to_failure_s"]
-    start = f"After {time:.0f} s {speed}" if time else f"From the start {speed}"
-    return f"{start}, {name} with {oil(lost['oil_level'])} has less than half of its damping power"
+    return (
+        f"{speed[0].upper()}{speed[1:]}, {name} with {oil(lost['oil_level'])} has less than half of the intact damping "
+        f"power for the first time {window(lost['time_to_failure_s'])}"
+    )
+
+
+def window(start: float) -> str:
+    """The window that begins at a time [s] of the ride."""
+    return f"between {start:.0f} and {start + WINDOW:.0f} s"
 
 
 def failure(result: dict[str, Any]) -> str:
@@ -43,12 +49,12 @@ def failure(result: dict[str, Any]) -> str:
     table, shown = result["time_to_failure"], result["moments"]
     row, column = table["speeds_kmh"].index(shown["speed_kmh"]), table["oil_levels"].index(shown["oil_level"])
     found = [rows[row][column] for rows in table["freed_gas_ways"].values()]
-    never = f"not within {table['seconds']:.0f} s"
-    times = [never if t is None else f"after {t:.0f} s" if t else "from the start" for t in found]
+    times = [f"not within {table['seconds']:.0f} s" if t is None else window(t) for t in found]
     where = f"{result['damper']} with {oil(shown['oil_level'])} at {shown['speed_kmh']:.0f} km/h"
+    lost = f"{where} first has less than half of the intact damping power"
     if len(set(times)) == 1:
-        return f"{where} loses half of its damping {times[0]}, whatever the freed gas does"
-    return f"{where} loses half of its damping {', '.join(times[:-1])} or {times[-1]}: the freed gas decides"
+        return f"{lost} {times[0]}, whatever the freed gas does"
+    return f"{lost} {', '.join(times[:-1])} or {times[-1]}: the freed gas decides"
 
 
 def bands(bars: dict[float, dict[str, Span]], speed: float) -> str:
@@ -80,11 +86,11 @@ def volumes(gas: Span, where: str) -> str:
 
 
 def spectrum(grown: list[tuple[str, float, float]], where: str) -> str:
-    """How the resonances grow: name, frequency [Hz] and density over that of the intact damper [1]."""
+    """How the resonances grow: name, frequency [Hz] and density over that of the intact damper at that frequency [1]."""
     (body, low, at_body), (wheel, high, at_wheel) = grown
     return (
-        f"{where} has {short(at_body)} times the wheel-load density of intact at the resonance of the {body} "
-        f"({low:.2g} Hz), {short(at_wheel)} times at that of the {wheel} ({high:.2g} Hz)"
+        f"{where} has {short(at_body)} times the wheel-load density of intact at {low:.3g} Hz, the resonance of its {body}, "
+        f"and {short(at_wheel)} times at {high:.3g} Hz, that of its {wheel}"
     )
 
 

@@ -12,6 +12,7 @@ from twintube.demo.ride import EVERY, Ride
 from twintube.demo.style import conditions, save
 from twintube.report.common.framed import INTACT, OTHER, WIDTH, oil, worn
 from twintube.report.common.style import PHASES, canvas, title
+from twintube.rig.signals import FASTEST
 from twintube.vehicle.ride import SETTLED, WINDOW
 
 SPAN = 2.0  # [s] that a moment shows
@@ -68,12 +69,17 @@ def loops(folder: Path, result: dict[str, Any], ride: Ride, intact: Ride, when: 
         for run, colour, text in both(ride, intact):
             axes[0][column].plot(run.stroke[inside] * 1e3, run.force[inside] / 1e3, color=colour, lw=THIN, label=text)
             axes[1][column].plot(run.velocity[inside], run.force[inside] / 1e3, ".", color=colour, ms=2)
+        for end in (-FASTEST, FASTEST):
+            axes[1][column].axvline(end, color=OTHER, lw=1, ls=":")
         title(axes[0][column], f"{moment.label}:\n{100 * moment.power_share:.0f} % of the power")
         axes[0][column].set_xlabel("damper stroke [mm]")
         axes[1][column].set_xlabel("damper velocity [m/s]")
     for row in axes:
         row[0].set_ylabel("damper force [kN]")
-    told = f"Power: mean of {MEAN * SPAN:.0f} s over that of the intact damper on the same road. Rebound is positive."
+    told = (
+        f"Power: mean of {MEAN * SPAN:.0f} s over that of the intact damper on the same road. Rebound is positive. "
+        f"Dotted: {FASTEST:g} m/s, where the paper's measurements end; beyond it the F-v curve goes on along its last slope."
+    )
     sentence = messages.loops([moment.power_share for moment in when], where(result, ride))
     return save(figure, folder, "loops.png", sentence, conditions(result, told), key=axes[0][0])
 

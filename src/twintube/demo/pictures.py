@@ -56,7 +56,7 @@ def dlc(folder: Path, result: dict[str, Any]) -> Path:
         ax.invert_xaxis()
         rise = ax.secondary_yaxis("right", functions=relative_to(intact))
         rise.set_yticks(np.arange(0.0, 100 * max(high) / intact - 100, 50))
-        rise.set_ylabel("rise over intact [%]", size=9.5)
+        ax.set_title("rise over intact [%]", loc="right", size=9.5)  # above: beside it, it reads as the next panel's
         rise.tick_params(labelsize=9)
     axes[0][0].set_ylim(bottom=0)  # after all lines: it ends the scaling of the shared axis
     axes[0][0].set_ylabel("dynamic load coefficient (DLC) [1]")
@@ -106,8 +106,9 @@ def failure(folder: Path, result: dict[str, Any]) -> Path:
         ax.set_xlabel("oil level [%]")
     axes[0][0].set_ylabel("speed [km/h]")
     told = (
-        f"Seconds until a window of {WINDOW:.0f} s in which the damper does less than {100 * FAILED:.0f} % of the work "
-        f"of the intact one; 0: in the first window, –: not within {table['seconds']:.0f} s. Darker: sooner."
+        f"Second at which the first window of {WINDOW:.0f} s begins in which the damper does less than {100 * FAILED:.0f} % "
+        f"of the work of the intact one, even if it does more again later; 0: the first window, –: none within "
+        f"{table['seconds']:.0f} s. Darker: sooner."
     )
     return save(figure, folder, "time_to_failure.png", messages.failure(result), conditions(result, told))
 
@@ -182,8 +183,8 @@ def spectrum(folder: Path, result: dict[str, Any], rides: list[Ride]) -> Path:
     worst, intact = shown[-1].case, shown[0].case
     grown = []
     for name, band in (("body", f < BETWEEN), ("wheel", f >= BETWEEN)):
-        top = int(np.argmax(densities[worst][band]))
-        grown.append((name, float(f[band][top]), float(densities[worst][band][top] / densities[intact][band].max())))
+        top = np.flatnonzero(band)[np.argmax(densities[worst][band])]
+        grown.append((name, float(f[top]), float(densities[worst][top] / densities[intact][top])))
     where = f"{result['damper']} with {oil(worst.oil_level)} at {worst.speed_kmh:.0f} km/h"
     told = f"Power spectral density of the wheel load, {SETTLED:.0f} to {result['seconds']:.0f} s."
     return save(figure, folder, "spectrum.png", messages.spectrum(grown, where), conditions(result, told), key=ax)
