@@ -96,21 +96,21 @@ def warn(motion: "Motion | Record", record: Path | None) -> None:
 
 
 def as_csv(result: "Simulation", motion: "Motion | Record", *, for_fmu: bool) -> str:
-    """The columns of the result and the measured force as CSV, `for_fmu` under the names of the FMU's variables."""
+    """The columns of the result and the measured force as CSV, named as the FMU's variables; `for_fmu` without units."""
     from twintube.core.variables import Outputs, fmi_name
     from twintube.data import Record
 
+    names = {item.name: fmi_name(item) for item in fields(Outputs)}
     head = ["time [s]", "stroke [m]", "velocity [m/s]"]
     columns: list[Any] = [motion.time, result.stroke, result.velocity]
     for name, values in result.columns.items():
-        head.append(f"{name} [{result.units[name]}]")
+        head.append(f"{names[name]} [{result.units[name]}]")
         columns.append(values)
     if isinstance(motion, Record):
         head.append("measured_force [N]")
         columns.append(motion.force)
     if for_fmu:
-        fmu_names = {item.name: fmi_name(item) for item in fields(Outputs)}
-        head = [fmu_names.get(name, name) for name in (title.partition(" ")[0] for title in head)]
+        head = [title.partition(" ")[0] for title in head]
     lines = [",".join(head)] + [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
     return "\n".join(lines) + "\n"
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from twintube.common.readable import amount
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset
 from twintube.data.records.signs import AS_STATED, SIGNS, TURNED, errors
@@ -40,8 +41,9 @@ def noisy(damper: Damper, sines: Sequence[Harmonic]) -> list[str]:
     if worst.stroke_noise <= NOISY * length:
         return []
     return [
-        f"noise of {1e6 * worst.stroke_noise:.2g} um in the stroke ({worst.name}) was taken out: friction builds up over "
-        f"{1e6 * length:.2g} um and would count it as reversals; the validation also says the error over the recorded stroke"
+        f"noise of {amount(1e6 * worst.stroke_noise, 'µm')} in the stroke ({worst.name}) was taken out: friction builds up "
+        f"over {amount(1e6 * length, 'µm')} and would count it as reversals; the validation also says the error over the "
+        "recorded stroke"
     ]
 
 
