@@ -35,7 +35,9 @@ def test_both_ends_of_every_value_are_admissible_and_change_what_they_name(item:
         for table in item.tables:
             for key in METAS[table]:
                 before, after = ({**v.car.axles, **v.car.whole}[table][key] for v in (variant, changed))
-                wanted = before if key not in item.names else before + end if item.adds else before * end
+                wanted = before / end if key in item.inverse else before
+                if key in item.names:
+                    wanted = before + end if item.adds else before * end
                 assert after == pytest.approx(wanted), (table, key)
 
 

@@ -36,6 +36,7 @@ class Assumed:
     names: tuple[str, ...]
     adds: bool = False
     unit: str = ""  # of addends
+    inverse: tuple[str, ...] = ()  # names that are divided by the factor
 
 
 def times(title: str, low: float, high: float, reason: str, tables: Sequence[str], *names: str) -> Assumed:
@@ -77,6 +78,15 @@ ASSUMED: Final = (
     times(
         "tyre forces at twice the load", 0.95, 1.05, "what a changing load costs", TYRES, *(n for n in PEAK if n[-1] == "2")
     ),
+    Assumed(
+        "cornering stiffness of the tyres",
+        0.5,
+        1.0,
+        "the stand-in has 0.47 of the load per degree, usual are 0.11 to 0.30",
+        TYRES,
+        ("rise_y", "rise_y2"),
+        inverse=("s_most_y", "s_most_y2"),
+    ),
     times("tyre stiffness along and aside", 0.7, 1.3, "a rule for passenger cars", TYRES, "c_x", "c_y"),
     times("links' damping", 0.0, 6.4, "the car file's band, 0 to 450 N s/m", BOTH, "d_links"),
     times("tyre's vertical damping", 0.5, 3.0, "the car file's band, 50 to 300 N s/m", BOTH, "d_tyre"),
@@ -104,8 +114,9 @@ class Variant:
         axles, whole = ({name: dict(table) for name, table in side.items()} for side in (self.car.axles, self.car.whole))
         for place in item.tables:
             table = axles[place] if place in axles else whole[place]
-            for name in item.names:
-                table[name] = table[name] + value if item.adds else table[name] * value
+            for name in (*item.names, *item.inverse):
+                factor = 1.0 / value if name in item.inverse else value
+                table[name] = table[name] + value if item.adds else table[name] * factor
                 meta = METAS[place][name]
                 message = outside(f"{place}.{name}", table[name], meta["lower"], meta["upper"], meta["unit"])
                 if message:
