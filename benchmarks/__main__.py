@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from benchmarks.calibration import DRAWS, bench_calibration
-from benchmarks.car import bench_car
+from benchmarks.car import bench_car, bench_car_steps
 from benchmarks.dead_length import bench_dead_length
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.driving import bench_driving
@@ -26,7 +26,7 @@ from benchmarks.priors import bench_priors
 from benchmarks.short_steps import bench_short_steps
 from benchmarks.small_strokes import bench_small_strokes
 from benchmarks.steps import bench_steps
-from benchmarks.tiring import bench_rough_road, bench_tiring
+from benchmarks.tiring import bench_rough_road, bench_tiring, bench_tiring_heat
 from twintube.cli.base import standalone
 from twintube.cli.tables import car_sensitivity, sensitivity
 from twintube.engine import compiled
@@ -38,6 +38,7 @@ BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "fmu_step": bench_fmu_step,
     "quarter_car": bench_quarter_car,
     "car": bench_car,
+    "car_steps": bench_car_steps,
     "importers": bench_importers,
     "inspect": bench_inspect,
     "driving": bench_driving,
@@ -46,6 +47,7 @@ BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "small_strokes": bench_small_strokes,
     "dead_length": bench_dead_length,
     "tiring": bench_tiring,
+    "tiring_heat": bench_tiring_heat,
     "rough_road": bench_rough_road,
 }
 SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {

@@ -1,14 +1,18 @@
 """The plate that watches a damper tire: what does not tire it, what does, what plate it needs; and the same from a road."""
 
+import os
+from itertools import product
+
 import numpy as np
 
+from twintube.common.processes import pool
 from twintube.dampers import Damper, load
 from twintube.dampers.freed_gas import DEFAULT, VARIED, condition
 from twintube.dampers.variants import scalar_factor
 from twintube.inspection.benches import DT
 from twintube.inspection.rough_road import road_growth
-from twintube.inspection.scatter import FADE
-from twintube.inspection.tiring import Tired, heated, not_judged, run_on, shaker
+from twintube.inspection.scatter import FADE, HEAT, Sample, samples
+from twintube.inspection.tiring import LIMIT, Tired, heated, not_judged, run_on, runs, shaker
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track
 
@@ -16,6 +20,8 @@ EARLY, LATE = (2.0, 4.0), (19.0, 21.0)  # [s] from the start of the plate: anoth
 ROADS = (("D", 30.0), ("D", 50.0), ("E", 30.0))  # class and speed [km/h]
 SEEDS, SECONDS = range(1, 9), 40.0
 OIL = (0.9, 0.8, 0.7, 0.6)
+TIRING = ("SA1", "SA2", "SA3", "SA5", "SA7", "SA8")  # in the others cavitation frees no gas: they are not judged
+CARS = 30  # drawn
 
 
 def window(run: Tired, ends: tuple[float, float]) -> float:
@@ -53,6 +59,30 @@ def bench_tiring() -> dict[str, dict[str, dict[str, float]]]:
         loss |= {head: row(damper, 8.0) for head, damper in states.items()}
     plates = {f"SA8 {mm:g} mm 90%": row(condition(sa8, 0.9, 0), mm) for mm in (3.0, 5.0, 6.0, 8.0, 10.0)}
     return {"no oil loss": variants, "oil loss": loss, "plates": plates}
+
+
+def heat_growth(job: tuple[float, str, Sample]) -> float:
+    """Growth of an intact damper by the heat of its runs alone, in one car on one tester, at a fade [1/K]."""
+    fade, name, sample = job
+    damper = load(name)
+    found = runs(sample.made(damper), sample.corner(damper, load_car()), sample.setting().shaker, DT, fade=fade)
+    return max(run.growth for run in found)
+
+
+def bench_tiring_heat() -> dict[str, dict[str, dict[str, float]]]:
+    """What the limit of `tiring` follows from: the largest growth of intact dampers, and how many of them pass it."""
+    fades = np.linspace(HEAT.low, HEAT.high, 4).tolist()
+    jobs = list(product(fades, TIRING, samples(CARS, 1)))
+    with pool(os.cpu_count() or 1) as workers:
+        grown = np.reshape(list(workers.map(heat_growth, jobs)), (len(fades), len(TIRING), CARS))
+    tables = {"largest growth": np.max(grown, axis=2), f"share above {LIMIT:g}": np.mean(grown > LIMIT, axis=2)}
+    return {
+        title: {
+            f"{100 * fade:.1f} % per kelvin": dict(zip(TIRING, np.round(row, 3).tolist(), strict=True))
+            for fade, row in zip(fades, table, strict=True)
+        }
+        for title, table in tables.items()
+    }
 
 
 def bench_rough_road() -> dict[str, dict[str, dict[str, float]]]:

@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
@@ -10,9 +11,10 @@ from twintube.cli import app
 from twintube.cli.outputs import MARK
 from twintube.dampers import load
 from twintube.dampers.freed_gas import DEFAULT, VARIED
-from twintube.inspection import METHODS, conditions, inspected
+from twintube.inspection import METHODS, Condition, conditions, inspected
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, markdown, method_rows, range_rows
-from twintube.report.inspection.summary import by_way
+from twintube.inspection.tiring import LIMIT
+from twintube.report.inspection.summary import by_way, down_from, gas
 from twintube.vehicle.cars import load_car
 
 RUNNER = CliRunner()
@@ -37,7 +39,7 @@ def test_entries_and_detection_as_json(tmp_path: Path) -> None:
     assert {item["false_alarm_rate"] for item in found["detection"]} == {0.05}
     assert all(0 <= d["detected_band"][0] <= d["detected_share"] <= d["detected_band"][1] <= 1 for d in found["detection"])
     assert [item["oil_level"] for item in found["first_seen"]] == [0.4, 0.4]
-    assert "eusama: 90% detected at 5% false alarms from oil level 40% whatever freed gas does" in run.output
+    assert "eusama: 90% detected at 5% false alarms at 40% whatever freed gas does" in run.output
     for item in found["first_seen"]:
         assert set(item["freed_gas_ways"]) == set(VARIED) and item["freed_gas_ways"][DEFAULT] == item["oil_level"]
     assert all(set(entry["freed_gas_ways"]) == set(VARIED) for entry in found["entries"])
@@ -124,9 +126,25 @@ def test_what_flips_from_way_to_way_is_said() -> None:
 
 def test_the_page_about_tiring_says_its_limit_and_what_the_command_prints() -> None:
     page = (ROOT / "docs" / "inspection_tiring.md").read_text(encoding="utf-8")
-    assert "A damper fails above 1.15." in " ".join(page.split())
+    assert f"A damper fails above {LIMIT:g}." in " ".join(page.split())
     (row,) = [line for line in page.splitlines() if line.startswith("| SA8 | 1.00 |")]
     entries = inspected(load("SA8"), load_car(), conditions((0.9, 0.6), gas_lost=True), ("tiring",), ways=VARIED)
     for entry in entries:
         texts = [f"{figure:.2f}" for figure in entry.readings.values()]
         assert f"| **{texts[0]}** / {' / '.join(texts[1:])} |" in row
+
+
+def test_only_levels_of_the_study_are_named() -> None:
+    """From three levels nothing follows about those between and below them."""
+    study = SimpleNamespace(detections=[SimpleNamespace(condition=Condition(level, 0)) for level in (1.0, 0.6, 0.5)])
+    assert [down_from(study, level) for level in (None, 0.5, 0.6)] == [
+        "at none of these oil levels", "at 50%", "from 60% down to 50%",
+    ]  # fmt: skip
+
+
+def test_the_sentence_names_the_state_of_the_gas() -> None:
+    run = RUNNER.invoke(app, ["inspect", "SA8", "--method", "eusama", "--oil-level", "0.6", "--gas-lost", "--scatter", "0"])
+    assert "down to 60% whatever freed gas does (below 100% its gas preload is lost)." in run.output
+    assert "eusama [%]" in run.output
+    kept, full = (SimpleNamespace(entries=[SimpleNamespace(condition=Condition(x, 1))]) for x in (0.6, 1.0))
+    assert (gas(kept), gas(full)) == (" (below 100% its gas preload is kept)", "")

@@ -10,7 +10,8 @@ from twintube.cli import app
 from twintube.cli.base import standalone
 from twintube.cli.tables import car_sensitivity
 from twintube.dampers.freed_gas import DEFAULT
-from twintube.report.car.conclusion import read_inspection, section
+from twintube.report.car.conclusion import read_inspection, section, seen_first
+from twintube.report.car.page import headline
 from twintube.vehicle.cars import FOLDER
 from twintube.vehicle.maneuvers import MANEUVERS
 
@@ -162,3 +163,22 @@ def test_bad_input_is_a_line(options: list[str], message: str) -> None:
     result = CliRunner().invoke(app, ["car", *options])
     assert result.exit_code == 2
     assert message in result.output and result.output.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("levels", "told"),
+    [
+        ((0.5,), "At 50% oil (gas preload lost in the worn dampers) are felt: stop +20%."),
+        ((0.7, 0.5), "Driven with 70%, 50% oil (gas preload lost in the worn dampers). Felt first at 50%: stop +20%."),
+    ],
+)
+def test_what_is_felt_first_names_the_levels_driven_and_the_gas(levels: tuple[float, ...], told: str) -> None:
+    row = {"maneuver": "braking", "speed_kmh": 80.0, "road": "D", "model": "full model", "figure": "stop", "seeds": 1}
+    rows = [row | {"oil_level": x, "change": 0.2, "change_band": (0.1, 0.3) if x == 0.5 else (-0.1, 0.3)} for x in levels]
+    assert headline(rows, None, "lost in the worn dampers").text == told
+
+
+def test_what_an_inspection_sees_stands_beside_the_levels_that_it_looked_at() -> None:
+    seen = {"first_seen": [{"damper": "SA8", "oil_level": 0.5}], "detection": [{"oil_level": x} for x in (0.6, 0.5, 0.5)]}
+    assert seen_first(seen) == "Seen by an inspection, of 60%, 50% oil: SA8 at 50%."
+    assert seen_first(seen | {"first_seen": []}) == "Seen by an inspection, of 60%, 50% oil: none."

@@ -17,7 +17,7 @@ from twintube.inspection.plate import Plate
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.quarter_car import Car
 
-FADE: Final = 0.003  # [1/K] of the fluid force, which falls as that of warm oil does (assumed)
+FADE: Final = 0.003  # [1/K] of the fluid force, which falls as that of warm oil does (assumed), over the seasons
 ROOM: Final = 23.0  # [degC] at which F-v curve and preload are those of the parameter set (assumed)
 KELVIN: Final = 273.15  # [K] at 0 degC
 AMBIENT: Final = 1.013e5  # [Pa]
@@ -59,12 +59,15 @@ BENCHES: Final = (
     Range("acceleration_noise", "noise of the axle's acceleration, root mean square", 0.0, 0.5, "m/s2", "assumed",
           "MEMS sensor"),
 )  # fmt: skip
+HEAT: Final = Range("fade", "fluid force lost per kelvin of the heat of the run of tiring", 0.003, 0.006, "1", "assumed",
+                    "the paper quotes 2 % of the work at 5 K more: 0.4 % per kelvin")  # fmt: skip
 # Drawn after the others, whose draws so stay as they are without them.
 OF_TIRING: Final = (
     Range("drift", "frequency of the plate of tiring within 20 s", -0.005, 0.005, "1", "assumed",
           "slip of a motor that gets warm"),
     Range("velocity_noise", "noise of the damper's velocity, root mean square", 0.0, 0.02, "m/s", "assumed",
           "optical sensor between wheel and wing"),
+    HEAT,
 )  # fmt: skip
 RANGES: Final = (*BENCHES, *OF_TIRING)
 
@@ -114,7 +117,7 @@ class Sample:
         off, slip = v["amplitude"] - usual.amplitude, v["top"] / usual.top
         shaker = tuple(replace(p, amplitude=p.amplitude + off, top=slip * p.top, drift=v["drift"]) for p in plates)
         names = ("push", "speed_kmh", "force_noise", "height_noise", "acceleration_noise", "phase_error", "velocity_noise")
-        return Setting(plate=plate, shaker=shaker, fade=FADE, **{name: v[name] for name in names})
+        return Setting(plate=plate, shaker=shaker, fade=v["fade"], **{name: v[name] for name in names})
 
 
 def drawn(ranges: Iterable[Range], random: np.random.Generator) -> dict[str, float]:

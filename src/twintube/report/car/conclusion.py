@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from twintube.common.words import listed
 from twintube.dampers.freed_gas import SCALAR
 from twintube.engine.simulate import InputError
 from twintube.report.common.html_page import Section, Table
@@ -59,13 +60,14 @@ def section(inspection: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) ->
 
 
 def seen_first(inspection: Mapping[str, Any]) -> str:
-    """The highest oil level that any inspection sees, damper by damper, in a sentence."""
+    """The highest of the oil levels that any inspection sees, damper by damper, in a sentence."""
     levels: dict[str, float] = {}
     for row in inspection.get("first_seen", []):
         if row["oil_level"] is not None:
             levels[row["damper"]] = max(row["oil_level"], levels.get(row["damper"], 0.0))
-    texts = [f"{damper} from {level:.0%}" for damper, level in levels.items()]
-    return "Seen by an inspection: " + (", ".join(texts) + " oil." if texts else "none of these levels.")
+    texts = [f"{damper} at {level:.0%}" for damper, level in levels.items()]
+    computed = sorted({item["oil_level"] for item in inspection["detection"]}, reverse=True)
+    return f"Seen by an inspection, of {listed(f'{x:.0%}' for x in computed)} oil: {', '.join(texts) or 'none'}."
 
 
 def share(found: Sequence[Mapping[str, Any]], method: str, level: float, scalar: bool) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from twintube.common.words import counted
+from twintube.common.words import counted, listed
 from twintube.dampers.freed_gas import SCALAR
 from twintube.report.car import conclusion
 from twintube.report.car.pictures import TITLES, answer, drives, over_levels
@@ -71,7 +71,7 @@ def page(
             "cavitation frees. F-v curves are stand-ins (assumed)."
         ],
         sections,
-        headline=headline(rows, seen),
+        headline=headline(rows, seen, conditions["gas_preload"]),
     )
 
 
@@ -89,15 +89,21 @@ def felt(rows: Sequence[Mapping[str, Any]]) -> tuple[list[Mapping[str, Any]], li
     return firsts, without
 
 
-def headline(rows: Sequence[Mapping[str, Any]], seen: Mapping[str, Any] | None) -> Headline:
-    """What the first screen says: what is felt first on the road, and what an inspection sees."""
+def headline(rows: Sequence[Mapping[str, Any]], seen: Mapping[str, Any] | None, gas: str) -> Headline:
+    """What the first screen says: what is felt first on the road, and what an inspection sees; `gas` tells the preload."""
     firsts, without = felt(rows)
     levels: dict[float, list[str]] = {}
     for row in firsts:
         levels.setdefault(row["oil_level"], []).append(f"{row['figure']} {row['change']:+.0%}")
-    parts = [f"Felt first at {level:.0%} oil: {', '.join(texts)}." for level, texts in sorted(levels.items(), reverse=True)]
+    driven = sorted({row["oil_level"] for row in rows}, reverse=True)
+    state = f"{listed(f'{x:.0%}' for x in driven)} oil (gas preload {gas})"
+    if len(driven) == 1:
+        parts = [f"At {state} are felt: {', '.join(texts)}." for texts in levels.values()]
+    else:
+        parts = [f"Felt first at {at:.0%}: {', '.join(texts)}." for at, texts in sorted(levels.items(), reverse=True)]
+        parts.insert(0, f"Driven with {state}.")
     if without:
-        parts.append(f"Not felt at the levels driven, in all roads and ways of the freed gas: {', '.join(without)}.")
+        parts.append(f"Not felt, in all roads and ways of the freed gas: {', '.join(without)}.")
     remark = conclusion.seen_first(seen) if seen is not None else ""
     seeds = max((row["seeds"] for row in rows), default=1)
     caption = f"The largest change of each manoeuvre. Band: {counted(seeds, 'seed')} and all ways of the freed gas."

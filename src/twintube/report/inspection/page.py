@@ -34,8 +34,8 @@ def seen_table(result: Inspection) -> Table:
     ]
     return Table(
         ["damper", "method", MODEL, FACTOR], rows,
-        f"Highest of the oil levels from which on down {SEEN:.0%} are detected at {FALSE_ALARMS:.0%} false alarms; of "
-        f"{METHODS['tiring'].title} all such levels, as below them a damper may be spent",
+        f"Oil levels of this study at which, and at all below, {SEEN:.0%} are detected at {FALSE_ALARMS:.0%} false alarms; "
+        f"of {METHODS['tiring'].title} all such levels, as below them a damper may be spent",
     )  # fmt: skip
 
 
@@ -110,7 +110,7 @@ def headline(result: Inspection) -> Headline:
         seen.setdefault(seen_in_words(result, first, m).removesuffix(EVERY_WAY), []).append(m.title)
     levels = "; ".join(f"{level}: {', '.join(methods)}" for level, methods in seen.items())
     rule = f"{SEEN:.0%} of the cars at {FALSE_ALARMS:.0%} false alarms"
-    remark = f"Oil level from which on the loss of {first.name} is seen in {rule}. {levels}." if seen else ""
+    remark = f"Oil levels of this study at which the loss of {first.name} is seen in {rule}. {levels}." if seen else ""
     step = NEXT if result.detections else "`--scatter 100` shows in how many of 100 cars the loss is seen."
     lost = all(not entry.condition.gas_preload for entry in result.entries if entry.condition.oil_level < 1.0)
     caption = f"Figure of each method at each oil level{', below 100 % without gas preload' if lost else ''}."

@@ -13,6 +13,7 @@ from twintube.report.inspection import tiring
 from twintube.vehicle.cars import CarSet, axle
 
 EVERY_WAY = " whatever freed gas does"
+NOWHERE = "at none of these oil levels"
 
 
 @dataclass(frozen=True)
@@ -121,23 +122,26 @@ def never_judged(result: Inspection, damper: Damper, method: Method) -> bool:
 
 
 def seen_in_words(result: Inspection, damper: Damper, method: Method) -> str:
-    """From which oil level on a method sees the loss, and under which ways from another one."""
+    """At which of the oil levels a method sees the loss, and under which ways at others."""
     if never_judged(result, damper, method):
-        return "none, as it does not judge this damper"
+        return "at none, as it does not judge this damper"
     if method.name == "tiring":
         levels = {name: seen_at(result, damper, method, name) for name in result.ways}
-        return by_way({name: listed(f"{x:.0%}" for x in at) if at else "not seen" for name, at in levels.items()})
-    return by_way({name: share_or(level, "not seen") for name, level in seen_under(result, damper, method).items()})
+        return by_way({name: f"at {listed(f'{x:.0%}' for x in at)}" if at else NOWHERE for name, at in levels.items()})
+    return by_way({name: down_from(result, level) for name, level in seen_under(result, damper, method).items()})
 
 
 def factor_seen(result: Inspection, damper: Damper, method: Method) -> str:
-    """From which oil level on a method sees the scalar factor."""
-    return share_or(first_seen(result.detections, damper.name, method.name, scalar=True), "not seen")
+    """At which of the oil levels a method sees the scalar factor."""
+    return down_from(result, first_seen(result.detections, damper.name, method.name, scalar=True))
 
 
-def share_or(level: float | None, otherwise: str) -> str:
-    """An oil level as text."""
-    return otherwise if level is None else f"{level:.0%}"
+def down_from(result: Inspection, level: float | None) -> str:
+    """The oil levels from one on down, in words; no level but those of the study."""
+    if level is None:
+        return NOWHERE
+    lowest = min(d.condition.oil_level for d in result.detections)
+    return f"at {level:.0%}" if level == lowest else f"from {level:.0%} down to {lowest:.0%}"
 
 
 def passed_down_to(result: Inspection, damper: Damper, freed_gas: str) -> float | None:
@@ -161,8 +165,14 @@ def sentence(result: Inspection, damper: Damper) -> str:
     names = "every method" if len(result.methods) > 1 else result.methods[0].title
     names += "".join(f" but {title}, which does not judge it," for title, holds in never.items() if holds)
     levels = {freed_gas: passed_down_to(result, damper, freed_gas) for freed_gas in result.ways}
-    texts = {name: "at none of these oil levels" if x is None else f"down to {x:.0%} oil" for name, x in levels.items()}
-    return f"{damper.name} passes {names} {by_way(texts)}."
+    texts = {name: NOWHERE if x is None else f"at all of these oil levels down to {x:.0%}" for name, x in levels.items()}
+    return f"{damper.name} passes {names} {by_way(texts)}{gas(result)}."
+
+
+def gas(result: Inspection) -> str:
+    """Whether the preload is lost in the dampers that have lost oil; empty where none has."""
+    worn = [entry.condition.gas_preload for entry in result.entries if entry.condition.oil_level < 1.0]
+    return "" if not worn else f" (below 100% its gas preload is {'kept' if all(worn) else 'lost'})"
 
 
 def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
@@ -194,7 +204,7 @@ def terminal(result: Inspection) -> str:
             f"{damper.name}, {axle(damper)} corner of {result.vehicle.name}; in brackets the oil level as a scalar factor"
             + ("; [ ]: from way to way" if len(result.ways) > 1 else "")
         )
-        head = ["oil", "preload", *(m.name for m in result.methods)]
+        head = ["oil", "preload", *(f"{m.name} [{m.unit or 1}]" for m in result.methods)]
         rows = [head, *figure_rows(result, damper)]
         widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
         lines += ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
@@ -204,6 +214,5 @@ def terminal(result: Inspection) -> str:
             for m in result.methods:
                 seen, factor = seen_in_words(result, damper, m), factor_seen(result, damper, m)
                 text = f"{SEEN:.0%} detected at {FALSE_ALARMS:.0%} false alarms"
-                place = "at" if m.name == "tiring" else "from"
-                lines.append(f"{m.name}: {text} {place} oil level {seen} (scalar factor: {factor})")
+                lines.append(f"{m.name}: {text} {seen} (scalar factor: {factor})")
     return "\n".join(lines)

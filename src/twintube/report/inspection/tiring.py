@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from twintube.dampers import Damper
 from twintube.inspection import INTACT, Condition, Entry
 from twintube.inspection.benches import DT
-from twintube.inspection.scatter import FADE
+from twintube.inspection.scatter import FADE, HEAT
 from twintube.inspection.tiring import CYCLES, FREQUENCY, HOLD, LIMIT, REST, Tired, returned, twice
 from twintube.inspection.watched import says
 from twintube.report.common import style
@@ -134,7 +134,8 @@ def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[
     text = [
         f"The plate shakes the wheel for {HOLD:g} s. A weak curve or a stiff tyre answers every cycle alike; oil loss frees "
         f"gas in every fast stroke, and the damper tires. Fails above {LIMIT:g}, more than the heat of the run does to an "
-        f"intact damper. Then the plate stands for {REST:g} s and runs again: gas dissolves, heat stays. ",
+        f"intact damper whose force fades by {100 * HEAT.low:.1f} to {100 * HEAT.high:.1f} % per kelvin. Then the plate "
+        f"stands for {REST:g} s and runs again: gas dissolves, heat stays.",
         BLIND,
         RESTS_ON,
     ]
