@@ -44,7 +44,7 @@ const TOUR = [
     title: "Between 60 and 40 % of the oil the damper fails",
     state: { damper: "SA8", oil: 40, velocity: 0.524 },
     text:
-      "Below the velocity at which the oil cavitates, 60 % of the oil are nearly enough, and with 40 % next to nothing is " +
+      "Without preload, below the velocity at which the oil cavitates, 60 % of the oil are nearly enough, and with 40 % next to nothing is " +
       "left (Figure 34, Discussion). Move the oil level and see.",
     figures: (result, other) =>
       `Oscillation 19 does ${percent(lastOf(other({ oil: 60 })))} of the intact work with 60 % of the oil, ` +
