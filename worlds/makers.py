@@ -12,7 +12,7 @@ from worlds import challenge, workshop
 from worlds.bench.files import told, write_truth
 from worlds.blind_trials import trials
 from worlds.identified import identify_first
-from worlds.imperfect import World, before_after, unknown_fill, write
+from worlds.imperfect import World, before_after, tared_cell, unknown_fill, write
 from worlds.other_physics import virtual_rig
 from worlds.scoring.truth import TruthError, truth_of
 
@@ -70,6 +70,7 @@ def blind_trials(seed: int, folder: Path) -> None:
 
 WORLDS: Final[dict[str, Callable[[int, Path], object]]] = {
     "unknown_fill": partial(made, unknown_fill),
+    "tared_cell": partial(made, tared_cell),
     "before_after": partial(made, before_after),
     "before_after_identified": partial(identified, "before_after_identified", before_after),
     "virtual_rig": partial(identified, "virtual_rig", virtual_rig),

@@ -3,9 +3,9 @@
 law     the damper's own law: the product's kernel for oil and gas, own valves, friction and lag around it
 bench   what the operator drives, and what load cell and stroke sensor make of it
 causes  what may have changed between two days, with ranges of practice and where these come from
-world   the two worlds: `unknown_fill` and `before_after`
+world   the worlds: `unknown_fill`, `tared_cell` and `before_after`
 """
 
-from worlds.imperfect.world import World, before_after, unknown_fill, write
+from worlds.imperfect.world import World, before_after, tared_cell, unknown_fill, write
 
-__all__ = ["World", "before_after", "unknown_fill", "write"]
+__all__ = ["World", "before_after", "tared_cell", "unknown_fill", "write"]

@@ -1,4 +1,4 @@
-"""The two worlds: one state with unknown fill, and a damper before and after something happened, or nothing."""
+"""The worlds: one state with unknown fill, its load cell tared or not; before and after something happened, or nothing."""
 
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from twintube.dampers import names
+from twintube.dampers import load, names
 from worlds.bench.files import FORCE, LAYOUTS, STROKE, TIME, write_dataset, write_truth
 from worlds.bench.plan import RNG, chance
 from worlds.imperfect.bench import AMPLITUDES, SPEEDS, Bench, Fault, Test, draw_bench, road, sine, triangle
@@ -19,6 +19,7 @@ STYLES: Final = ("csv", "german", "machine")  # layouts of the recorder
 UNCHANGED: Final = 0.4  # share of before_after in which nothing happened
 STATED_WRONGLY: Final = 1 / 3  # share of the unknown fills that the operator calls full with preload
 MOST_RECORDS: Final = 8
+FILLED: Final = 0.05  # of the gas force: filling tolerance and temperature
 LEVEL_STEP: Final = 0.03  # of the oil, both ways: where this shows, an interval of 0.1 is no feat
 IDENTIFYING: Final = (0.05, 0.131, 0.262, 0.524, 0.786, 1.048, 1.572)
 
@@ -95,6 +96,16 @@ def unknown_fill(seed: int) -> World:
     if not wrong:  # of a fill that nobody has stated, the state and "nothing has changed" are the same answer
         told["also_fits"] = ["none" if told["kind"] == "state" else "state"]
     return World(name, bench, (wrong, wrong), recordings, told | {"stated_as_full": wrong})
+
+
+def tared_cell(seed: int) -> World:
+    """As `unknown_fill`, on a load cell that was set to zero with the damper in it, at rest in the middle."""
+    world, rng = unknown_fill(seed), np.random.default_rng([seed, 3])
+    p = load(world.damper).parameters
+    gas = p.F_0 * rng.normal(1.0, FILLED) if world.truth["gas_preload"] else 0.0
+    read = p.F_FrS * rng.uniform(-1.0, 1.0) - gas
+    recordings = [replace(item, force=item.force - read) for item in world.recordings]
+    return replace(world, recordings=recordings, truth=world.truth | {"world": "tared_cell", "zero_N": -read})
 
 
 def before_after(seed: int) -> World:

@@ -8,7 +8,10 @@ from twintube.diagnosis.problem import Free, Problem
 from twintube.diagnosis.records.seen import BENDS, CLOCK, INERTIA, STROKE_GAIN, TIME_BASE
 from twintube.diagnosis.rules import RULES
 
+TARED = "tared_cell"  # set to zero with the damper in it
+
 FAULT_TITLES = {
+    TARED: "Load cell set to zero with the damper in it",
     "force_offset": "Zero of the load cell",
     "force_gain": "Calibration of the force channel",
     "channel_delay": "Delay between the channels",

@@ -16,6 +16,7 @@ from twintube.common.arrays import Array
 from twintube.common.showing import data_frame, picture
 from twintube.dampers import Damper
 from twintube.data import LoadedDataset, Record, has_reference, load_dataset
+from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.measurement.edges import with_edges
 from twintube.diagnosis.measurement.faults import Fault, read
 from twintube.diagnosis.problem import Problem
@@ -28,7 +29,7 @@ from twintube.evidence.heldout import HeldOut, contradicted, held_out
 from twintube.evidence.numbers import NUMBERS
 from twintube.evidence.search import Found
 from twintube.evidence.sizes import Sizes, chance_of_more
-from twintube.evidence.state import Stated, StatePosterior, state
+from twintube.evidence.state import Stated, StatePosterior, rather_tared, state
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -63,6 +64,7 @@ class StateAnswer:
             "as_stated": round(p.as_stated, 6) if self.stated.anything else None,
             "oil_level": {"value": round(p.level, 4), "interval": [round(x, 4) for x in p.interval()]},
             "gas_lost": round(p.gas_lost, 6),
+            TARED: round(p.tared, 6),
         }
 
     def row(self) -> dict[str, Any]:
@@ -70,7 +72,7 @@ class StateAnswer:
         low, high = self.posterior.interval()
         level, lost = self.posterior.level, self.posterior.gas_lost
         return {"state": self.state, "records": len(self.records), "oil_level": level, "low": low, "high": high,
-                "gas_lost": lost}  # fmt: skip
+                "gas_lost": lost, TARED: self.posterior.tared}  # fmt: skip
 
 
 @dataclass(frozen=True, repr=False)
@@ -89,6 +91,16 @@ class Answer:
     compared: bool  # with a reference
     measured: Measured | None  # None where the bench was not looked at
     seconds: float
+    tared: tuple[str, ...] = ()  # records of the reference whose load cell was set to zero with the damper in it
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What else was put right or is missing, each as a sentence without its full stop."""
+        known = () if self.measured is None else self.measured.remarks
+        if not self.tared:
+            return known
+        names = ", ".join(self.tared)
+        return (*known, f"{names}: the load cell was set to zero with the damper in it; its gas force was put back")
 
     @property
     def verdict(self) -> str:
@@ -284,20 +296,27 @@ def explains(answer: Answer) -> bool:
 def compared_with_reference(dataset: LoadedDataset, progress: Progress) -> Answer:
     """What has happened since the reference."""
     bench = Bench(dataset.damper, prepare(dataset))
-    several = []
+    several: list[StateAnswer] = []
+    tared: list[str] = []
     # A reference is as its file says; what is unknown of it is found first.
     for own in sorted(fillings(dataset.records), key=lambda own: not own[0].reference):
-        if own[0].reference and not own[0].unknown:
-            continue
-        several.append(state_of(bench, dataset.records, own, progress))
         which = np.array([record.state == own[0].state for record in dataset.records])
-        bench.in_state(which, *several[-1].posterior.best)
+        if own[0].reference and not own[0].unknown:
+            level, preload, *_ = bench.states[which][0]
+            best = int(preload), float(level), rather_tared(bench, which)
+        else:
+            several.append(state_of(bench, dataset.records, own, progress))
+            best = several[-1].posterior.best
+        bench.in_state(which, *best)
+        if own[0].reference and best[0] and best[2]:
+            tared += [record.name for record in own]
     bench.with_edges(edges(bench))
     times = zip(dataset.records, bench.records, strict=True)
     acting = np.concatenate([~in_reference(record, r.time) for record, r in times])
     later = {record.name for record in dataset.records if not record.reference}
     told = [one for one in several if one.records[0] in later]
-    return concluded(dataset, dataset.records, bench, acting, several=several, told=told, measured=None, progress=progress)
+    known = concluded(dataset, dataset.records, bench, acting, several=several, told=told, measured=None, progress=progress)
+    return replace(known, tared=tuple(tared))
 
 
 def edges(bench: Bench) -> list[Array]:
@@ -326,8 +345,9 @@ def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress) -> A
     records = [record for record in dataset.records if record.name not in measured.odd]
     several = [state_of(bench, records, own, progress) for own in fillings(records)]
     for one in several:
-        if one.posterior.rather_misstated:
-            bench.in_state(np.array([record.state == one.state for record in records]), *one.posterior.best)
+        preload, level, tared = one.posterior.best
+        if one.posterior.rather_misstated or tared:
+            bench.in_state(np.array([record.state == one.state for record in records]), preload, level, tared)
     acting = np.ones(len(bench.z), dtype=bool)
     return concluded(dataset, records, bench, acting, several=several, told=several, measured=measured, progress=progress)
 
@@ -344,7 +364,8 @@ def concluded(
     progress: Progress,
 ) -> Answer:
     """The probability of everything in the samples `acting` (n,), where the states `told` may be others than stated."""
-    result = changes(bench, acting, [one.posterior for one in told if one.stated.anything], progress)
+    stated = [one.posterior for one in told if one.stated.anything]
+    result = changes(bench, acting, stated, [one.posterior.tared_as_stated for one in told], progress)
     progress("predicting records that were left out")
     alone = result.hypotheses[0].found if len(result.credible) == 1 else None
     left_out = held_out(result, alone)

@@ -52,8 +52,11 @@ def slopes_of(bench: Bench, joint: Mechanism, at: Array) -> Array:
 
 
 def set_up(bench: Bench, acting: Array) -> Array:
-    """What the samples `acting` (n,) have of their own day: zero, gain, temperature; (n, 3) [N] of size one."""
+    """What the samples `acting` (n,) have of their own day: zero, gain, temperature; (n, 3) [N] of size one.
+
+    Besides, what a cell that was set to zero with the damper in it read of friction.
+    """
     force, n = bench.forces({}), NUMBERS
     fluid = bench.fluid(force, bench.full(bench.states)[1], bench.states)
     day = np.column_stack([np.full(len(force), n.zero * bench.peak), n.gain * force, n.begun * fluid])
-    return np.asarray(acting[:, None] * day)
+    return np.hstack([acting[:, None] * day, bench.days])

@@ -47,6 +47,7 @@ class Bench(SeenRecords):
         self.zero = max(NUMBERS.zero * self.peak, drift)
         self.slices = [slice(a, b) for a, b in zip(self.starts[:-1], self.starts[1:], strict=True)]
         self.noisy(np.concatenate([r.noise for r in records]))
+        self.days = np.zeros((len(self.z), 0))  # [N] friction, each time the cell was set to zero with the damper in it
         self.fulls: dict[bytes, tuple[Array, Array, Array]] = {}
         self.law: Discrepancy = discrepancy(self.v, float(np.abs(self.z).max()), FLOOR * self.peak)
         p = self.damper.parameters
@@ -75,10 +76,29 @@ class Bench(SeenRecords):
         """Simulate with these values where no others are given."""
         self.usual = dict(values)
 
-    def in_state(self, which: NDArray[np.bool_], preload: int, oil_level: float) -> None:
-        """Let the records `which` (r,) be in a state."""
+    def in_state(self, which: NDArray[np.bool_], preload: int, oil_level: float, tared: bool) -> None:
+        """Let the records `which` (r,) be in a state, and put right a load cell that was `tared`."""
         self.states[which, 0], self.states[which, 1] = oil_level, preload
+        if tared:
+            self.measured, friction = self.tared(self.measured, which, preload).T
+            self.days = np.column_stack([self.days, friction])
         self.simulated = lru_cache(REMEMBERED)(self.simulate)
+
+    @property
+    def at_rest(self) -> tuple[float, float]:
+        """By how much [N] the gas pushes out the rod of a damper at rest, and the standard deviation [N] of its friction."""
+        return self.damper.parameters.F_0, 2.0 * UNIFORM * self.damper.parameters.F_FrS
+
+    def tared(self, errors: Array, which: NDArray[np.bool_], preload: int | Array) -> Array:
+        """Errors (n,) [N] where the cell was set to zero with the damper in it, in the records `which` (r,); (n, 2).
+
+        What it read then is lost: the force of the gas, and friction, which at rest is anywhere between its limits. The
+        second column is the latter, of size one.
+        """
+        gas, friction = self.at_rest
+        inside = np.repeat(which, np.diff(self.starts))
+        pressed = np.repeat(preload * self.states[:, 2], np.diff(self.starts))
+        return np.column_stack([errors - gas * pressed * inside, friction * inside])
 
     def with_states(self, states: Array) -> Array:
         """Forces (n,) [N] of the records in other states (r, 4), measurement included."""

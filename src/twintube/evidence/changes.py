@@ -1,7 +1,8 @@
 """What has happened since the reference, or what the model lacks: the probability of every hypothesis.
 
 `none` is the model with its own error; what always acts belongs to it. `state` is another fill than stated, `unknown` a free
-change of the model's error. All others are mechanisms. The verdict follows from these probabilities alone.
+change of the model's error. `tared_cell` is `none` with a load cell that was set to zero with the damper in it, as likely as
+the state has it. All others are mechanisms. The verdict follows from these probabilities alone.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -13,6 +14,7 @@ from scipy.optimize import lsq_linear
 from scipy.stats import norm
 
 from twintube.common.arrays import Array
+from twintube.diagnosis.channels import TARED
 from twintube.evidence.base import Base
 from twintube.evidence.bench import CHANNELS, Bench
 from twintube.evidence.mechanisms import Mechanism, both, effects, faults, unit_of
@@ -23,6 +25,7 @@ from twintube.evidence.state import StatePosterior
 NONE, STATE, UNKNOWN = "none", "state", "unknown"
 MOST = 6  # mechanisms of a base
 PAIRED = 5  # the most likely mechanisms, of which two may act at once
+LEAST = 1e-12  # probability, for a logarithm; numerics
 WORTH = 1.0  # logarithm of the odds from which a change is compared with what always acts; numerics
 
 
@@ -60,11 +63,16 @@ def mechanisms(bench: Bench) -> list[Mechanism]:
 
 
 def changes(
-    bench: Bench, acting: Array, stated: Sequence[StatePosterior], progress: Callable[[str], None] = lambda text: None
+    bench: Bench,
+    acting: Array,
+    stated: Sequence[StatePosterior],
+    tared: Sequence[float] = (),
+    progress: Callable[[str], None] = lambda text: None,
 ) -> Changes:
     """The probability of all hypotheses about the samples `acting` (n,); the others are the reference.
 
-    `stated` are the states of those records whose file states them.
+    `stated` are the states of those records whose file states them, `tared` the probabilities that the load cell was set to
+    zero with the damper in it, in each state that is as its file says.
     """
     catalogue = mechanisms(bench)
     names = list(dict.fromkeys(m.effect for m in catalogue))
@@ -103,15 +111,20 @@ def changes(
     for name in (NONE, STATE):
         if name in log_p:
             log_p[name] += with_slight
-            evidence[name] += with_slight
+    if tared:
+        right = float(np.prod(1.0 - np.clip(tared, LEAST, 1.0 - LEAST)))
+        log_p[TARED] = log_p[NONE] + float(np.log(1.0 - right))
+        log_p[NONE] += float(np.log(right))
+    prior = priors(singles, list(log_p))
     total = float(np.logaddexp.reduce(list(log_p.values())))
     offset = log_p[NONE] - float(np.log(prior[NONE]))  # so that probability is prior times evidence for each
     several = []
-    for name, z in evidence.items():
+    for name, z in log_p.items():
         own = [f for m, f in found.items() if m.effect == name]
-        kind = own[0].mechanism.kind if own else name
+        kind = own[0].mechanism.kind if own else "fault" if name == TARED else name
         best = max(own, key=weight) if own else None
-        several.append(Hypothesis(name, kind, 0.0 if name == NONE else z - offset, float(np.exp(log_p[name] - total)), best))
+        log_evidence = z - float(np.log(prior[name])) - offset
+        several.append(Hypothesis(name, kind, log_evidence, float(np.exp(z - total)), best))
     return Changes(tuple(sorted(several, key=lambda h: -h.probability)), tuple(base.mechanisms), search)
 
 
@@ -201,8 +214,9 @@ def free(search: Search) -> float:
 def priors(names: Sequence[str], asked: Sequence[str]) -> dict[str, float]:
     """Prior probability of each hypothesis; `names` are single mechanisms, others that are not known are two of them."""
     n = NUMBERS
-    out = {NONE: n.unchanged, UNKNOWN: n.other, STATE: n.misstated}
-    rest = 1.0 - sum(out.values())
+    rest = 1.0 - n.unchanged - n.other - n.misstated
+    tared = n.tared if TARED in asked else 0.0  # of what is else as it was
+    out = {NONE: (1.0 - tared) * n.unchanged, TARED: tared * n.unchanged, UNKNOWN: n.other, STATE: n.misstated}
     one = (1.0 - n.two) * rest / len(names)
     two = n.two * rest / comb(len(names), 2)
     return {name: out.get(name, one if name in names else two) for name in asked}

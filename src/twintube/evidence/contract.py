@@ -4,8 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.measurement.faults import Fault
 from twintube.evidence.answer import Answer
+from twintube.evidence.bench import Bench
 from twintube.evidence.changes import NONE, Hypothesis
 from twintube.evidence.heldout import HeldOut
 from twintube.evidence.mechanisms import Mechanism, unit_of
@@ -29,11 +31,12 @@ def as_json(answer: Answer) -> dict[str, Any]:
             "causes": [
                 *map(faulty, answer.faults),
                 *(c for f in found for c in causes(f, answer.held_out)),
+                *(tared(answer.changes.search.bench) for h in answer.named if h.name == TARED and not answer.unexplained),
             ],
             "always": [m.effect for m in answer.changes.base],
             "left_out": list(answer.measured.odd) if answer.measured is not None else [],
             "held_out": [vars(h) for h in answer.held_out],
-            "remarks": list(answer.measured.remarks) if answer.measured is not None else [],
+            "remarks": list(answer.remarks),
         }
     return content | {"seconds": round(answer.seconds, 1)}
 
@@ -70,6 +73,17 @@ def cause(m: Mechanism, found: Found) -> dict[str, Any]:
         x, half = found.values[s.name], HALF * found.spread[s.name]
         values[s.name] = {"value": x, "interval": [x - half, x + half], "unit": unit_of(s.name)}
     return {"effect": m.effect, "way": m.way, "parameters": values}
+
+
+def tared(bench: Bench) -> dict[str, Any]:
+    """A load cell that was set to zero with the damper in it: the zero that this makes, to friction."""
+    zero, friction = bench.at_rest
+    interval = [zero - HALF * friction, zero + HALF * friction]
+    return {
+        "effect": TARED,
+        "way": TARED,
+        "parameters": {"force_offset": {"value": zero, "interval": interval, "unit": "N"}},
+    }
 
 
 def gained(held_out: tuple[HeldOut, ...]) -> float | None:

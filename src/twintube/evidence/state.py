@@ -1,4 +1,8 @@
-"""State of a damper: oil level with an interval, gas preload there or lost, from records of which nobody knows it."""
+"""State of a damper: oil level with an interval, gas preload there or lost, from records of which nobody knows it.
+
+A load cell that was set to zero with the damper in it lacks the force of the gas, as if the preload were lost. What tells
+them apart is the rest of the gas: its stiffness, and that a damper without preload cavitates.
+"""
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
@@ -30,6 +34,7 @@ SHOWN = 0.0025  # step of the oil level in the answer
 WIDEST = 4.0  # standard deviations of the tolerance
 ENOUGH = 8.0  # logarithm of the odds below which a cell of the grid is not refined
 EVEN = 0.5  # probability of the one and the other
+LOST, THERE, TARED = range(3)  # rows of the probability
 
 
 @dataclass(frozen=True)
@@ -49,14 +54,42 @@ NOTHING = Stated()
 
 
 @dataclass(frozen=True)
+class Zeroed:
+    """Evidence of a state, where the zero of the load cell is right, and where it was set with the damper in it."""
+
+    right: Evidence
+    tared: Evidence
+
+    @property
+    def log_z(self) -> float:
+        """Of both, as likely as they are before the records."""
+        return float(np.logaddexp(self.right.log_z + log_share(False), self.tared.log_z + log_share(True)))
+
+    @property
+    def rather_tared(self) -> bool:
+        """Whether the latter is likelier."""
+        return self.tared.log_z + log_share(True) > self.right.log_z + log_share(False)
+
+
+def log_share(tared: bool) -> float:
+    """Logarithm of the probability that the load cell was set to zero with the damper in it, or was not."""
+    return float(np.log(NUMBERS.tared if tared else 1.0 - NUMBERS.tared))
+
+
+@dataclass(frozen=True)
 class StatePosterior:
-    """Probability over oil level (l,) and preload (0 lost, 1 there): (2, l), summing to 1."""
+    """Probability over oil level (l,) and gas: (3, l), summing to 1.
+
+    The preload is lost, there, or there and missing in the records, as the load cell was set to zero with the damper in it.
+    """
 
     levels: Array
     probability: Array
     evidence: Evidence  # of the state below
-    best: tuple[int, float]  # preload and level of the grid that fit best, within the tolerance of what a file says
+    # Preload, level, and whether the cell was set to zero with the damper in it, that fit best, within what a file says.
+    best: tuple[int, float, bool]
     log_odds_stated: float  # evidence of what a file says, to the tolerance of a fill, over that of any state
+    tared_as_stated: float  # probability that the load cell was set to zero with the damper in it, where the file is right
 
     @property
     def as_stated(self) -> float:
@@ -71,12 +104,12 @@ class StatePosterior:
     @property
     def gas_lost(self) -> float:
         """Probability that the preload is lost."""
-        return float(self.probability[0].sum())
+        return float(self.probability[LOST].sum())
 
     @property
-    def rather_lost(self) -> bool:
-        """Whether the preload is more likely lost than there."""
-        return self.gas_lost > EVEN
+    def tared(self) -> float:
+        """Probability that the preload is there, and the load cell was set to zero with the damper in it."""
+        return float(self.probability[TARED].sum())
 
     def interval(self, share: float = 0.9) -> tuple[float, float]:
         """The shortest interval of the oil level [1] that holds a `share` of the probability."""
@@ -95,7 +128,7 @@ class StatePosterior:
         return float(np.interp(0.5, np.cumsum(self.probability.sum(axis=0)), self.levels))
 
 
-def between(found: dict[tuple[int, float], Evidence]) -> list[tuple[int, float]]:
+def between(found: Mapping[tuple[int, float], Zeroed]) -> list[tuple[int, float]]:
     """The middles of cells in which the evidence changes, near its largest: what a sum over the grid still asks for."""
     top = max(e.log_z for e in found.values())
     wanted = []
@@ -133,17 +166,22 @@ def state(
         states = bench.states.copy()
         states[mine, 0], states[mine, 1] = key[1], key[0]
         force = bench.with_states(states)
-        return Frame(bench, states, steps(bench, force, states, mine, cell), used=used), bench.measured - force
+        step = steps(bench, force, states, mine, cell)
+        return Frame(bench, states, step, bench.days, used), bench.measured - force
 
     def sketched(key: tuple[int, float]) -> float:
         """Evidence at some sizes: what a state far off has is far less."""
         here, errors = frame(key)
-        white = {i: here.whitened(errors[:, None], i) for i in {sizes.lasting_at for sizes in SKETCHED}}
-        return max(here.log_z(here.reduced(white[sizes.lasting_at], sizes), sizes) for sizes in SKETCHED)
+        found = []
+        for values in (errors[:, None], bench.tared(errors, mine, key[0])):
+            white = {i: here.whitened(values, i) for i in {sizes.lasting_at for sizes in SKETCHED}}
+            found += [here.log_z(here.reduced(white[sizes.lasting_at], sizes), sizes) for sizes in SKETCHED]
+        return max(found)
 
-    def evidence(key: tuple[int, float]) -> Evidence:
+    def evidence(key: tuple[int, float]) -> Zeroed:
         here, errors = frame(key, FINE)
-        return here.evidence(errors, ROUGH, BOUNDED)
+        right = here.evidence(errors, ROUGH, BOUNDED)
+        return Zeroed(right, here.evidence(bench.tared(errors, mine, key[0]), right.sizes, BOUNDED))
 
     levels_tried = np.arange(1.0, NUMBERS.level_low - 1e-9, -COARSE)
     coarse = [(gas, round(float(x), 5)) for gas in (1, 0) for x in levels_tried]
@@ -173,26 +211,43 @@ def state(
     return posterior(found, stated)
 
 
-def posterior(found: Mapping[tuple[int, float], Evidence], stated: Stated = NOTHING) -> StatePosterior:
+def rather_tared(bench: Bench, which: NDArray[np.bool_]) -> bool:
+    """Whether the load cell was rather set to zero with the damper in it, in records (r,) that are as their file says."""
+    errors = bench.measured - bench.with_states(bench.states)
+    frame = Frame(bench, bench.states, used=bench.once() & np.repeat(which, np.diff(bench.starts)))
+    several = Zeroed(frame.evidence(errors), frame.evidence(bench.tared(errors, which, bench.states[:, 1])))
+    return several.rather_tared
+
+
+def posterior(found: Mapping[tuple[int, float], Zeroed], stated: Stated = NOTHING) -> StatePosterior:
     """Probabilities from the evidence of preload and oil level, and from what a file says of them."""
     fine = np.arange(NUMBERS.level_low, 1.0 + 1e-9, SHOWN)
     # What the force tells is the level to a tolerance: geometry and fill of a damper are no better known.
     wide = WIDEST * NUMBERS.level_tolerance
     read = np.arange(fine[0] - wide, fine[-1] + wide, SHOWN / 2.0)
     tolerance = norm.logpdf(read, fine[:, None], NUMBERS.level_tolerance) + np.log(SHOWN / 2.0)
-    floor = min(e.log_z for e in found.values())
-    log_likelihood = np.empty((2, len(fine)))
-    for gas in (0, 1):
+
+    def likelihood(gas: int, of: Callable[[Zeroed], float]) -> Array:
+        """Logarithm (l,) of the probability of the records."""
         known = [x for g, x in sorted(found) if g == gas]
         # A level that was not looked at has the evidence of the line between its neighbours.
-        at = np.interp(read, known, [found[gas, x].log_z for x in known], left=floor)
-        log_likelihood[gas] = logsumexp(tolerance + at, axis=1)
-    free, as_stated = (log_prior(fine, some) + log_likelihood for some in (NOTHING, stated))
+        at = np.interp(read, known, [of(found[gas, x]) for x in known], left=min(of(z) for z in found.values()))
+        return np.asarray(logsumexp(tolerance + at, axis=1))
+
+    log_likelihood = np.array([
+        likelihood(0, lambda z: z.log_z),
+        likelihood(1, lambda z: z.right.log_z + log_share(False)),
+        likelihood(1, lambda z: z.tared.log_z + log_share(True)),
+    ])  # fmt: skip
+    free, as_stated = (log_prior(fine, some)[[0, 1, 1]] + log_likelihood for some in (NOTHING, stated))
     said = 1.0 - NUMBERS.misstated if stated.anything else 0.0
     both = logsumexp([free, as_stated], axis=0, b=[[[1.0 - said]], [[said]]])
     best = max(found, key=lambda key: found[key].log_z + fitting(key, stated))
-    probability = np.exp(both - logsumexp(both))
-    return StatePosterior(fine, probability, found[best], best, float(logsumexp(as_stated) - logsumexp(free)))
+    known, tared = found[best], found[best].rather_tared
+    probability, right = (np.exp(x - logsumexp(x)) for x in (both, as_stated))
+    odds = float(logsumexp(as_stated) - logsumexp(free))
+    share = float(right[TARED].sum())
+    return StatePosterior(fine, probability, known.tared if tared else known.right, (*best, tared), odds, share)
 
 
 def fitting(key: tuple[int, float], stated: Stated) -> float:

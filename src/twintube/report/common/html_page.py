@@ -110,6 +110,7 @@ class Section:
     notes: Sequence[tuple[str, str]] = ()  # name and text, below the findings
     items: Sequence[str] = ()  # a list below the text
     live: str = ""  # HTML of `report.live`
+    open: bool = False  # not folded, below a headline
 
     @property
     def mark(self) -> str:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from twintube.common.readable import amount
 from twintube.common.words import listed, lower
 from twintube.core.effects import EFFECTS
+from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.measurement.faults import BOTH_SIGNS
 from twintube.evidence import Answer
 from twintube.evidence.changes import NONE, STATE, UNKNOWN, Hypothesis
@@ -23,6 +24,7 @@ from twintube.report.diagnosis.repairs import BADGES, REPAIRS
 from twintube.report.diagnosis.state import badge as state_badge
 from twintube.report.diagnosis.state import sentence as state_sentence
 from twintube.report.diagnosis.state import sentences as state_sentences
+from twintube.report.diagnosis.state import undecided
 
 PICTURE = "changes.png"
 SHOWN = 8  # hypotheses of the picture
@@ -99,9 +101,12 @@ def worth(answer: Answer) -> str:
 def next_step(answer: Answer) -> str:
     """What to do next."""
     first = answer.named[0]
+    unread = TARED in [h.name for h in answer.named] or any(undecided(one.posterior) for one in answer.asked)
     steps = [REPAIRS[BOTH_SIGNS if fault.title == BOTH_SIGNS else fault.effect] for fault in answer.faults]
     if answer.unexplained:
         steps.append("look at the rig and at where the error is")
+    elif unread:
+        steps.append(REPAIRS[TARED])
     elif len(answer.named) > 1:
         decides = [EFFECTS[name].decides for h in answer.named for name in h.name.split("+") if name in EFFECTS]
         steps.append(f"what would decide: {decides[0]}" if decides else "repeat the records, at more velocities")
@@ -121,7 +126,8 @@ def next_step(answer: Answer) -> str:
 
 def lines(answer: Answer) -> list[str]:
     """The answer for the terminal."""
-    return [sentence(answer), next_step(answer)]
+    put_right = [f"{remark}." for remark in answer.remarks] if answer.tared else []
+    return [sentence(answer), *put_right, next_step(answer)]
 
 
 def headline(answer: Answer) -> Headline:
@@ -132,11 +138,11 @@ def headline(answer: Answer) -> Headline:
     elif answer.verdict == NONE and answer.compared:
         badge = "nothing has changed"
     step = next_step(answer).removeprefix("Next: ")
-    caption = "How likely each answer is (blue: these hold 90 %)"
-    if answer.unexplained:
-        caption = "None of these explains the records: how likely each would be if one of them were right"
     later = "later " if answer.compared else ""
+    caption = "How likely each answer is (blue: these hold 90 %)"
     caption += f", and the error of each {later}record, predicted from all other records." if gained(answer) else "."
+    if answer.unexplained:
+        caption = "The error of each record, predicted from all other records: no cause of the catalogue takes it away."
     drawn = Picture.drawn(lambda narrow: picture(answer, narrow), caption)
     text = " ".join([*state_sentences(answer.asked), sentence(answer)])
     return Headline(text, badge, mark, next=step[0].upper() + step[1:], picture=drawn)
@@ -145,6 +151,8 @@ def headline(answer: Answer) -> Headline:
 def picture(answer: Answer, narrow: bool = False) -> Figure:
     """Probabilities of the hypotheses, the largest first, and the errors that the first one takes away."""
     assert answer.changes is not None
+    if answer.unexplained:
+        return unexplained(answer, narrow)
     several = [h for h in answer.changes.hypotheses[:SHOWN] if h.probability >= LEAST]
     bars = [(name_of(h, answer), h.probability, h.name in answer.changes.credible) for h in several]
     bars.append(("Everything else", max(0.0, 1.0 - sum(h.probability for h in several)), False))
@@ -164,16 +172,25 @@ def picture(answer: Answer, narrow: bool = False) -> Figure:
     return figure
 
 
+def unexplained(answer: Answer, narrow: bool) -> Figure:
+    """What no hypothesis explains: how likely each would be if one were right says nothing of that."""
+    several = answer.held_out
+    figure, axes = style.grid(1, (9.0, max(2.4, 1.4 + 0.45 * len(several))), narrow, most=1)
+    errors(axes.flat[0], several, "with the nearest cause")
+    return figure
+
+
 def gained(answer: Answer) -> list[HeldOut]:
     """The records that say what a cause is worth."""
     return [h for h in answer.held_out if h.with_cause is not None]
 
 
-def errors(ax: Axes, several: Sequence[HeldOut]) -> None:
+def errors(ax: Axes, several: Sequence[HeldOut], with_cause: str = "with the cause") -> None:
     """Error of each record, without and with the cause, over its noise."""
     rows = np.arange(len(several))[::-1]
     ax.barh(rows, [h.without for h in several], 0.7, color=style.FAINT, label="without")
-    ax.barh(rows, [h.with_cause or 0.0 for h in several], 0.35, color=style.BLUE, label="with the cause")
+    if any(h.with_cause is not None for h in several):
+        ax.barh(rows, [h.with_cause or 0.0 for h in several], 0.35, color=style.BLUE, label=with_cause)
     ax.plot([h.noise for h in several], rows, "|", color=style.INK, ms=14, mew=2, label="noise")
     ax.set_yticks(rows, [style.plain(h.record) for h in several])
     ax.set_xlabel("force error, RMS [N]")
@@ -194,7 +211,8 @@ def rows_of(answer: Answer) -> list[Table]:
     ]
     nothing = lower(TITLES[answer.compared][NONE])
     caption = f"Log evidence: how much better it predicts all records than '{nothing}', whatever its strength is."
-    tables = [Table(("answer", "probability", "log evidence"), several, caption, (1, 2))]
+    likely = "probability, if one of them were right" if answer.unexplained else "probability"
+    tables = [Table(("answer", likely, "log evidence"), several, caption, (1, 2))]
     if answer.cause is not None:
         f = answer.cause
         rows = [[n, f"{x:.3g}", f"{f.spread[n]:.2g}", unit_of(n)] for n, x in f.values.items()]
@@ -221,5 +239,5 @@ def section(answer: Answer) -> Section:
     assert answer.changes is not None
     always = [title_of(m.effect) for m in answer.changes.base]
     text = [f"Always there, and no change: {listed(always, len(always))}."] if always else []
-    text += [f"{remark[0].upper()}{remark[1:]}." for remark in (answer.measured.remarks if answer.measured else ())]
+    text += [f"{remark[0].upper()}{remark[1:]}." for remark in answer.remarks]
     return Section("changes", "All answers and errors in numbers", text=text, tables=rows_of(answer))

@@ -5,7 +5,7 @@ from pathlib import Path
 from twintube.common.files import write_bytes, write_text
 from twintube.evidence import Answer
 from twintube.report.common.html_page import html
-from twintube.report.diagnosis import changes, loops, state
+from twintube.report.diagnosis import changes, limits, loops, state
 
 
 def lines(answer: Answer) -> list[str]:
@@ -19,10 +19,10 @@ def write_report(answer: Answer, folder: Path) -> None:
     """Write report.html and its picture."""
     if answer.changes is None:
         head, name = state.headline(answer.states), state.PICTURE
-        sections = [state.section(answer.states, [state.ASSUMED])]
+        sections = [limits.section(answer), state.section(answer.states)]
     else:
         head, name = changes.headline(answer), changes.PICTURE
-        sections = [loops.section(answer), changes.section(answer)]
+        sections = [limits.section(answer), loops.section(answer), changes.section(answer)]
         if answer.states:
             sections.append(state.section(answer.states, pictures=[state.drawn(answer.states)]))
     assert head.picture is not None, "both answers are drawn"

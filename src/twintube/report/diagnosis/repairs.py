@@ -1,5 +1,6 @@
 """Badges of the verdicts, and how a fault of the bench is put right."""
 
+from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.measurement.faults import BOTH_SIGNS
 
 BADGES = {  # verdict -> badge, class of the style sheet
@@ -17,6 +18,7 @@ REPAIRS = {
     "force_averaging": "record the force without this mean; here the model was seen through an equal mean",
     "odd_record": "look up damper, setting and fill of what is named, and correct dataset.toml or repeat the measurement",
     "force_offset": "read the load cell with the damper taken out, and set its zero",
+    TARED: "read the load cell with the damper taken out, and take what it reads then off every force",
     "force_gain": "check the load cell with a known weight, and correct its scale",
     "channel_delay": "record force and stroke at the same time, with equal filters",
     "stroke_gain": "check the stroke channel with a gauge block, and correct its scale",

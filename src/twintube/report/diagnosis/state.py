@@ -6,11 +6,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from twintube.common.words import listed
+from twintube.diagnosis.channels import TARED as TARED_CELL
 from twintube.evidence import StateAnswer
 from twintube.evidence.numbers import NUMBERS
+from twintube.evidence.state import LOST, TARED, THERE, StatePosterior
 from twintube.report.common import style
 from twintube.report.common.html_page import Headline, Picture, Section, Table
 from twintube.report.common.probabilities import chance
+from twintube.report.diagnosis.repairs import REPAIRS
 
 PICTURE = "state.png"
 SURE = 0.95  # probability from which a preload is said to be there or lost
@@ -20,26 +23,43 @@ NARROWER = (
     "Records in which the damper cavitates or foams tell the oil level: drive 40 mm and more at 1 m/s and faster. "
     "Where the oil fills both working chambers in every stroke, nothing in the force depends on how much is left."
 )
-ASSUMED = (
-    "The parameter set is taken to be that of this damper; its forces may be some per cent off. Another dead length (what "
-    "piston, valves and stops take of the tube) moves the level. Nothing else is looked for while the fill is unknown."
+MISSED = "and missing in the records: the load cell was set to zero with the damper in it"
+MAYBE_MISSED = "the load cell may have been set to zero with the damper in it"
+STACKED = (
+    (THERE, style.BLUE, "preload there"),
+    (TARED, style.ORANGE, "preload there, cell set to zero with it"),
+    (LOST, style.RED, "preload lost"),
 )
-CAPTION = "Probability of each oil level, stacked with and without gas preload. Grey: it lies there with 90 %."
+CAPTION = "Probability of each oil level, stacked by the state of the gas. Grey: it lies there with 90 %."
 
 
 def sentence(answer: StateAnswer) -> str:
     """What the records say of a state, in a sentence."""
     level, (low, high) = answer.posterior.level, answer.posterior.interval()
-    lost = answer.posterior.gas_lost
     if high - low > WIDE:
         oil = f"The damper holds {100 * low:.0f} to {100 * high:.0f} % of its oil; these records tell no more"
     else:
         oil = f"The damper holds {100 * level:.0f} % of its oil ({100 * low:.0f} to {100 * high:.0f} %)"
-    if SURE > lost > 1.0 - SURE:
-        gas = f"whether its gas preload is lost cannot be told ({chance(lost)})"
-    else:
-        gas = f"its gas preload is {'lost' if answer.posterior.rather_lost else 'there'} ({chance(max(lost, 1.0 - lost))})"
-    return f"{oil}; {gas}."
+    return f"{oil}; {gas(answer.posterior)}."
+
+
+def gas(posterior: StatePosterior) -> str:
+    """What the records say of the gas preload, as the end of a sentence."""
+    lost, tared = posterior.gas_lost, posterior.tared
+    if tared > SURE:
+        return f"its gas preload is there, {MISSED} ({chance(tared)})"
+    if lost > SURE or lost < 1.0 - SURE:
+        known = f"its gas preload is {'lost' if lost > SURE else 'there'} ({chance(max(lost, 1.0 - lost))})"
+        return f"{known}; {MAYBE_MISSED} ({chance(tared)})" if tared > 1.0 - SURE else known
+    if undecided(posterior):
+        other = f"a load cell set to zero with the damper in it ({chance(tared)})"
+        return f"these records cannot tell a lost gas preload ({chance(lost)}) from {other}"
+    return f"whether its gas preload is lost cannot be told ({chance(lost)})"
+
+
+def undecided(posterior: StatePosterior) -> bool:
+    """Whether a lost preload and a load cell that was set to zero with the damper in it are both in question."""
+    return min(posterior.gas_lost, posterior.tared) > 1.0 - SURE
 
 
 def lines(answers: Sequence[StateAnswer]) -> list[str]:
@@ -54,6 +74,8 @@ def sentences(answers: Sequence[StateAnswer]) -> list[str]:
 
 def next_step(answers: Sequence[StateAnswer]) -> str:
     """What to do next."""
+    if any(undecided(answer.posterior) for answer in answers):
+        return f"Next: {REPAIRS[TARED_CELL]}."
     wide = any(high - low > WIDE for low, high in (answer.posterior.interval() for answer in answers))
     if wide:
         return f"Next: {NARROWER[0].lower()}{NARROWER[1:]}"
@@ -95,7 +117,7 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
         bars = [np.histogram(p.levels[:-1], [*edges, 1.0 + 1e-9], weights=row[:-1])[0] for row in p.probability]
         middles = np.concatenate([100 * (edges + BAR / 2), [100 * (1.0 + BAR)]])  # the last: nothing lost
         bottom = np.zeros(len(middles))
-        for row, colour, label in ((1, style.BLUE, "preload there"), (0, style.RED, "preload lost")):
+        for row, colour, label in STACKED:
             height = 100 * np.concatenate([bars[row], p.probability[row, -1:]])
             ax.bar(middles, height, 90 * BAR, bottom, color=colour, label=label)
             bottom += height
@@ -110,7 +132,7 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
     return figure
 
 
-def section(answers: Sequence[StateAnswer], text: Sequence[str] = (), pictures: Sequence[Picture] = ()) -> Section:
+def section(answers: Sequence[StateAnswer], pictures: Sequence[Picture] = ()) -> Section:
     """The part of the page about states of filling; without pictures where the first screen has them."""
     rows = [
         [
@@ -118,9 +140,13 @@ def section(answers: Sequence[StateAnswer], text: Sequence[str] = (), pictures: 
             f"{100 * answer.posterior.level:.0f} %",
             "{:.0f} to {:.0f} %".format(*(100 * x for x in answer.posterior.interval())),
             chance(answer.posterior.gas_lost),
+            chance(answer.posterior.tared),
             chance(answer.posterior.as_stated) if answer.stated.anything else "",
         ]
         for answer in answers
     ]
-    table = Table(("records", "oil level", "90 % interval", "preload lost", "as the file says"), rows)
-    return Section("states", "Oil and gas in numbers", text=text, tables=[table], pictures=pictures)
+    table = Table(
+        ("records", "oil level", "90 % interval", "preload lost", "there, cell set to zero with it", "as the file says"),
+        rows,
+    )
+    return Section("states", "Oil and gas in numbers", tables=[table], pictures=pictures)
