@@ -97,7 +97,7 @@ def test_an_answer_does_not_contradict_its_numbers() -> None:
 
 
 def test_prior_probabilities_sum_to_one() -> None:
-    asked = ["none", "unknown", "state", "a", "b", "a+b"]
+    asked = ["none", "tared_cell", "unknown", "state", "a", "b", "a+b"]
     assert sum(priors(["a", "b"], asked).values()) == pytest.approx(1.0)
 
 

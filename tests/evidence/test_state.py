@@ -104,7 +104,7 @@ def test_command(tmp_path: Path) -> None:
     content = json.loads((tmp_path / "out/diagnosis.json").read_text())
     assert content["verdict"] == "state"
     (entry,) = content["state"]
-    assert set(entry) == {"records", "stated", "as_stated", "oil_level", "gas_lost"}
+    assert set(entry) == {"records", "stated", "as_stated", "oil_level", "gas_lost", "tared_cell"}
     low, high = entry["oil_level"]["interval"]
     assert low <= entry["oil_level"]["value"] <= high
     assert "% of its oil" in (tmp_path / "out/report.html").read_text(encoding="utf-8")

@@ -176,7 +176,7 @@ def unexplained(answer: Answer, narrow: bool) -> Figure:
     """What no hypothesis explains: how likely each would be if one were right says nothing of that."""
     several = answer.held_out
     figure, axes = style.grid(1, (9.0, max(2.4, 1.4 + 0.45 * len(several))), narrow, most=1)
-    errors(axes.flat[0], several, "with the nearest cause")
+    errors(axes.flat[0], several, ("without a cause", "with the nearest one"))
     return figure
 
 
@@ -185,12 +185,12 @@ def gained(answer: Answer) -> list[HeldOut]:
     return [h for h in answer.held_out if h.with_cause is not None]
 
 
-def errors(ax: Axes, several: Sequence[HeldOut], with_cause: str = "with the cause") -> None:
+def errors(ax: Axes, several: Sequence[HeldOut], labels: tuple[str, str] = ("without", "with the cause")) -> None:
     """Error of each record, without and with the cause, over its noise."""
     rows = np.arange(len(several))[::-1]
-    ax.barh(rows, [h.without for h in several], 0.7, color=style.FAINT, label="without")
+    ax.barh(rows, [h.without for h in several], 0.7, color=style.FAINT, label=labels[0])
     if any(h.with_cause is not None for h in several):
-        ax.barh(rows, [h.with_cause or 0.0 for h in several], 0.35, color=style.BLUE, label=with_cause)
+        ax.barh(rows, [h.with_cause or 0.0 for h in several], 0.35, color=style.BLUE, label=labels[1])
     ax.plot([h.noise for h in several], rows, "|", color=style.INK, ms=14, mew=2, label="noise")
     ax.set_yticks(rows, [style.plain(h.record) for h in several])
     ax.set_xlabel("force error, RMS [N]")

@@ -96,7 +96,7 @@ def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
         return "oil lost", "no"
     if any(answer.posterior.gas_lost > SURE for answer in answers):
         return "gas preload lost", "no"
-    if any(high - low > WIDE for low, high in intervals):
+    if any(high - low > WIDE for low, high in intervals) or any(undecided(answer.posterior) for answer in answers):
         return "cannot tell", "warn"
     return "no oil lost", "yes"
 
