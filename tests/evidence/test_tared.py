@@ -56,7 +56,7 @@ def test_a_full_damper_on_a_tared_cell_has_not_lost_its_gas() -> None:
 
 def test_the_stiffness_of_the_gas_decides_where_the_damper_is_as_its_set_says() -> None:
     (entry,) = as_json(asked(measured("one", GAS, law=lambda run: run.force, noise=0.002)))["state"]
-    assert entry[TARED] > entry["gas_lost"]  # against odds of one to five beforehand
+    assert entry[TARED] > entry["gas_lost"]  # against odds of one to ten beforehand
 
 
 def test_a_preload_that_is_lost_is_found_by_the_stiffness_of_the_gas() -> None:
@@ -119,7 +119,7 @@ def test_where_only_a_constant_tells_the_odds_are_those_before_the_records() -> 
     answers = [StateAnswer("1", ("a",), NOTHING, p)]
     (text,) = state.sentences(answers)
     assert (
-        "these records cannot tell a lost gas preload (83 %) from a load cell set to zero with the damper in it (17 %)"
+        "these records cannot tell a lost gas preload (91 %) from a load cell set to zero with the damper in it (9 %)"
         in text
     )
     assert "read the load cell with the damper taken out" in state.next_step(answers)
@@ -140,7 +140,7 @@ def test_what_the_records_decide_is_said_as_decided(evidence: tuple[float, float
 
 
 def test_a_stated_preload_that_only_a_constant_contradicts_may_be_right() -> None:
-    """Of those that a file calls right nine in ten are; two in ten cells are tared."""
+    """Of those that a file calls right nine in ten are; one in ten cells is tared."""
     n = NUMBERS
     p = alike(0.0, -100.0, 0.0, Stated(None, True))
     right, wrong = (1.0 - n.misstated) * n.tared, n.misstated * 0.5 * (1.0 + n.tared)

@@ -98,10 +98,10 @@ class Numbers:
     # The bench
     zero: float = declared(0.002, "1", "zero of a record, share of the largest force", "load cell, 0.2 % of full scale")
     tared: float = declared(
-        0.2,
+        0.1,
         "1",
         "probability that the load cell was set to zero with the damper in it",
-        "a common way to zero a rig; judged",
+        "as often as a fill is misstated; judged",
     )
     gain: float = declared(0.005, "1", "gain of a record", "load cell of class 0.5")
     late: float = declared(2e-4, "s", "delay of the force channel", "filters of a measuring amplifier at 1 to 2 kHz")
