@@ -5,12 +5,9 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_hex
 from typer.testing import CliRunner
 
 from tests.diagnosis import small
@@ -21,8 +18,7 @@ from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.evidence import Answer, answer
 from twintube.evidence.changes import priors
-from twintube.report.common import style
-from twintube.report.diagnosis.changes import lines, picture
+from twintube.report.diagnosis.changes import lines
 
 Formula = Callable[[small.Run], Array]
 SPEEDS = (0.3, 0.6)  # [m/s]
@@ -136,18 +132,3 @@ def test_command(tmp_path: Path) -> None:
     refused = CliRunner().invoke(app, ["diagnose", str(folder), "--output", str(tmp_path / "b"), "--tolerance", "3%"])
     assert refused.exit_code == 2
     assert "--tolerance" in refused.output
-
-
-@pytest.mark.parametrize(("reason", "said"), [("", ""), ("the error is too large", "None of these explains the records")])
-def test_the_picture_alone_says_that_no_cause_explains_the_records(reason: str, said: str) -> None:
-    """A bar of 100 % is no answer there: it is none in colour, title and axis either."""
-    sure = SimpleNamespace(name="mount_compliance", probability=1.0)
-    found: Any = SimpleNamespace(
-        changes=SimpleNamespace(hypotheses=[sure], credible={sure.name}),
-        unexplained=reason, held_out=(), asked=(), compared=False,
-    )  # fmt: skip
-    ax = picture(found).axes[0]
-    assert ax.get_title(loc="left") == said
-    assert ("if one of them were right" in ax.get_xlabel()) == bool(reason)
-    colours = {to_hex(bar.get_facecolor()) for bar in ax.patches if bar.get_width() > 50}
-    assert colours == {to_hex(style.FAINT if reason else style.BLUE)}

@@ -29,7 +29,7 @@ class Driven(NamedTuple):
 
 
 def gas_force(damper: Damper, z: np.ndarray) -> np.ndarray:
-    return simulate(damper, z, np.gradient(z)).F_gas
+    return simulate(damper, z, np.full(len(z), 0.01)).F_gas
 
 
 @pytest.mark.parametrize("name", names())

@@ -160,13 +160,10 @@ def picture(answer: Answer, narrow: bool = False) -> Figure:
     figure, axes = style.grid(2 if known else 1, (5.4 if known else 9.0, max(2.4, 0.8 + 0.45 * len(bars))), narrow, most=2)
     ax = axes.flat[0]
     names = ["\n".join(textwrap.wrap(text, 24 if narrow else 32)) for text, _, _ in bars]
-    colours = [style.BLUE if inside and not answer.unexplained else style.FAINT for _, _, inside in bars]
+    colours = [style.BLUE if inside else style.FAINT for _, _, inside in bars]
     ax.barh(names[::-1], [100.0 * p for _, p, _ in bars[::-1]], color=colours[::-1])
     ax.set_xlim(0, 100)
     ax.set_xlabel("probability [%]")
-    if answer.unexplained:
-        style.title(ax, "None of these explains the records")
-        ax.set_xlabel("probability if one of them were right [%]")
     if known:
         errors(axes.flat[1], known)
     return figure
