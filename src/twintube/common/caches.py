@@ -4,6 +4,7 @@ In a container there may be no home, or none that can be written, and the user m
 """
 
 import atexit
+import logging
 import os
 import shutil
 import tempfile
@@ -94,3 +95,5 @@ def lend() -> None:
     if usual() is None:
         os.environ["XDG_CACHE_HOME"] = str(temporary())
         os.environ.setdefault("MPLCONFIGDIR", str(cache_folder("matplotlib")))
+        # Else the list of fonts, which has to be made anew in each run, is announced on a slow machine.
+        logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
