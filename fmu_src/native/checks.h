@@ -73,12 +73,12 @@ static int take_over(struct unit *u)
     struct memory *m = &u->m;
     if (!admissible(u, &m->wanted)) {
         if (m->mode == STEPPING) {
-            copy_parameters(&m->wanted, &m->in_force);
+            m->wanted = m->in_force;
             m->changed = 0;
         }
         return 0;
     }
-    copy_parameters(&m->in_force, &m->wanted);
+    m->in_force = m->wanted;
     derive(m);
     m->changed = 0;
     return 1;

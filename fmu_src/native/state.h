@@ -54,8 +54,6 @@ static int bounded(struct memory *m)
    computed anew. `quiet` is an instance that says nothing. */
 static int credible(struct unit *quiet, struct memory *m)
 {
-    bind(&m->in_force);
-    bind(&m->wanted);
     if (m->mode < INSTANTIATED || m->mode > TERMINATED || !is_flag(m->timed) || !is_flag(m->changed) || !is_flag(m->stale)
         || !is_flag(m->warned) || !is_flag(m->long_step) || (m->stale && m->mode >= STEPPING))
         return 0;
@@ -76,8 +74,6 @@ static int credible(struct unit *quiet, struct memory *m)
 static void restore(struct unit *u, const struct memory *from)
 {
     u->m = *from;
-    bind(&u->m.in_force);
-    bind(&u->m.wanted);
 }
 
 static enum status get_state(struct unit *u, const char *function, void **state)
@@ -119,17 +115,13 @@ static enum status serialized_size(struct unit *u, const char *function, const v
     return DONE;
 }
 
-/* Equal states have equal bytes: without addresses, and without what an effect changes in `d` for the length of a step. */
+/* Equal states have equal bytes: without what an effect changes in `d` for the length of a step. */
 static struct memory portable(const void *state)
 {
     struct memory m;
     memcpy(&m, state, sizeof m);
-    if (!m.stale) {
-        bind(&m.in_force);
+    if (!m.stale)
         derive(&m);
-    }
-    unbind(&m.in_force);
-    unbind(&m.wanted);
     return m;
 }
 

@@ -85,12 +85,6 @@ static enum status say(struct unit *u, enum status status, const char *format, .
 #define discard(u, ...) say(u, DISCARDED, __VA_ARGS__)
 #define warn(u, ...) say(u, WARNED, __VA_ARGS__)
 
-static void copy_parameters(struct parameters *to, const struct parameters *from)
-{
-    *to = *from;
-    bind(to);
-}
-
 static double *real_of(struct memory *m, const struct variable *v)
 {
     return (double *)((char *)m + v->offset);
@@ -105,14 +99,13 @@ static int64_t *integer_of(struct memory *m, const struct variable *v)
 static void restart(struct memory *m)
 {
     memset(m, 0, sizeof *m);
-    bind(&m->wanted);
     for (unsigned i = 0; i < VARIABLES; i++) {
         if (VARIABLE[i].kind == INTEGER)
             *integer_of(m, &VARIABLE[i]) = (int64_t)START[i];
         else
             *real_of(m, &VARIABLE[i]) = START[i];
     }
-    copy_parameters(&m->in_force, &m->wanted);
+    m->in_force = m->wanted;
     m->stop = INFINITY;
     m->mode = INSTANTIATED;
     m->stale = 1;

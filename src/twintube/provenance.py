@@ -15,7 +15,7 @@ from twintube.common.parsing import parsed
 PACKAGE = "twintube"
 ROOT = Path(__file__).parent
 # Their results differ in the last bits, which a search or a chaotic drive enlarges.
-LIBRARIES = ("numpy", "scipy", "numba")
+LIBRARIES = ("numpy", "scipy")
 
 
 def location(module: str) -> Path | None:

@@ -11,12 +11,12 @@ import numba
 import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Slave
+from twintube.fmu.equations import checked
 
 from tests.explorer.wasm import Module
 from twintube.common.arrays import Array
 from twintube.dampers import Damper, load, names
 from twintube.explorer import translate
-from twintube.fmu.equations import checked
 from twintube.fmu.table import variables
 from twintube.rig.plan import amplitude, at_oil_level, oil_levels, velocities
 from twintube.rig.signals import harmonic_block

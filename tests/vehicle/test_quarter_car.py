@@ -200,6 +200,6 @@ def test_every_defect_of_a_car_is_named_with_its_line(tmp_path: Path) -> None:
 
 def test_stops_only_push() -> None:
     car = rear()
-    assert quarter_car.stop_force(car, -0.01, 1.0) == 0.0
-    assert quarter_car.stop_force(car, 0.01, -50.0) == 0.0
-    assert quarter_car.stop_force(car, 0.01, 0.0) == pytest.approx(1e9 * 1e-6)
+    assert quarter_car.stop_force(car.c_stop, car.d_stop, -0.01, 1.0) == 0.0
+    assert quarter_car.stop_force(car.c_stop, car.d_stop, 0.01, -50.0) == 0.0
+    assert quarter_car.stop_force(car.c_stop, car.d_stop, 0.01, 0.0) == pytest.approx(1e9 * 1e-6)

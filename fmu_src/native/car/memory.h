@@ -25,15 +25,4 @@ struct model {
 /* The rates of the road are inputs themselves, and forces are carried on: no derivative counts. */
 #define DERIVED_INPUT sizeof(struct memory)
 
-/* There are no addresses in the parameters. */
-static void bind(struct parameters *of)
-{
-    (void)of;
-}
-
-static void unbind(struct parameters *of)
-{
-    (void)of;
-}
-
 #endif

@@ -7,6 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.floating[Any]]
+# As the translation to C reads them in the kernel's subset, C-contiguous: real numbers of one, two and three directions, and
+# whole ones.
+Vector = Array
+Table = Array
+Stack = Array
+Counts = NDArray[np.int64]
+Addresses = NDArray[np.int64]
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:

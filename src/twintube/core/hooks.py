@@ -109,13 +109,13 @@ def dispatch_source() -> str:
     texts = in_order()
     guard = {name: " or ".join(f"p.{item} != 0.0" for item in strengths(text)) for name, text in texts.items()}
     parts = [
-        "def effects_active(p):\n"
+        "def effects_active(p: Parameters) -> int:\n"
         + "".join(f"    if {condition}:\n        return 1\n" for condition in guard.values())
         + "    return 0\n"
     ]
     memory = [guarded for name, guarded in guard.items() if re.search(rf"^def {name}_force\(", texts[name], re.M)]
     parts.append(
-        "def effects_remember(p):\n"
+        "def effects_remember(p: Parameters) -> int:\n"
         + "".join(f"    if {condition}:\n        return 1\n" for condition in memory)
         + "    return 0\n"
     )
@@ -126,7 +126,7 @@ def dispatch_source() -> str:
             if re.search(rf"^def {name}_{hook}\(", text, re.MULTILINE):
                 body += f"    if {guard[name]}:\n        {line.format(f'{name}_{hook}({arguments})')}\n"
         body += "    return\n" if what.joined == "call" else "    return value\n"
-        parts.append(f"def effects_{hook}({arguments}):\n{body}")
+        parts.append(f"def effects_{hook}({what.arguments}) -> {what.result}:\n{body}")
     return "\n\n".join(parts)
 
 
@@ -183,4 +183,6 @@ def joined(name: str, base: type, groups: list[tuple[Field[Any], ...]], text: st
 def reset_source(state: type) -> str:
     """The text of `effects_reset(s)`, which puts the states of all effects to their defaults."""
     extra = own(state, variables.State)
-    return "def effects_reset(s):\n" + "".join(f"    s.{item.name} = {item.metadata['default']!r}\n" for item in extra)
+    return "def effects_reset(s: State) -> None:\n" + "".join(
+        f"    s.{item.name} = {item.metadata['default']!r}\n" for item in extra
+    )

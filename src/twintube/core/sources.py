@@ -1,4 +1,4 @@
-"""The files of the equations in calling order: the only list for the compiler, the translation to C and the fingerprints."""
+"""The files of the damper's equations: the only list for the translation to C and what is compiled of it."""
 
 from pathlib import Path
 
@@ -6,7 +6,8 @@ from twintube.core import effects, hooks
 from twintube.core.publishing import publishing_source
 
 FOLDER = Path(__file__).parent
-KERNEL = (
+BEFORE = (
+    "variables.py",
     "kernel/forces.py",
     "kernel/prepare.py",
     "kernel/rebound.py",
@@ -15,36 +16,32 @@ KERNEL = (
     "frame.py",
     "outputs.py",
 )
-AGREEMENT = "agreement.py"
-RULES = "consistency.py"
-MODEL = "model.py"
+AFTER = ("model.py",)
+RULES = ("agreement.py", "consistency.py")
 
 
-def text_of(name: str) -> str:
-    """The text of a file of this folder."""
-    return (FOLDER / name).read_text(encoding="utf-8")
+def files() -> list[Path]:
+    """The files of the damper's equations."""
+    return [*(FOLDER / name for name in (*BEFORE, *AFTER, *RULES)), *FOLDER.glob("effects/*.py")]
 
 
-def kernel_texts() -> list[str]:
-    """The paper's equations, the force at the valves and the outputs."""
-    return [*(text_of(name) for name in KERNEL), publishing_source()]
+def texts_of(*names: str) -> dict[str, str]:
+    """Files of this folder by their paths in the package."""
+    return {f"core/{name}": (FOLDER / name).read_text(encoding="utf-8") for name in names}
 
 
-def effect_texts() -> list[str]:
-    """The effects' files, and the functions that this package generates from them."""
-    return [*hooks.helpers().values(), *hooks.sources().values(), hooks.dispatch_source(), hooks.reset_source(effects.State)]
+def rule_sources() -> dict[str, str]:
+    """Whether a velocity belongs to its stroke, and what must hold between parameters, by path."""
+    return texts_of(*RULES)
 
 
-def model_text() -> str:
-    """The kernel with the effects around it."""
-    return text_of(MODEL)
-
-
-def agreement_text() -> str:
-    """Whether a velocity belongs to its stroke."""
-    return text_of(AGREEMENT)
-
-
-def rule_text() -> str:
-    """What must hold between parameters; the engine leaves it to the interpreter."""
-    return text_of(RULES)
+def damper_sources() -> dict[str, str]:
+    """The table of variables, kernel, effects, model and rules, with the functions generated from the tables, by path."""
+    return {
+        **texts_of(*BEFORE),
+        "outputs of core/variables.py": publishing_source(),
+        **{f"core/effects/{name}.py": text for name, text in {**hooks.helpers(), **hooks.sources()}.items()},
+        "hooks of core/effects": f"{hooks.dispatch_source()}\n\n{hooks.reset_source(effects.State)}",
+        **texts_of(*AFTER),
+        **rule_sources(),
+    }

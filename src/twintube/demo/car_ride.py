@@ -28,8 +28,8 @@ def drive_car_with_fmus(  # noqa: PLR0913 - as `drive_car`
     before = dampers.works()
     out, refused = np.empty((len(inputs), BODY_COLUMNS + WHEEL_COLUMNS * len(WHEELS))), np.zeros(1, np.int64)
     done = module.run_car_with_units(
-        *dampers.functions, dampers.calls, dampers.moved, dampers.found, dampers.now, dampers.parts(dt), c, b, ks, ws, h,
-        np.array(road, dtype=float), spacing, np.array(grips, dtype=float), np.array(inputs, dtype=float), dt, out, refused,
+        dampers.calls, dampers.moved, dampers.found, dampers.now, dampers.moves, dampers.parts(dt), c, b, ks, ws, h,
+        np.ascontiguousarray(road), spacing, np.array(grips), np.ascontiguousarray(inputs), dt, out, refused,
     )  # fmt: skip
     dampers.check(refused[0])
     if done < len(inputs):

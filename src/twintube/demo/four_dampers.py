@@ -3,20 +3,15 @@
 The compiled loops call the FMUs' functions by address, without an object of Python in between.
 """
 
-import warnings
 from collections.abc import Sequence
 from ctypes import c_void_p, cast
 from itertools import pairwise
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 import fmpy
-import numba.experimental.function_type  # noqa: F401 numba knows the type of Function from then on
 import numpy as np
-from numba import float64, int32, int64, uintp
-from numba.core.errors import NumbaExperimentalFeatureWarning
-from numba.core.types import WrapperAddressProtocol
 
 from twintube.common.arrays import Array
 from twintube.dampers import Damper, elements
@@ -26,30 +21,8 @@ from twintube.fmu.instance import FmuError, Instance
 from twintube.vehicle.drive import CONDITIONING_STEP, conditioning
 from twintube.vehicle.full.car import WHEELS
 
-warnings.filterwarnings("ignore", "First-class function type", NumbaExperimentalFeatureWarning)  # numba says so since 2020
-
 FOUND = ("force", "work")
-SIGNATURES = {
-    "SetReal": int32(uintp, uintp, uintp, uintp),
-    "DoStep": int32(uintp, float64, float64, int64),  # the last is an int: the function reads the lower half
-    "GetReal": int32(uintp, uintp, uintp, uintp),
-}
-
-
-class Function(WrapperAddressProtocol):
-    """A function of an FMU's library as compiled code takes it."""
-
-    def __init__(self, library: Any, name: str) -> None:
-        self.address = cast(library[f"fmi2{name}"], c_void_p).value or 0
-        self.declared = SIGNATURES[name]
-
-    def __wrapper_address__(self) -> int:
-        """Where the function is."""
-        return self.address
-
-    def signature(self) -> Any:
-        """Its types: pointers as whole numbers."""
-        return self.declared
+FUNCTIONS = ("fmi2SetReal", "fmi2DoStep", "fmi2GetReal")
 
 
 class FourDampers:
@@ -60,17 +33,17 @@ class FourDampers:
         self.instances, self.own_step = instances, own_step
         shape = (len(instances), 2, len(names))
         self.moved, self.found, self.now = np.zeros(shape), np.zeros(shape), np.zeros(1)
+        self.moves = np.zeros((2, len(WHEELS)))
         self._kept, calls = [], []
         for unit, moved, found in zip(instances, self.moved, self.found, strict=True):
-            row = [unit.fmu.component]
+            row = [cast(unit.fmu.dll[name], c_void_p).value for name in FUNCTIONS] + [unit.fmu.component]
             for variables, values in ((INPUTS, moved), (FOUND, found)):
                 buffer = unit.buffer(*(f"{name}{variable}" for variable in variables for name in names))
                 self._kept.append(buffer)  # its references stay where they are
                 row += [cast(buffer[0], c_void_p).value, buffer[1].value, values.ctypes.data]
             calls.append(row)
             found[:] = np.reshape(unit.read(buffer), found.shape)
-        self.calls = np.array(calls, np.uintp)
-        self.functions = tuple(tuple(Function(unit.fmu.dll, name) for unit in instances) for name in SIGNATURES)
+        self.calls = np.array(calls, np.int64)
 
     def parts(self, dt: float) -> int:
         """The number of parts that a step of `dt` [s] has: within a longer one the FMU would hold the strokes."""
@@ -84,12 +57,8 @@ class FourDampers:
     def step(self, strokes: Sequence[float], velocities: Sequence[float], dt: float) -> Array:
         """Forces (4,) [N] after a step of `dt` [s] from `strokes` (4,) [m] at `velocities` (4,) [m/s]; raises FmuError."""
         parts = self.parts(dt)
-        moves = (np.array(values, dtype=float) for values in (strokes, velocities))
-        self.check(
-            compiled.module().step_units(
-                *self.functions, self.calls, self.moved, self.found, self.now, *moves, parts, dt / parts
-            )
-        )
+        self.moves[:] = strokes, velocities
+        self.check(compiled.module().step_units(self.calls, self.moved, self.found, self.now, self.moves, parts, dt / parts))
         return self.forces()
 
     def forces(self) -> Array:

@@ -1,22 +1,20 @@
-"""Loops over the kernel, in the kernel's own subset so that numba compiles them together with it.
+"""Loops over the kernel, in the kernel's own subset so that they are translated and compiled together with it.
 
-`p`, `d`, `s`, `f` are records of `variables.py`: dataclasses in the interpreter, rows of structured arrays in numba.
+`p`, `d`, `s`, `f` are records of `variables.py`: dataclasses in the interpreter, structs in C.
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from twintube.common.arrays import Array
-from twintube.core.agreement import parted
-from twintube.core.effects import effects_parts, effects_remember, effects_scale_valve
+from twintube.common.arrays import Counts, Table, Vector
+from twintube.core.agreement import Agreement, parted
+from twintube.core.effects import Parameters, State, effects_parts, effects_remember, effects_scale_valve
 from twintube.core.frame import stroke_limit
 from twintube.core.kernel.forces import gas_rise
 from twintube.core.model import advance, advance_whole, rod_stroke, set_up, start
 from twintube.core.outputs import total_force
 from twintube.core.publishing import publish_row
+from twintube.core.variables import Derived, Flow
 
 # A longer step [s] that goes less than this share of the way its velocities say is a rest, where a cubic would swing.
 REST = 0.3
@@ -28,25 +26,25 @@ NOTHING = 1e-30  # k_degr of no force, by which none is divided
 class Records(NamedTuple):
     """Records laid end to end, as `run_means` takes them."""
 
-    states: Array  # (r, 4) oil level [1], preload [1], factors of the gas force and of its stiffness [1]
-    starts: NDArray[np.int64]  # (r + 1,) where each begins
-    t: Array  # (n,) [s]
-    z: Array  # (n,) [m]
-    v: Array  # (n,) [m/s]
-    warm: Array  # (n,) [K] how much warmer the damper is than at the temperature of its parameters, 0 where unknown
-    samples: NDArray[np.int64]  # (n,) measured samples of the interval that ends here, 0 where unknown
+    states: Table  # (r, 4) oil level [1], preload [1], factors of the gas force and of its stiffness [1]
+    starts: Counts  # (r + 1,) where each begins
+    t: Vector  # (n,) [s]
+    z: Vector  # (n,) [m]
+    v: Vector  # (n,) [m/s]
+    warm: Vector  # (n,) [K] how much warmer the damper is than at the temperature of its parameters, 0 where unknown
+    samples: Counts  # (n,) measured samples of the interval that ends here, 0 where unknown
     parts: int  # steps of an interval
 
 
 class Means(NamedTuple):
     """What `run_means` writes, all (n,), of the interval that ends at a sample."""
 
-    force: Array  # [N] mean over the time
-    point: Array  # [N] mean of the forces at the measured samples, which misses where between two of them the force jumps
-    work: Array  # [J] since the start of the record
+    force: Vector  # [N] mean over the time
+    point: Vector  # [N] mean of the forces at the measured samples, which misses where between two of them the force jumps
+    work: Vector  # [J] since the start of the record
 
 
-def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any) -> int:
+def run_record(p: Parameters, d: Derived, s: State, f: Flow, t: Vector, z: Vector, v: Vector, out: Table) -> int:
     """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,).
 
     Writes the outputs to `out` (n, m) in the order of their table.
@@ -64,7 +62,7 @@ def run_record(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, out: Any)
     return len(z)
 
 
-def first_parted(a: Any, t: Any, z: Any, v: Any) -> int:
+def first_parted(a: Agreement, t: Vector, z: Vector, v: Vector) -> int:
     """The first sample by which the velocities `v` [m/s] do not belong to the strokes `z` [m] at the times `t` [s], else -1.
 
     All are (n,); `a` is a blank Agreement.
@@ -78,7 +76,9 @@ def first_parted(a: Any, t: Any, z: Any, v: Any) -> int:
     return -1
 
 
-def run_work(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, marks: Any, out: Any) -> int:
+def run_work(
+    p: Parameters, d: Derived, s: State, f: Flow, t: Vector, z: Vector, v: Vector, marks: Counts, out: Vector
+) -> int:
     """As `run_record`, but only the dissipated work [J] at the samples `marks` (m,), written to `out` (m,)."""
     before = v[0]
     time = t[0]
@@ -94,7 +94,7 @@ def run_work(p: Any, d: Any, s: Any, f: Any, t: Any, z: Any, v: Any, marks: Any,
     return len(z)
 
 
-def run_held(p: Any, d: Any, s: Any, f: Any, z: Any, dt: float) -> int:
+def run_held(p: Parameters, d: Derived, s: State, f: Flow, z: Vector, dt: float) -> int:
     """Move through the strokes `z` [m] (n,) one every `dt` [s], the velocity held within a step, as an FMU is stepped.
 
     Returns the number of steps done, less than n - 1 if a step failed.
@@ -106,7 +106,7 @@ def run_held(p: Any, d: Any, s: Any, f: Any, z: Any, dt: float) -> int:
     return len(z) - 1
 
 
-def run_means(p: Any, d: Any, s: Any, f: Any, records: Any, means: Any) -> int:
+def run_means(p: Parameters, d: Derived, s: State, f: Flow, records: Records, means: Means) -> int:
     """Drive the damper over `records` (Records) and write `means` (Means). Returns the number of records done."""
     for r in range(len(records.states)):
         if not record_means(p, d, s, f, records, means, r):
@@ -114,14 +114,14 @@ def run_means(p: Any, d: Any, s: Any, f: Any, records: Any, means: Any) -> int:
     return len(records.states)
 
 
-def record_means(p: Any, d: Any, s: Any, f: Any, records: Any, means: Any, r: int) -> bool:
+def record_means(p: Parameters, d: Derived, s: State, f: Flow, records: Records, means: Means, r: int) -> bool:
     """The means of the record `r`; False if a step failed."""
-    p.oil_level = records.states[r, 0]
-    p.gas_preload = int(records.states[r, 1])
+    # In C; the interpreter's own parameters cannot be changed.
+    p.oil_level = records.states[r, 0]  # type: ignore[misc]
+    p.gas_preload = int(records.states[r, 1])  # type: ignore[misc]
     set_up(p, d)
     d.F_0 *= records.states[r, 2]
     d.c_gas *= records.states[r, 3]
-    # A tuple of arrays that is handed on costs more than a step: numba counts references.
     t, z, v, samples = records.t, records.z, records.v, records.samples
     first = records.starts[r]
     start(p, d, s, z[first])
@@ -146,7 +146,7 @@ def record_means(p: Any, d: Any, s: Any, f: Any, records: Any, means: Any, r: in
 
 
 def interval_means(
-    p: Any, d: Any, s: Any, f: Any, z0: float, v0: float, z1: float, v1: float, dt: float,
+    p: Parameters, d: Derived, s: State, f: Flow, z0: float, v0: float, z1: float, v1: float, dt: float,
     parts: int, gaps: int, last: float,
 ) -> tuple[bool, float, float, float]:  # fmt: skip
     """An interval in `parts` steps or more: whether it was done, mean force, point, force at the end, from `last` on [N].
@@ -192,7 +192,7 @@ def interval_means(
     return True, total, sampled / gaps, last
 
 
-def force_at_end(p: Any, d: Any, s: Any, f: Any, speed: float, way: float) -> float:
+def force_at_end(p: Parameters, d: Derived, s: State, f: Flow, speed: float, way: float) -> float:
     """Force [N] at the end of a step over `way` [m]: k_degr of the state is a mean over the step, a sample sees the end."""
     now = total_force(s)
     if effects_remember(p) == 0 and s.k_degr > NOTHING:

@@ -43,7 +43,7 @@ class Motion(Protocol):
 
 def checked(stroke: ArrayLike, velocity: ArrayLike, limit: float) -> tuple[Array, Array]:
     """Stroke [m] and velocity [m/s] as arrays (n,); raises InputError at the first sample that is not admissible."""
-    # Copies, as compiled code takes arrays that can be written to.
+    # Copies: the result keeps them.
     z = np.array(stroke, dtype=float, order="C")
     v = np.array(velocity, dtype=float, order="C")
     if z.ndim != 1 or z.shape != v.shape or z.size == 0:
@@ -95,7 +95,7 @@ def started(
 
 
 def rows(records: list[Any]) -> list[Any]:
-    """The records as numba takes them."""
+    """The records as compiled code takes them."""
     return [compiled.as_row(record)[0] for record in records]
 
 
@@ -112,8 +112,7 @@ def disagreement(time: Array, stroke: Array, velocity: Array, *, interpreted: bo
         found = loops.first_parted(a, time.tolist(), stroke.tolist(), velocity.tolist())
     else:
         row = compiled.as_row(a)[0]
-        # Copies, as compiled code takes arrays that can be written to.
-        found = compiled.module().first_parted(row, *(np.array(values) for values in (time, stroke, velocity)))
+        found = compiled.module().first_parted(row, time, stroke, velocity)
         a = Agreement(*row.item())
     return messages.parted(float(time[found]), *ways(a)) if found >= 0 else ""
 
@@ -135,7 +134,7 @@ def simulate(
         stroke: (n,) [m], positive in rebound, 0 in the middle position; or a signal, which has velocity and time too.
         velocity: (n,) [m/s], positive in rebound; between two samples it changes evenly.
         time: (n,) [s], not falling; needed only where the damper has an effect that acts with time.
-        interpreted: run the kernel in plain Python instead of numba; the result is the same to the last bit.
+        interpreted: run the kernel in plain Python instead of C; the result is the same to the last bit.
 
     Raises:
         InputError: a sample is not finite, the piston would leave the tube, or a needed time is missing.

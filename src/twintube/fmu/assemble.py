@@ -27,14 +27,13 @@ from twintube.fmu import (
     terminals,
 )
 from twintube.fmu.description import model_name
-from twintube.fmu.equations import StaleTranslationError
 from twintube.fmu.model import Model
 from twintube.fmu.platforms import Fmi, Kind, PlatformError, known
 from twintube.fmu.standards import STANDARDS
 
 Progress = Callable[[str], None]
 XML = archive.XML
-REFUSALS = (binaries.CompilerError, StaleTranslationError, PlatformError, licences.LicenceError, archive.DateError)
+REFUSALS = (binaries.CompilerError, PlatformError, licences.LicenceError, archive.DateError)
 
 
 class BuildError(UserError, RuntimeError):

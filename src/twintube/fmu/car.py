@@ -11,7 +11,6 @@ from twintube.fmu import archive, licences
 from twintube.fmu.assemble import REFUSALS, BuildError, Progress, file_name, in_order, native_content, target_file, written
 from twintube.fmu.description import EXPERIMENT, PREFIX, identifier
 from twintube.fmu.documentation import STYLE, interval
-from twintube.fmu.equations import CAR
 from twintube.fmu.model import Model
 from twintube.fmu.platforms import Fmi, known
 from twintube.fmu.standards import STANDARDS
@@ -77,7 +76,7 @@ def given(record: type, values: Any, group: str, place: str) -> Iterator[Variabl
 
 def car_model(car: FullCar, speed: float) -> Model:
     """The car as a model."""
-    return Model(car_name(car), TITLE, tuple(variables(car, speed)), EXPERIMENT, CAR, "car", False)
+    return Model(car_name(car), TITLE, tuple(variables(car, speed)), EXPERIMENT, "car", False)
 
 
 def page(car: FullCar, model: Model) -> bytes:

@@ -9,7 +9,6 @@ from xml.etree import ElementTree as ET
 from twintube.core.units import DISPLAY, UNITS
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import AS_PUBLISHED, DEFAULT, own_values, way_of
-from twintube.fmu.equations import DAMPER
 from twintube.fmu.model import Model
 from twintube.fmu.standards import STANDARDS, Standard
 from twintube.fmu.table import Variable, variables
@@ -140,7 +139,7 @@ def described(
 
 def damper_model(damper: Damper) -> Model:
     """A damper as a model."""
-    return Model(model_name(damper), TITLE, tuple(variables(damper)), EXPERIMENT, DAMPER, "", True)
+    return Model(model_name(damper), TITLE, tuple(variables(damper)), EXPERIMENT, "", True)
 
 
 def origin(model: Model, date: str) -> dict[str, str]:

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from twintube.fmu.equations import Equations
 from twintube.fmu.table import Variable
 
 
@@ -15,6 +14,5 @@ class Model:
     title: str
     variables: tuple[Variable, ...]
     experiment: Mapping[str, str]
-    equations: Equations
     folder: str  # of its equations and wrapper, below `fmu_src/native`
     takes_derivatives: bool  # of inputs

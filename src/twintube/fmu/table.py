@@ -42,8 +42,6 @@ class Independent:
 
 
 TIME = Variable("time", "independent", fields(Independent)[0], -1, None, "time", (None, None))
-# The order of the F-v curve's memory in `struct parameters`.
-CURVES = ("v_re", "F_re", "v_co", "F_co")
 
 
 def bounds(item: Field[Any]) -> tuple[float | None, float | None]:
@@ -63,7 +61,7 @@ def variables(damper: Damper) -> Iterator[Variable]:
     for item in fields(Outputs):
         yield Variable(fmi_name(item), "output", item, -1, None, f"now.out.{item.name}", bounds(item))
     for name, item, i, value in elements(damper):
-        place = f"wanted.fv[{CURVES.index(item.name)}][{i}]" if item.name in CURVES else f"wanted.p.{item.name}"
+        place = f"wanted.p.{item.name}" if i < 0 else f"wanted.p.{item.name}[{i}]"
         yield Variable(name, "parameter", item, i, value, place, bounds(item))
 
 

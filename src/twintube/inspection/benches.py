@@ -75,7 +75,8 @@ def axle_acceleration(run: Drive, car: Car) -> Array:
     pull = car.c_body * stroke + car.d_links * velocity + car.ratio * (run.force - car.F_rest)
     for i in np.flatnonzero(np.abs(stroke) > car.travel):
         z, v = float(stroke[i]), float(velocity[i])
-        pull[i] += stop_force(car, z - car.travel, v) - stop_force(car, -z - car.travel, -v)
+        stiff, damped = car.c_stop, car.d_stop
+        pull[i] += stop_force(stiff, damped, z - car.travel, v) - stop_force(stiff, damped, -z - car.travel, -v)
     acceleration: Array = (pull + run.wheel_load - (car.m_body + car.m_wheel) * GRAVITY) / car.m_wheel
     return acceleration
 

@@ -73,8 +73,7 @@ def drive(
     if rates is None:
         rates = slopes(heights, dt)
     out = np.empty((len(heights), 6))
-    # Copies, as compiled code takes arrays that can be written to.
-    inputs = [np.array(values, dtype=float) for values in (heights, rates, push)]
+    inputs = [np.ascontiguousarray(values, dtype=float) for values in (heights, rates, push)]
     steps: int = module.run_drive(p, d, s, f, *rows([car, blank(Motion)]), *inputs, dt, limit, out)
     if steps < len(heights):
         stroke = float(out[steps, 0] + out[steps, 1] * dt)

@@ -1,15 +1,17 @@
-"""The loop over the quarter car and its damper, in the kernel's subset of Python; numba compiles it with the kernel."""
+"""The loop over the quarter car and its damper, in the kernel's subset of Python; compiled with the kernel."""
 
-from typing import Any
-
+from twintube.common.arrays import Table, Vector
+from twintube.core.effects import Parameters, State
 from twintube.core.model import advance
 from twintube.core.outputs import total_force
-from twintube.vehicle.quarter_car import damper_stroke, damper_velocity, leapfrog_step
+from twintube.core.variables import Derived, Flow
+from twintube.vehicle.quarter_car import Car, Motion, damper_stroke, damper_velocity, leapfrog_step
 
 
 def run_drive(
-    p: Any, d: Any, s: Any, f: Any, car: Any, m: Any, road: Any, rates: Any, push: Any, dt: float, limit: float, out: Any
-) -> int:
+    p: Parameters, d: Derived, s: State, f: Flow, car: Car, m: Motion,
+    road: Vector, rates: Vector, push: Vector, dt: float, limit: float, out: Table,
+) -> int:  # fmt: skip
     """Quarter car over the road heights `road` [m] (n,) with the time step `dt` [s], the `rates` [m/s] and `push` [N].
 
     `out` (n, 6) receives the damper's stroke [m], velocity [m/s] and force [N], the wheel load [N], the damper's work [J]

@@ -49,11 +49,14 @@ def static_load(car: Car) -> float:
     return (car.m_body + car.m_wheel) * GRAVITY
 
 
-def stop_force(car: Car, compression: float, velocity: float) -> float:
-    """Force [N] of a rubber stop under `compression` [m] at `velocity` [m/s], never a pull (Hunt and Crossley)."""
+def stop_force(stiffness: float, damping: float, compression: float, velocity: float) -> float:
+    """Force [N] of a rubber stop under `compression` [m] at `velocity` [m/s], never a pull (Hunt and Crossley).
+
+    `stiffness` [N/m3] and `damping` [s/m] are `c_stop` and `d_stop` of a corner.
+    """
     if compression <= 0.0:
         return 0.0
-    return max(0.0, car.c_stop * compression * compression * compression * (1.0 + car.d_stop * velocity))
+    return max(0.0, stiffness * compression * compression * compression * (1.0 + damping * velocity))
 
 
 def leapfrog_step(car: Car, m: Motion, road: float, road_velocity: float, force: float, push: float, dt: float) -> float:
@@ -73,7 +76,10 @@ def leapfrog_step(car: Car, m: Motion, road: float, road_velocity: float, force:
     stroke = m.z_body - m.z_wheel
     velocity = v_body - v_wheel
     pull = car.c_body * stroke + car.d_links * velocity + car.ratio * (force - car.F_rest)
-    pull += stop_force(car, stroke - car.travel, velocity) - stop_force(car, -stroke - car.travel, -velocity)
+    stiff, damped = car.c_stop, car.d_stop
+    pull += stop_force(stiff, damped, stroke - car.travel, velocity) - stop_force(
+        stiff, damped, -stroke - car.travel, -velocity
+    )
     m.dv_body = -dt * (pull + push) / car.m_body
     m.dv_wheel = dt * (pull + load - weight) / car.m_wheel
     m.v_body += m.dv_body

@@ -135,7 +135,6 @@ class VirtualDamper:
             derived[name] = getattr(self, name) * self.A_1
         for name in ("base_bleed", "base_opening", "suction"):
             derived[name] = getattr(self, name) * self.A_rod
-        # All floats: numba would compile again for an integer.
         return Constants(*(float(derived[name] if name in derived else getattr(self, name)) for name in Constants._fields))
 
 

@@ -1,25 +1,16 @@
-"""Right-hand side of the rig's damper: masses in three chambers and their pressures, compiled by numba.
+"""Right-hand side of the rig's damper: masses in three chambers and their pressures, in the subset that becomes C.
 
 The states are masses, not chamber pressures: at a given stroke the oil and gas of a chamber determine its pressure. Masses
 are conserved to rounding, whereas a pressure state would drift. They are given as standard volumes [m3] at P_0 and T_0.
 Fade has four causes: without preload, gas below the piston leaves the foot valve too little back pressure to fill the
 rebound chamber; gas of the reserve is drawn in where oil is missing; jets of the foot valve throw oil onto the reserve's
-walls, which runs down too late for the next stroke; the jet of a valve releases dissolved gas. All compiled functions are
-in this file, because numba's cache does not detect a change in another file.
+walls, which runs down too late for the next stroke; the jet of a valve releases dissolved gas.
 """
 
 import math
-from collections.abc import Callable
-from typing import Any, TypeVar, cast
 
-import numba
-import numpy as np
-from numpy.typing import NDArray
-
+from twintube.common.arrays import Table, Vector
 from twintube.lab.virtual_rig.constants import Constants
-
-F = TypeVar("F", bound=Callable[..., Any])
-Array = NDArray[np.float64]
 
 P_0 = 1.0e5  # [Pa] ambient pressure
 T_0 = 298.15  # [K]
@@ -34,18 +25,11 @@ VOGEL = 95.0  # [degC] of mineral oils in Vogel's law, viscosity ~ exp(B / (T + 
 OIL, POCKET, BUBBLES, DISSOLVED, FILM, TEMPERATURE, BRISTLE, ENERGY, STATES = 0, 3, 6, 9, 12, 13, 14, 15, 16
 
 
-def compiled(function: F) -> F:
-    """Compile with numba; for type checkers the signature is unchanged."""
-    return cast(F, numba.njit(cache=True, error_model="numpy")(function))
-
-
-@compiled
 def warmth(temperature: float) -> float:
     """Gas volume relative to that at T_0 [1]; bounded, because the solver tries states that are never reached."""
     return min(max((temperature + 273.15) / T_0, 0.7), 2.0)
 
 
-@compiled
 def chamber_pressure(V: float, oil: float, gas: float, K: float) -> float:
     """Absolute pressure [Pa] at which oil and ideal gas fill the volume V: the positive root of a quadratic."""
     oil = max(oil, TINY)
@@ -58,14 +42,12 @@ def chamber_pressure(V: float, oil: float, gas: float, K: float) -> float:
     return 2.0 * gas * P_0 / (root - b)
 
 
-@compiled
 def reserve_pressure(oil: float, gas: float, warm: float, c: Constants) -> float:
     """Absolute pressure [Pa] of the reserve's gas, polytropic about the initial state."""
     return c.p_fill * math.pow(max(gas, TINY) * warm * P_0 / (max(c.V_3 - oil, 1e-7) * c.p_fill), c.n_reserve)
 
 
-@compiled
-def pressures(z: float, y: Array, c: Constants) -> tuple[float, float, float]:
+def pressures(z: float, y: Vector, c: Constants) -> tuple[float, float, float]:
     """Absolute pressures [Pa] of rebound chamber, compression chamber and reserve at the stroke z [m]."""
     warm = warmth(y[TEMPERATURE])
     p_1 = chamber_pressure(c.V_10 - c.A_1 * z, y[OIL], (y[POCKET] + y[BUBBLES]) * warm, c.K_oil)
@@ -73,22 +55,20 @@ def pressures(z: float, y: Array, c: Constants) -> tuple[float, float, float]:
     return p_1, p_2, reserve_pressure(y[OIL + 2] + y[FILM], y[POCKET + 2] + y[BUBBLES + 2], warm, c)
 
 
-@compiled
 def friction(v: float, bristle: float, c: Constants) -> tuple[float, float]:
     """LuGre: rate of the bristle deflection [m/s] and friction force [N]."""
-    level = c.F_sliding + (c.F_static - c.F_sliding) * math.exp(-((v / c.v_stribeck) ** 2))
+    share = v / c.v_stribeck
+    level = c.F_sliding + (c.F_static - c.F_sliding) * math.exp(-(share * share))
     rate = v - c.bristle * abs(v) / level * bristle
     return rate, c.bristle * bristle + c.viscous * v
 
 
-@compiled
 def opened(p: float, p_full: float) -> float:
     """Opening of the suction valve [1], smooth between 0 and `p_full`."""
     x = min(max(p / p_full, 0.0), 1.0)
     return x * x * (3.0 - 2.0 * x)
 
 
-@compiled
 def blow_off(p: float, crack: float, slope: float) -> float:
     """Area [m2] of a pressure-relief valve, rounded over a tenth of its opening pressure, and closed below."""
     w = 0.1 * crack
@@ -96,11 +76,10 @@ def blow_off(p: float, crack: float, slope: float) -> float:
     return slope * x * x / (4.0 * w) if x < 2.0 * w else slope * (x - w)
 
 
-@compiled
-def shares(i: int, p: float, Q: float, y: Array, at_bottom: bool, c: Constants) -> tuple[float, float, float]:
+def shares(i: int, p: float, Q: float, y: Vector, at_bottom: bool, c: Constants) -> tuple[float, float, float]:
     """Volume shares of oil, pocket gas and bubbles at a port at bottom or top of chamber i that draws about Q [m3/s]."""
     height = c.height_1 if i == 0 else c.height_2 if i == 1 else c.height_3
-    width = (c.port + c.draw * ((Q * Q + 1e-12) / 9.81) ** 0.2) / height
+    width = (c.port + c.draw * math.pow((Q * Q + 1e-12) / 9.81, 0.2)) / height
     warm = warmth(y[TEMPERATURE])
     oil = max(y[OIL + i], 0.0)
     pocket = max(y[POCKET + i], 0.0) * P_0 / p * warm
@@ -115,15 +94,13 @@ def shares(i: int, p: float, Q: float, y: Array, at_bottom: bool, c: Constants) 
     return wetted * oil_share, 1.0 - wetted, wetted * (1.0 - oil_share)
 
 
-@compiled
 def orifice(dp: float, area: float, gap: float, rho: float, oil: float, c: Constants) -> float:
     """Volume flow [m3/s] for dp >= 0: turbulent through the area, laminar through the gap (viscosity of gas: 1 %)."""
     turbulent = c.C_d * area * math.sqrt(2.0 / rho) * dp / math.sqrt(math.sqrt(dp * dp + P_SMOOTH * P_SMOOTH))
     return turbulent + gap * dp / (0.01 + oil)
 
 
-@compiled
-def all_oil(i: int, y: Array) -> float:
+def all_oil(i: int, y: Vector) -> float:
     """Oil of chamber i with that on the walls [m3]."""
     total: float = max(y[OIL + i], 0.0)
     if i == 2:
@@ -131,8 +108,7 @@ def all_oil(i: int, y: Array) -> float:
     return total
 
 
-@compiled
-def throw(Q: float, Q_oil: float, y: Array, dy: Array, c: Constants) -> None:
+def throw(Q: float, Q_oil: float, y: Vector, dy: Vector, c: Constants) -> None:
     """Move a share of the foot valve's flow to the reserve's walls: half of it if the jet's head is half the height.
 
     A turbulent jet keeps its speed within six widths of oil above it; then its speed falls with the distance.
@@ -145,18 +121,16 @@ def throw(Q: float, Q_oil: float, y: Array, dy: Array, c: Constants) -> None:
     dy[FILM] += thrown
 
 
-@compiled
-def drain(thin: float, y: Array, dy: Array, c: Constants) -> None:
+def drain(thin: float, y: Vector, dy: Vector, c: Constants) -> None:
     """Let the oil on the walls run down: a laminar film over the reserve's height."""
     thick = max(y[FILM], 0.0) / (c.wetted * c.height_3)
-    drained = c.wetted * 9.81 * thick**3 / (3.0 * c.viscosity) * thin
+    drained = c.wetted * 9.81 * thick * thick * thick / (3.0 * c.viscosity) * thin
     dy[FILM] -= drained
     dy[OIL + 2] += drained
 
 
-@compiled
 def transfer(
-    i: int, j: int, area: float, gap: float, bottom: bool, p: float, p_to: float, y: Array, dy: Array, c: Constants
+    i: int, j: int, area: float, gap: float, bottom: bool, p: float, p_to: float, y: Vector, dy: Vector, c: Constants
 ) -> float:
     """Let oil and gas flow from chamber i at p to chamber j at p_to [Pa]; returns the dissipated power [W]."""
     warm = warmth(y[TEMPERATURE])
@@ -169,7 +143,8 @@ def transfer(
     Q_bubbles = Q * bubbles * per_gas
     Q_dissolved = Q_oil * max(y[DISSOLVED + i], 0.0) / max(all_oil(i, y), TINY)
     # The pressure in the jet of a cavitating valve is nearly zero, so that gas is released within one pass.
-    x = ((p - p_to) / (p_to * c.cavitating)) ** 2
+    drop = (p - p_to) / (p_to * c.cavitating)
+    x = drop * drop
     Q_released = c.released * x / (1.0 + x) * Q_dissolved
     dy[OIL + i] -= Q_oil
     dy[OIL + j] += Q_oil
@@ -194,8 +169,7 @@ def transfer(
     return Q * (oil * (p - p_to) + (1.0 - oil) * p * math.log(p / p_to))
 
 
-@compiled
-def exchange(i: int, p: float, y: Array, dy: Array, c: Constants) -> None:
+def exchange(i: int, p: float, y: Vector, dy: Vector, c: Constants) -> None:
     """Henry: release above saturation, dissolution of bubbles below it; bubbles rise into the pocket."""
     saturated = c.solubility * all_oil(i, y) * p / P_0
     excess = y[DISSOLVED + i] - saturated
@@ -209,10 +183,10 @@ def exchange(i: int, p: float, y: Array, dy: Array, c: Constants) -> None:
     dy[POCKET + i] += risen
 
 
-@compiled
-def rates(z: float, v: float, y: Array, dy: Array, c: Constants) -> None:
+def rates(z: float, v: float, y: Vector, dy: Vector, c: Constants) -> None:
     """Rates `dy` of the states `y` at the stroke z [m] and velocity v [m/s]."""
-    dy[:] = 0.0
+    for i in range(STATES):
+        dy[i] = 0.0
     p_1, p_2, p_3 = pressures(z, y, c)
     warmer = min(max(y[TEMPERATURE] - 25.0, -80.0), 200.0)
     thin = math.exp(c.thinning * warmer / (1.0 + warmer / (25.0 + VOGEL)))
@@ -241,21 +215,28 @@ def rates(z: float, v: float, y: Array, dy: Array, c: Constants) -> None:
     dy[TEMPERATURE] = (power - c.cooling * (y[TEMPERATURE] - c.T_ambient)) / c.heat_capacity
 
 
-@compiled
-def right_hand_side(t: float, y: Array, breaks: Array, spline: Array, c: Constants) -> Array:
-    """Rates of the states under the stroke of a cubic spline: `breaks` (n,), `spline` (4, n - 1), highest power first."""
-    k = min(max(np.searchsorted(breaks, t, side="right") - 1, 0), spline.shape[1] - 1)
+def segment_of(breaks: Vector, t: float) -> int:
+    """The segment of a spline in which `t` lies; beyond the ends the first or last."""
+    low, high = 0, len(breaks) - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if breaks[middle] <= t:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def right_hand_side(t: float, y: Vector, breaks: Vector, spline: Table, c: Constants, dy: Vector) -> None:
+    """Rates `dy` of the states `y`, the stroke a cubic spline: `breaks` (n,), `spline` (4, n - 1), highest power first."""
+    k = segment_of(breaks, t)
     x = t - breaks[k]
     a, b, d = spline[0, k], spline[1, k], spline[2, k]
-    dy = np.empty(STATES)
     rates(((a * x + b) * x + d) * x + spline[3, k], (3.0 * a * x + 2.0 * b) * x + d, y, dy, c)
-    return dy
 
 
-@compiled
-def outputs(z: Array, v: Array, y: Array, c: Constants) -> Array:
-    """Force [N], positive in rebound, and absolute pressures p_1, p_2, p_3 [Pa], rows of (4, n); states `y` (n, STATES)."""
-    out = np.empty((4, len(z)))
+def outputs(z: Vector, v: Vector, y: Table, c: Constants, out: Table) -> None:
+    """To `out` (4, n) force [N], positive in rebound, and absolute pressures p_1, p_2, p_3 [Pa]; states `y` (n, STATES)."""
     for k in range(len(z)):
         p_1, p_2, p_3 = pressures(z[k], y[k], c)
         _, rubbed = friction(v[k], y[k, BRISTLE], c)
@@ -263,4 +244,3 @@ def outputs(z: Array, v: Array, y: Array, c: Constants) -> Array:
         out[1, k] = p_1
         out[2, k] = p_2
         out[3, k] = p_3
-    return out

@@ -8,8 +8,8 @@ import numpy as np
 import tomlkit
 from scipy.interpolate import CubicSpline
 
+from twintube.common.arrays import Array
 from twintube.common.files import replacing, write_text
-from twintube.lab.virtual_rig.physics import Array
 from twintube.lab.virtual_rig.rig import VirtualRecord
 
 KINDS = ("quasi-static", "harmonic", "stochastic")

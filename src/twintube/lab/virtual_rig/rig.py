@@ -6,6 +6,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
+from twintube.common.arrays import Array
 from twintube.lab.virtual_rig.constants import Constants
 from twintube.lab.virtual_rig.damper import VirtualDamper
 from twintube.lab.virtual_rig.physics import (
@@ -19,10 +20,8 @@ from twintube.lab.virtual_rig.physics import (
     STATES,
     T_0,
     TEMPERATURE,
-    Array,
-    outputs,
-    right_hand_side,
 )
+from twintube.native.library import module
 
 RTOL = 1e-7
 ATOL = np.array([1e-12] * 13 + [1e-5, 1e-9, 1e-3])  # [m3], [degC], [m], [J]
@@ -90,13 +89,20 @@ def run(
     check(damper, time, stroke, oil_level, c)
     path = CubicSpline(time, stroke)
     velocity = path(time, 1)
+    compiled, breaks, spline = module("rig"), np.array(path.x), np.ascontiguousarray(path.c)
+
+    def rates(t: float, y: Array) -> Array:
+        """Rates of the states."""
+        dy = np.empty(STATES)
+        compiled.right_hand_side(t, y, breaks, spline, c, dy)
+        return dy
+
     solution = solve_ivp(
-        right_hand_side,
+        rates,
         (time[0], time[-1]),
         initial_state(stroke[0], oil_level * damper.V_oil, temperature_degC, c),
         method="LSODA",
         t_eval=time,
-        args=(path.x, np.ascontiguousarray(path.c), c),
         rtol=rtol,
         atol=ATOL * (rtol / RTOL),
         max_step=float(np.median(np.diff(time))) * 20,
@@ -104,7 +110,8 @@ def run(
     if not solution.success or not np.isfinite(solution.y).all():
         raise RuntimeError(f"{damper.name}: the solver stopped at {solution.t[-1]:.3f} s: {solution.message}")
     y = np.ascontiguousarray(solution.y.T)
-    out = outputs(stroke, velocity, y, c)
+    out = np.empty((4, len(time)))
+    compiled.outputs(stroke, velocity, y, c, out)
     return VirtualRecord(
         damper=damper,
         oil_level=oil_level,

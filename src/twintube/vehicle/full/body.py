@@ -7,7 +7,7 @@ roll centre and its pitch about the wheels' centres, the roll of the axle about 
 The masses of the wheels move with the body along x and with the axle's roll centre along y. Left out: products of inertia,
 gyroscopic moments of the wheels, camber, self-aligning torque, rolling resistance, the weight's moment as the body pitches.
 
-In the kernel's own subset of Python: numba compiles it with the damper.
+In the kernel's own subset of Python: compiled with the damper.
 """
 
 import math
@@ -80,7 +80,8 @@ def push_wheel(  # noqa: PLR0915 - the equations of a corner in their order
     velocity = v_corner - v_wheel
     elastic = k.c_body * stroke + k.c_bar * (stroke - across)
     pull = elastic + k.d_links * velocity + k.ratio * (w.acting - k.F_rest)
-    pull += stop_force(k, stroke - k.travel, velocity) - stop_force(k, -stroke - k.travel, -velocity)
+    stiff, damped = k.c_stop, k.d_stop
+    pull += stop_force(stiff, damped, stroke - k.travel, velocity) - stop_force(stiff, damped, -stroke - k.travel, -velocity)
     press = k.weight + k.c_tyre * (w.road - w.z)
     w.load = press
     if press > 0.0:

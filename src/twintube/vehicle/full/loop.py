@@ -1,14 +1,19 @@
-"""The loop over the whole car and its four dampers, in the kernel's subset of Python; numba compiles it with the kernel."""
+"""The loop over the whole car and its four dampers, in the kernel's subset of Python; compiled with the kernel."""
 
 import math
-from typing import Any
+from collections.abc import Sequence
 
+from twintube.common.arrays import Table, Vector
+from twintube.core.effects import Parameters, State
 from twintube.core.frame import stroke_limit
 from twintube.core.model import advance
 from twintube.core.outputs import total_force
+from twintube.core.variables import Derived, Flow
 from twintube.vehicle.full.body import corner_stroke, corner_velocity
+from twintube.vehicle.full.brakes import Brakes
+from twintube.vehicle.full.car import Body, BodyMotion, Wheel, WheelMotion
 from twintube.vehicle.full.driver import drive_step
-from twintube.vehicle.full.steering import follow_path
+from twintube.vehicle.full.steering import Pursuer, follow_path
 
 # Columns of a step: the body's, then those of each wheel in turn.
 BODY_COLUMNS = 16
@@ -16,8 +21,8 @@ WHEEL_COLUMNS = 12
 
 
 def road_step(
-    c: Any, b: Any, ks: Any, ws: Any, h: Any, road: Any, spacing: float,
-    grips: Any, steer: float, wanted: float, held: float, dt: float,
+    c: Body, b: BodyMotion, ks: Sequence[Wheel], ws: Sequence[WheelMotion], h: Brakes, road: Table, spacing: float,
+    grips: Vector, steer: float, wanted: float, held: float, dt: float,
 ) -> bool:  # fmt: skip
     """One step of `dt` [s] of road, driver and car; false where the road ends.
 
@@ -47,14 +52,14 @@ def road_step(
     return True
 
 
-def write_body(b: Any, row: Any) -> None:
+def write_body(b: BodyMotion, row: Vector) -> None:
     """The body's columns at the start of a step."""
     row[0], row[1], row[2], row[3], row[4], row[5] = b.x, b.y, b.yaw, b.z, b.pitch, b.roll
     row[6], row[7], row[8] = b.v_x + 0.5 * b.dv_x, b.v_y + 0.5 * b.dv_y, b.w_yaw + 0.5 * b.dw_yaw
     row[14] = b.work
 
 
-def write_step(b: Any, ws: Any, row: Any, steer: float, dt: float) -> None:
+def write_step(b: BodyMotion, ws: Sequence[WheelMotion], row: Vector, steer: float, dt: float) -> None:
     """The accelerations of a step of `dt` [s], the steer angle [rad] and the wheels' columns, but for the dampers' work."""
     row[9], row[10], row[11] = b.a_x, b.a_y, b.dv_z / dt
     row[12], row[13], row[15] = b.dw_roll / dt, b.dw_pitch / dt, steer
@@ -67,8 +72,9 @@ def write_step(b: Any, ws: Any, row: Any, steer: float, dt: float) -> None:
 
 
 def run_car(
-    p: Any, d: Any, s: Any, f: Any, c: Any, b: Any, ks: Any, ws: Any, h: Any,
-    road: Any, spacing: float, grips: Any, q: Any, path: Any, inputs: Any, begin: int, dt: float, out: Any,
+    p: Sequence[Parameters], d: Sequence[Derived], s: Sequence[State], f: Sequence[Flow],
+    c: Body, b: BodyMotion, ks: Sequence[Wheel], ws: Sequence[WheelMotion], h: Brakes, road: Table, spacing: float,
+    grips: Vector, q: Pursuer, path: Table, inputs: Table, begin: int, dt: float, out: Table,
 ) -> int:  # fmt: skip
     """Drive the car with its dampers, whose records `p`, `d`, `s`, `f` (4,) are, from step `begin` on; else as `road_step`.
 
@@ -84,7 +90,8 @@ def run_car(
     for n in range(len(inputs)):
         row = out[n]
         write_body(b, row)
-        steer = inputs[n, 0] + follow_path(q, b, path, (begin + n) * dt, dt)
+        steer = follow_path(q, b, path, (begin + n) * dt, dt)
+        steer += inputs[n, 0]
         if not road_step(c, b, ks, ws, h, road, spacing, grips, steer, inputs[n, 1], inputs[n, 2], dt):
             return n
         write_step(b, ws, row, steer, dt)

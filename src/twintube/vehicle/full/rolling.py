@@ -14,12 +14,14 @@ The tyre answers by its rise at no slip and its deflection along, the wheel by i
 the drive: of what it does to the car, only the force along the body is given back. How stroke and pitch move the contact
 along (`support`) is in `body.py`. Left out: growth by speed, runout and imbalance, engine and shafts, torsion of the belt.
 
-In the kernel's own subset of Python: numba compiles it with the damper.
+In the kernel's own subset of Python: compiled with the damper.
 """
 
 import math
-from typing import Any
+from collections.abc import Sequence
 
+from twintube.common.arrays import Table, Vector
+from twintube.vehicle.full.car import Wheel
 from twintube.vehicle.full.tyre import LARGEST_LOAD, ROLLING, deflect, over_load
 
 # Of the Magic Formula 6.1: how the rolling radius falls as the tyre is pressed.
@@ -36,8 +38,9 @@ def shrinking(share: float) -> float:
 
 
 def roll_wheels(
-    ks: Any, stiff: Any, soft: Any, load: Any, slope: Any, spin: Any, force: Any, a_x: Any, dt: float, state: Any, out: Any
-) -> None:
+    ks: Sequence[Wheel], stiff: Vector, soft: Vector, load: Table, slope: Table, spin: Table, force: Table, a_x: Vector,
+    dt: float, state: Table, out: Table,
+) -> None:  # fmt: skip
     """Rotation of the wheels of a drive: `load` [N], `spin` [rad/s], `force` along [N] (n, 4) and `a_x` [m/s2] (n,) are its.
 
     `stiff` [N/m] and `soft` [N.s/m] (4,) are the bushings', `slope` [1] (n, 4) that of the road. `state` (4, ROLL_STATES) is

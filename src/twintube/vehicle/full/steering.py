@@ -3,14 +3,15 @@
 Two levels as in Donges ("A two-level model of driver steering behavior", Human Factors 20, 1978, from memory): anticipation
 takes the curvature some time ahead, compensation the circle that meets the path's tangent again after a preview. Wheelbase
 and understeer of the steady car make an angle of a curvature. The arms lag and have a largest rate.
-In the kernel's own subset of Python: numba compiles it.
+In the kernel's own subset of Python.
 """
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
+from twintube.common.arrays import Table
 from twintube.core.variables import var
+from twintube.vehicle.full.car import BodyMotion
 from twintube.vehicle.quarter_car import GRAVITY
 
 PATH_SPACING = 0.1  # [m] of a path's points
@@ -38,14 +39,14 @@ class Pursuer:
     steer: float = var("driver", "", "rad", "his steer angle", default=0.0)
 
 
-def off_path(b: Any, path: Any, j: int) -> float:
+def off_path(b: BodyMotion, path: Table, j: int) -> float:
     """Square of the distance [m2] to a point of the path."""
     x, y = path[j, 0] - b.x, path[j, 1] - b.y
     squares: float = x * x + y * y
     return squares
 
 
-def follow_path(q: Any, b: Any, path: Any, time: float, dt: float) -> float:
+def follow_path(q: Pursuer, b: BodyMotion, path: Table, time: float, dt: float) -> float:
     """The steer angle [rad] for the step of `dt` [s] at a `time` [s]; 0 without a path.
 
     `path` (m, 4) are places [m], direction [rad] and curvature [1/m], a point every PATH_SPACING.

@@ -4,7 +4,7 @@ The tyre is described at its nominal load and at twice that load: rise at no sli
 force and its slip, for each direction. Source of the equations: G. Rill, "TMeasy - A Handling Tire Model based on a
 three-dimensional slip approach", Proc. XXIII IAVSD (2013), and their form in Project Chrono's ChTMeasyTire.
 
-In the kernel's own subset of Python: numba compiles it with the damper.
+In the kernel's own subset of Python: compiled with the damper.
 """
 
 import math
@@ -15,14 +15,14 @@ LARGEST_LOAD = 3.5  # nominal loads, beyond which the load makes no further forc
 ROLLING = 0.1  # [m/s] below which slip relates to this speed in place of the wheel's
 
 
-def over_load(nominal: float, double: float, load: float) -> float:
+def over_load(nominal: float, twice: float, load: float) -> float:
     """A force [N] or rise at a `load` [nominal loads] from those at one and two nominal loads: a parabola through 0."""
-    return load * (2.0 * nominal - 0.5 * double - (nominal - 0.5 * double) * load)
+    return load * (2.0 * nominal - 0.5 * twice - (nominal - 0.5 * twice) * load)
 
 
-def between_loads(nominal: float, double: float, load: float) -> float:
+def between_loads(nominal: float, twice: float, load: float) -> float:
     """A slip at a `load` [nominal loads] from those at one and two nominal loads: a line."""
-    return nominal + (double - nominal) * (load - 1.0)
+    return nominal + (twice - nominal) * (load - 1.0)
 
 
 def combined(along: float, across: float) -> float:

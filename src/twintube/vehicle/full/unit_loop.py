@@ -1,45 +1,63 @@
-"""The loop over the whole car with FMUs of FMI 2.0 as dampers, called by address; numba compiles it with the kernel."""
+"""The loop over the whole car with FMUs of FMI 2.0 as dampers, called by address; compiled with the kernel."""
 
-from typing import Any
+from collections.abc import Sequence
+from ctypes import CFUNCTYPE, c_double, c_int, c_size_t, c_void_p
 
+from twintube.common.arrays import Addresses, Counts, Stack, Table, Vector
+from twintube.vehicle.full.brakes import Brakes
+from twintube.vehicle.full.car import Body, BodyMotion, Wheel, WheelMotion
 from twintube.vehicle.full.loop import BODY_COLUMNS, WHEEL_COLUMNS, road_step, write_body, write_step
+
+VALUES = CFUNCTYPE(c_int, c_void_p, c_void_p, c_size_t, c_void_p)
+STEP = CFUNCTYPE(c_int, c_void_p, c_double, c_double, c_int)
+
+
+def call_values(function: int, component: int, references: int, size: int, values: int) -> int:
+    """Call fmi2SetReal or fmi2GetReal at its address; the status. In C this is the call itself (`native/sources.py`)."""
+    status: int = VALUES(function)(component, references, size, values)
+    return status
+
+
+def call_step(function: int, component: int, time: float, dt: float) -> int:
+    """Call fmi2DoStep at its address; the status. No state before the step will be set."""
+    status: int = STEP(function)(component, time, dt, 1)
+    return status
 
 
 def step_units(
-    set_real: Any, do_step: Any, get_real: Any, calls: Any, moved: Any, found: Any, now: Any, strokes: Any, velocities: Any,
-    parts: int, dt: float,
+    calls: Addresses, moved: Stack, found: Stack, now: Vector, moves: Table, parts: int, dt: float,
 ) -> int:  # fmt: skip
     """A step of the FMUs in `parts` of `dt` [s] each; 0, or 1 + the number of the FMU that refused it.
 
-    The k FMUs have 4 / k dampers each, and a function each in the three tuples. `calls` (k, 7) are their instances, then for
-    inputs and for outputs the addresses of the references, their number, and the address of the values: rows of `moved`
-    (k, 2, 4 / k), stroke and velocity, and of `found`, force and work. `strokes` (4,) [m] at the start and `velocities` (4,)
-    [m/s] are given, `now` (1,) [s] goes on.
+    The k FMUs have 4 / k dampers each. `calls` (k, 10) are their functions fmi2SetReal, fmi2DoStep and fmi2GetReal and their
+    instances, then for inputs and for outputs the addresses of the references, their number, and the address of the values:
+    rows of `moved` (k, 2, 4 / k), stroke and velocity, and of `found`, force and work. `moves` (2, 4) are the strokes [m] at
+    the start and the velocities [m/s], `now` (1,) [s] goes on.
     """
     each = moved.shape[2]
     for n in range(parts):
         for i in range(4):
             unit, place = i // each, i % each
-            moved[unit, 0, place] = strokes[i] + n * dt * velocities[i]
-            moved[unit, 1, place] = velocities[i]
-        for unit in range(len(calls)):
-            c = calls[unit]
+            moved[unit, 0, place] = moves[0, i] + n * dt * moves[1, i]
+            moved[unit, 1, place] = moves[1, i]
+        for k in range(len(calls)):
+            c = calls[k]
             if (
-                set_real[unit](c[0], c[1], c[2], c[3]) > 1
-                or do_step[unit](c[0], now[0], dt, 1) > 1
-                or get_real[unit](c[0], c[4], c[5], c[6]) > 1
+                call_values(c[0], c[3], c[4], c[5], c[6]) > 1
+                or call_step(c[1], c[3], now[0], dt) > 1
+                or call_values(c[2], c[3], c[7], c[8], c[9]) > 1
             ):
-                return unit + 1
+                return k + 1
         now[0] += dt
     return 0
 
 
 def run_car_with_units(
-    set_real: Any, do_step: Any, get_real: Any, calls: Any, moved: Any, found: Any, now: Any, parts: int,
-    c: Any, b: Any, ks: Any, ws: Any, h: Any, road: Any, spacing: float, grips: Any, inputs: Any,
-    dt: float, out: Any, refused: Any,
+    calls: Addresses, moved: Stack, found: Stack, now: Vector, moves: Table, parts: int,
+    c: Body, b: BodyMotion, ks: Sequence[Wheel], ws: Sequence[WheelMotion], h: Brakes, road: Table, spacing: float,
+    grips: Vector, inputs: Table, dt: float, out: Table, refused: Counts,
 ) -> int:  # fmt: skip
-    """As `run_car`, but the dampers are FMUs as in `step_units`.
+    """As `run_car`, but the dampers are FMUs as in `step_units`, whose `moves` it fills in.
 
     Returns the number of finished steps: less than n where the road ends, or where `refused` (1,) is what `step_units` said.
     """
@@ -56,9 +74,9 @@ def run_car_with_units(
         for i in range(4):
             row[BODY_COLUMNS + WHEEL_COLUMNS * i + 10] = found[i // each, 1, i % each]
             ws[i].before = ws[i].damper
-        refused[0] = step_units(
-            set_real, do_step, get_real, calls, moved, found, now, ws.stroke, ws.velocity, parts, dt / parts
-        )  # fmt: skip
+            moves[0, i] = ws[i].stroke
+            moves[1, i] = ws[i].velocity
+        refused[0] = step_units(calls, moved, found, now, moves, parts, dt / parts)
         if refused[0] != 0:
             return n
         for i in range(4):

@@ -1,0 +1,38 @@
+"""Loops over noise with memory, in the kernel's own subset of Python; compiled with the kernel. Called by `memory.py`."""
+
+import math
+
+from twintube.common.arrays import Table, Vector
+
+
+def filter_noise(values: Table, sigma: Vector, size: Vector, kept: Vector, mean: Vector, out: Table) -> float:
+    """Write the independent, unit-variance innovations of `values` (n, k) to `out`; half the log determinant of 2 pi C.
+
+    Noise: white of `sigma` (n,) plus `size` (n,) times a process of unit variance, of which each sample keeps the share
+    `kept` (n,) of the sample before. `mean` (k,) are zeros, which the filter carries on.
+    """
+    n = len(values)
+    spread = 1.0
+    log_det = 0.0
+    for i in range(n):
+        a, phi = size[i], kept[i]
+        spread = phi * phi * spread + 1.0 - phi * phi
+        total = a * a * spread + sigma[i] * sigma[i]
+        root = math.sqrt(total)
+        gain = spread * a / total
+        log_det += math.log(root)
+        for j in range(len(mean)):
+            m = phi * mean[j]
+            e = values[i, j] - a * m
+            out[i, j] = e / root
+            mean[j] = m + gain * e
+        spread *= sigma[i] * sigma[i] / total
+    return log_det + 0.5 * n * math.log(2.0 * math.pi)
+
+
+def lag(values: Vector, kept: Vector, out: Vector) -> None:
+    """Values (n,) to `out` behind a filter of first order, of whose state each sample keeps the share `kept` (n,)."""
+    state = values[0]
+    for i in range(len(values)):
+        state = kept[i] * state + (1.0 - kept[i]) * values[i]
+        out[i] = state
