@@ -11,12 +11,10 @@ import numba
 import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Slave
-from twintube.fmu.equations import checked
 
 from tests.explorer.wasm import Module
 from twintube.common.arrays import Array
 from twintube.dampers import Damper, load, names
-from twintube.explorer import translate
 from twintube.fmu.table import variables
 from twintube.rig.plan import amplitude, at_oil_level, oil_levels, velocities
 from twintube.rig.signals import harmonic_block
@@ -145,10 +143,3 @@ def test_the_quarter_car_of_the_module_is_that_of_the_package(name: str) -> None
         wanted_values = getattr(expected, quantity)
         # The loop feeds rounding back, over 6000 steps.
         assert np.abs(found - wanted_values).max() <= 1e-9 * np.abs(wanted_values).max(), quantity
-
-
-def test_the_c_of_the_quarter_car_is_current() -> None:
-    current = translate.TARGET.read_text(encoding="utf-8")
-    checked(current, translate.QUARTER_CAR)
-    pytest.importorskip("pyccel", reason="pyccel is not installed: the digest alone says that the C is current")
-    assert translate.translated() == current

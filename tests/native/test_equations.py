@@ -1,10 +1,9 @@
-"""The native FMU computes the kernel's numbers: to the last bit beside the interpreter and numba."""
+"""The native FMU computes the kernel's numbers: to the last bit beside the interpreter and the library."""
 
 from pathlib import Path
 from typing import Any
 
 import fmpy
-import numba
 import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Slave
@@ -16,7 +15,8 @@ from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper, load, names
 from twintube.engine import compiled
 from twintube.engine.simulate import rows
-from twintube.fmu import build_fmu, equations, translate
+from twintube.fmu import build_fmu
+from twintube.native.headers import HEADERS, header, vouched
 from twintube.rig.signals import BLOCKS, harmonic_block
 
 VOLUMES = ("V1_oil", "V1_gas", "V1_foam", "V2_oil", "V2_gas", "V2_foam", "V3_oil", "V3_foam")
@@ -48,25 +48,14 @@ def interpreted(damper: Damper, stroke: Array, steps: Array) -> Array:
     return np.array(found)
 
 
-@numba.njit
-def loop(  # noqa: PLR0917 - compiled by numba
-    advance: Any, p: Any, d: Any, s: Any, f: Any, z: Array, steps: Array, out: Array
-) -> None:  # pragma: no cover
-    for i in range(len(z) - 1):
-        v = (z[i + 1] - z[i]) / steps[i]
-        advance(p, d, s, f, z[i] + v * steps[i], v, v, steps[i])
-        row = out[i]
-        row[0] = s.F_fluid + s.F_friction + s.F_gas
-        row[1] = s.k_degr
-        row[2], row[3], row[4] = s.V1_oil, s.V1_gas, s.V1_foam
-        row[5], row[6], row[7] = s.V2_oil, s.V2_gas, s.V2_foam
-        row[8], row[9] = s.V3_oil, s.V3_foam
-
-
-def by_numba(damper: Damper, stroke: Array, steps: Array) -> Array:
-    out = np.empty((len(stroke) - 1, len(OUTPUTS)))
-    loop(compiled.module().advance, *rows(at_rest(damper)), stroke, steps, out)
-    return out
+def by_library(damper: Damper, stroke: Array, steps: Array) -> Array:
+    p, d, s, f = rows(at_rest(damper))
+    advance, found, z = compiled.module().advance, [], stroke.tolist()
+    for a, b, dt in zip(z[:-1], z[1:], steps.tolist(), strict=True):
+        v = (b - a) / dt
+        advance(p, d, s, f, a + v * dt, v, v, dt)
+        found.append((s["F_fluid"] + s["F_friction"] + s["F_gas"], s["k_degr"], *(s[name] for name in VOLUMES)))
+    return np.array(found)
 
 
 def slave_of(fmu: Path) -> tuple[FMU2Slave, dict[str, int]]:
@@ -101,11 +90,11 @@ def assert_same(damper: Damper, velocity: float, folder: Path) -> None:
     found = native(damper, stroke, steps, folder)
     assert np.isfinite(found).all()
     assert found.tobytes() == interpreted(damper, stroke, steps).tobytes()
-    assert found.tobytes() == by_numba(damper, stroke, steps).tobytes()
+    assert found.tobytes() == by_library(damper, stroke, steps).tobytes()
 
 
 @pytest.mark.parametrize("name", names())
-def test_same_bits_as_interpreter_and_numba(name: str, tmp_path: Path) -> None:
+def test_same_bits_as_interpreter_and_library(name: str, tmp_path: Path) -> None:
     damper = load(name)
     assert_same(damper.with_(oil_level=damper.measured_levels[-1], gas_preload=0), BLOCKS[-1], tmp_path)
 
@@ -147,25 +136,14 @@ def test_input_derivative_lets_the_velocity_go_evenly(tmp_path: Path) -> None:
     slave.freeInstance()
 
 
-def test_translated_equations_are_current() -> None:
-    text = equations.checked(translate.TARGET.read_text(encoding="utf-8"))
+def test_a_reader_finds_the_papers_equations_in_the_c() -> None:
+    text = header("kernel.h")
     for number in (22, 25, 28, 29, 36, 40, 41):
-        assert f"Eq. {number}" in text  # a reader finds the paper's equations in the C too
+        assert f"Eq. {number}" in text
 
 
-def test_translated_equations_of_the_car_are_current() -> None:
-    for target, source in translate.TARGETS.items():
-        equations.checked(target.read_text(encoding="utf-8"), source)
-
-
-def test_translation_repeats() -> None:
-    pytest.importorskip("pyccel", reason="pyccel is absent: the digest alone tells that the translation is current")
-    for target, source in translate.TARGETS.items():
-        assert translate.translated(source) == target.read_text(encoding="utf-8")
-
-
-def test_functions_stand_below_those_that_they_call() -> None:
-    found = {"a": "def a(x):\n    return b(x)", "b": "def b(x):\n    return x"}
-    assert equations.ordered(found | {"c": "def c(x):\n    return x"}, ["a"]) == ["b", "a"]
-    with pytest.raises(ValueError, match="b calls itself"):
-        equations.ordered(found | {"b": "def b(x):\n    return b(x)"}, ["a"])
+@pytest.mark.parametrize("name", HEADERS)
+def test_a_kept_header_is_of_its_text_and_files(name: str) -> None:
+    text, files = header(name), HEADERS[name][1]
+    assert vouched(text, files) != vouched(text + " ", files)
+    assert vouched(text, files) != vouched(text, (*files, "engine/simulate.py"))

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from twintube.native import library
+
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "effects.md").read_text(encoding="utf-8")
 BLOCK = re.compile(r"<!-- file: (\S+) -->\n```python\n(.*?)```", re.DOTALL)
@@ -32,8 +34,8 @@ from twintube.core import model
 from twintube.core.effects import State
 from twintube.core.variables import Derived, Flow, blank
 from twintube.fmu.description import described
-from twintube.fmu.equations import StaleTranslationError, checked
-from twintube.fmu.sources import NATIVE
+from twintube.native.headers import header
+from twintube.native.library import LibraryError
 
 
 def fluid(damper):
@@ -52,12 +54,13 @@ stroke = 0.001 * np.arange(1, 81) - 0.04
 np.testing.assert_allclose(ratio, 1 - 0.5 * np.exp(-((stroke / 0.02) ** 2)), rtol=1e-9)
 xml = described(damper, "{0}", "2025-01-01T00:00:00Z", {}, sources=[], categories=[]).decode()
 assert 'name="bypass_groove.groove_share"' in xml and 'name="bypass_groove.groove_length"' in xml
+assert "bypass_groove_scale_fluid" in header("kernel.h")
 try:
-    checked((NATIVE / "kernel.h").read_text(encoding="utf-8"))
-except StaleTranslationError as error:
-    assert "python -m twintube.fmu.translate" in str(error)
+    simulate(damper, harmonic_block(0.524, dt=5e-3))
+except LibraryError as error:
+    assert "run `python -m twintube.native`" in str(error)
 else:
-    raise AssertionError("C without the effect was taken for current")
+    raise AssertionError("a library without the effect was taken for current")
 """
 COMPILED = """
 block = harmonic_block(0.524, dt=5e-3)
@@ -90,6 +93,7 @@ def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    library.present()
     folder = tmp_path_factory.mktemp("copy")
     ignored = shutil.ignore_patterns("__pycache__", "examples", "fmu_sources")
     shutil.copytree(ROOT / "src" / "twintube", folder / "twintube", ignore=ignored)
@@ -112,8 +116,9 @@ def test_the_page_gives_an_effect_that_works(copy: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.slow
 def test_the_compiled_model_has_it(copy: Path) -> None:
+    made = run(copy, "-m", "twintube.native")
+    assert made.returncode == 0, made.stderr
     done = run(copy, "-c", head(copy) + COMPILED)
     assert done.returncode == 0, done.stderr
 
@@ -201,18 +206,6 @@ def test_a_field_that_the_table_cannot_hold_is_named_with_its_file(copy: Path, o
         other.write_text(text, encoding="utf-8")
     assert done.returncode != 0
     assert f"effects/bypass_groove.py: {name}: must be var(..., default=...)" in done.stderr.splitlines()[-1]
-
-
-PYCCEL = shutil.which("pyccel") or shutil.which("pyccel", path=str(Path(sys.executable).parent))
-
-
-@pytest.mark.skipif(PYCCEL is None, reason="pyccel is not installed")
-def test_the_translation_takes_it(copy: Path) -> None:
-    done = run(copy, "-m", "twintube.fmu.translate")
-    assert done.returncode == 0, done.stderr
-    assert "bypass_groove_scale_fluid" in (copy / "twintube" / "fmu_sources" / "native" / "kernel.h").read_text(
-        encoding="utf-8"
-    )
 
 
 def test_every_hook_and_role_of_the_page_exists() -> None:

@@ -20,11 +20,12 @@ def filter_noise(values: Table, sigma: Vector, size: Vector, kept: Vector, mean:
         total = a * a * spread + sigma[i] * sigma[i]
         root = math.sqrt(total)
         gain = spread * a / total
+        unit = 1.0 / root  # one division in place of one for each column
         log_det += math.log(root)
         for j in range(len(mean)):
             m = phi * mean[j]
             e = values[i, j] - a * m
-            out[i, j] = e / root
+            out[i, j] = e * unit
             mean[j] = m + gain * e
         spread *= sigma[i] * sigma[i] / total
     return log_det + 0.5 * n * math.log(2.0 * math.pi)

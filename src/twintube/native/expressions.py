@@ -1,7 +1,7 @@
 """Expressions of the subset in C, with the meaning that Python gives them.
 
 Where both differ Python's counts: `/` of whole numbers, `//`, `%`, chains of comparisons, `min` and `max` with NaN, the
-order in which calls happen. Python raises where C gives inf or NaN (division by zero, root of a negative number): that stays C's.
+order in which calls happen. Where Python raises (division by zero, root of a negative number) C gives inf or NaN.
 """
 
 import ast
@@ -17,8 +17,9 @@ OPERATORS = {ast.Add: ("+", SUM), ast.Sub: ("-", SUM), ast.Mult: ("*", PRODUCT),
 HELPED = {ast.FloorDiv: "floor_div", ast.Mod: "modulo"}  # of whole numbers
 COMPARISONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 # Functions of `math` that CPython takes from the C library as they are, by their number of arguments.
-ONE = ("acos", "asin", "atan", "cos", "cosh", "exp", "expm1", "fabs", "log", "log1p", "sin", "sinh", "sqrt", "tan", "tanh")
-MATH = dict.fromkeys(ONE, 1) | dict.fromkeys(("atan2", "copysign", "fmod", "pow"), 2)
+ONE = ("acos", "asin", "atan", "cos", "cosh", "exp", "expm1", "log", "log1p", "sin", "sinh", "tan", "tanh")
+INEXACT = {name: 1 for name in ONE} | {"atan2": 2, "pow": 2}
+MATH = INEXACT | {"fabs": 1, "sqrt": 1, "copysign": 2, "fmod": 2}
 ROUNDED = ("ceil", "floor")
 MATH_CONSTANTS = {"pi": "M_PI", "inf": "INFINITY", "nan": "NAN"}
 

@@ -16,9 +16,10 @@ INDENT = "    "
 WIDTH = 120
 # Words of C, by which nothing can be called.
 TAKEN = {
-    "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else", "enum", "extern", "float", "for",
-    "goto", "if", "inline", "int", "long", "register", "restrict", "return", "short", "signed", "sizeof", "static", "struct",
-    "switch", "typedef", "union", "unsigned", "void", "volatile", "while", "true", "false", "bool", *MATH, *ROUNDED,
+    "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else", "enum", "extern", "float",
+    "for", "goto", "if", "inline", "int", "long", "register", "restrict", "return", "short", "signed", "sizeof", "static",
+    "struct", "switch", "typedef", "union", "unsigned", "void", "volatile", "while", "true", "false", "bool",
+    *MATH, *ROUNDED,
 }  # fmt: skip
 UNSAID = re.compile(r"(noqa|fmt|type|pragma)\b")  # of comments that speak to tools
 OPERATIONS = {ast.Add: "+=", ast.Sub: "-=", ast.Mult: "*=", ast.Div: "/="}

@@ -46,6 +46,7 @@ ARRAYS = {
     "Addresses": Kind("array", "int", 2),
 }
 STRUCTS = {kind: name.lower() for name, kind in ARRAYS.items()}
+FOLDED = {"math": math, "abs": abs, "min": min, "max": max}  # of what may stand in a constant
 SIZES = ("rows", "columns", "layers")
 
 
@@ -178,7 +179,7 @@ def constant(node: ast.expr, constants: Mapping[str, float]) -> float | None:
     """The value of an expression of numbers and constants, computed by Python; None where it is none."""
     for part in ast.walk(node):
         match part:
-            case ast.Name(id=name) if name not in constants and name != "math":
+            case ast.Name(id=name) if name not in constants and name not in FOLDED:
                 return None
             case ast.Attribute(value=ast.Name(id="math")) | ast.Name() | ast.Constant(value=int() | float()):
                 continue
@@ -186,5 +187,5 @@ def constant(node: ast.expr, constants: Mapping[str, float]) -> float | None:
                 continue
         return None
     code = compile(ast.fix_missing_locations(ast.Expression(node)), "<constant>", "eval")
-    value = eval(code, {"__builtins__": {}, "math": math, **constants})
+    value = eval(code, {"__builtins__": {}, **FOLDED, **constants})
     return value if type(value) in (int, float) else None

@@ -125,8 +125,12 @@ def present() -> Path:
 
 @cache
 def loaded() -> dict[str, SimpleNamespace]:
-    """The functions of the library by what their names begin with."""
-    library = ctypes.CDLL(str(present()))
+    """The functions of this machine's library."""
+    return functions(ctypes.CDLL(str(present())))
+
+
+def functions(library: ctypes.CDLL) -> dict[str, SimpleNamespace]:
+    """The functions of a library by what their names begin with."""
     found: dict[str, SimpleNamespace] = {}
     calls = ctypes.string_at(ctypes.addressof(ctypes.c_char.in_dll(library, "twintube_calls"))).decode("ascii")
     for line in calls.splitlines():

@@ -125,7 +125,7 @@ def translated(equations: Equations, *, exported: bool = False) -> Translation:
     for name in reader.ordered():
         source = reader.functions[name]
         result = reader.types.annotated(source.node.returns)
-        if result is None or result.whole:
+        if result is None or result.whole or (exported and name in equations.entries and result.word == "results"):
             refuse_at(source, source.node, f"the result of `{name}`")
         function = Function(name, arguments_of(source, known), result)
         if name in equations.outer:
