@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from twintube.rig import Signal as Signal
     from twintube.rig import harmonic_block as harmonic_block
 
-# Imported where they are first used: numba, scipy and the FMU tools take seconds.
+# Imported where they are first used: scipy and the FMU tools take seconds.
 HOMES = {
     "twintube.dampers": ("Damper", "ParameterError", "load"),
     "twintube.engine.simulate": ("simulate",),

@@ -11,5 +11,5 @@ kernel/     the paper's equations
 effects/    physics beyond the paper, one file each
 frame       what the effects share
 model       the kernel with the effects around it
-sources     the files of the equations in calling order, for all who compile, translate or fingerprint them
+sources     the files of the equations, for the translation to C
 """

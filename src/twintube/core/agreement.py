@@ -1,6 +1,6 @@
 """Whether a velocity belongs to its stroke: a rule of both kinds of FMU, of the car's roads and of `simulate`.
 
-In the kernel's subset of Python, so that the native FMU runs the translation and the engine compiles it.
+In the kernel's subset of Python, so that the native FMU and the library run the translation.
 
 From one communication point to the next the stroke changes by the integral of the velocity. What the two differ by is summed
 up as a way: an error of sign, unit or connection goes on growing with the stroke's way, those of right inputs do not.

@@ -53,7 +53,7 @@ class SimulatedRecords:
     `starts` (r + 1,) where each record begins; `states` (r, 4) oil level, preload and factors of the gas; `t`, `z`, `v` (n,)
     time, stroke and
     velocity. `parts` are the steps of the model per interval; the forces behind a step that fails are `failed` [N].
-    `threads` serve several parameter sets at once, as numba releases the interpreter's lock.
+    `threads` serve several parameter sets at once, as the library releases the interpreter's lock.
     """
 
     def __init__(self, damper: Damper, records: Sequence[Driven], *, parts: int, failed: float) -> None:

@@ -6,7 +6,7 @@ of numpy; a bundle is a NamedTuple of arrays and numbers. Arrays are C-contiguou
 
 import ast
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NoReturn
 
@@ -160,7 +160,7 @@ def member(types: Types, item: ast.AnnAssign, path: str, constants: Mapping[str,
     if not isinstance(item.value, ast.Call):
         return Member(item.target.id, kind)
     size = next((word.value for word in item.value.keywords if word.arg == "size"), ast.Constant(1))
-    values: Sequence[str] = [argument.value for argument in item.value.args if isinstance(argument, ast.Constant)]
+    values = [str(argument.value) for argument in item.value.args if isinstance(argument, ast.Constant)]
     says = f"[{values[2]}] {values[3]}" if values[2] != "1" else values[3]
     return Member(item.target.id, kind, int(constant(size, constants) or 1), says)
 

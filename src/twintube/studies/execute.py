@@ -92,7 +92,6 @@ def locally(work: Work, study: Any, mark: str, spans: Sequence[Span], processes:
     if min(processes, len(spans)) == 1:
         yield from (work(study, start, stop, mark) for start, stop in spans)
         return
-    work(study, spans[0][0], spans[0][0] + 1, mark)  # compiles once, before the processes do so all at the same time
     count = min(processes, len(spans), MOST)
     with pool(count, keep, (work, study, mark)) as workers:
         try:

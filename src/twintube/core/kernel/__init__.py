@@ -1,6 +1,6 @@
 """The only source of the model's equations: typed plain Python, standard library only.
 
-The interpreter runs it inside the Python FMU, numba compiles it for records and swarms, and it is kept to a subset
+The interpreter runs it inside the Python FMU, C of it is compiled for records and swarms, and it is kept to a subset
 (scalars, records, if/while, `math`) that translates to C. Numbers in comments such as "Eq. 22" are the paper's.
 
     prepare     what follows from the parameters            forces.py, prepare.py

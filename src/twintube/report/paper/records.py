@@ -139,8 +139,6 @@ class Records:
                     compute(job, self.folder)
                     bar.update()
                 return
-            compute(missing.pop(), self.folder)  # compiles once, before all worker processes do so at the same time
-            bar.update()
             with pool(min(self.processes, len(missing))) as workers:
                 for future in as_completed([workers.submit(compute, job, self.folder) for job in missing]):
                     future.result()
