@@ -76,7 +76,7 @@ def test_a_stale_or_missing_library_names_the_command(tmp_path: Path, monkeypatc
     monkeypatch.setattr(library, "PACKAGE", tmp_path / "site-packages" / "twintube")  # not a checkout
     path = build.library_path(compiler.this_machine())
     with pytest.raises(
-        library.LibraryError, match="the compiled library is missing: run `python -m twintube.native`"
+        library.LibraryError, match=r"the compiled library is missing: run `python -m twintube\.native`"
     ) as error:
         library.present()
     assert str(error.value).startswith(str(path)) and "\n" not in str(error.value)
