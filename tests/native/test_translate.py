@@ -281,6 +281,7 @@ REFUSED = {
     "a step of a range that is no number": body("for i in range(0, n, n):\n        x += i\n    return x"),
     "`n += x`": body("n += x\n    return x"),
     "`x % 2.0`": body("return x % 2.0"),
+    "a choice but of numbers or truths": body("v = s if x > 0.0 else t\n    return v.a", "s: Pair, t: Pair, x: float"),
     "has no such field": body("return s.b", "s: Pair"),
     "`(x, x)`": body("return x, x"),
     "the result of `f`": body("return s", "s: Pair", "Pair"),

@@ -231,8 +231,8 @@ class Expressions:
     def choice(self, node: ast.IfExp) -> Term:
         """`a if condition else b`."""
         test, first, second = self.condition(node.test), self.term(node.body), self.term(node.orelse)
-        if first.kind != second.kind and not (first.kind.number and second.kind.number):
-            self.refuse(node, f"`{ast.unparse(node)}`, which has two types")
+        if first.kind.whole or (first.kind != second.kind and not (first.kind.number and second.kind.number)):
+            self.refuse(node, f"`{ast.unparse(node)}`: a choice but of numbers or truths")
         kind = first.kind if first.kind == second.kind else FLOAT
         return Term(f"{test.within(OR)} ? {first.within(OR)} : {second.within(CHOICE)}", kind, CHOICE)
 

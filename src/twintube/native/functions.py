@@ -68,7 +68,7 @@ def refuse_at(source: Source, node: ast.AST, what: str) -> NoReturn:
 
 @dataclass
 class Writer:
-    """Writes one function; `blocks` are for each name the blocks in which it stands, outermost first."""
+    """Writes one function."""
 
     source: Source
     known: Known
@@ -86,7 +86,7 @@ class Writer:
             self.expressions.local[name] = kind
             if kind.whole:
                 self.expressions.roots[name] = name
-        self.direct = {id(store): block for store, block in first_stores(self.source.node)}
+        self.direct = {id(store) for store in first_stores(self.source.node)}
 
     def written(self) -> frozenset[int]:
         """The numbers of the arguments that the function changes."""
@@ -129,12 +129,8 @@ class Writer:
     def block(self, statements: Sequence[ast.stmt]) -> None:
         """Statements one after the other, each below the comments above it."""
         for statement in statements:
-            said = [
-                words
-                for line in range(self.said + 1, statement.lineno)
-                if (comment := self.source.comments.get(line)) is not None and comment[0]
-                for words in [comment[1]]
-            ]
+            above = (self.source.comments.get(line, (False, "")) for line in range(self.said + 1, statement.lineno))
+            said = [words for alone, words in above if alone]
             if said:
                 self.lines += [INDENT * self.depth + line for line in remark("\n".join(said))]
             self.said = max(self.said, statement.lineno)
@@ -357,7 +353,7 @@ def steady(end: ast.expr, body: Sequence[ast.stmt], constants: Mapping[str, floa
     return quiet(end) and not names & stored
 
 
-def first_stores(function: ast.FunctionDef) -> Iterator[tuple[ast.Name, int]]:
+def first_stores(function: ast.FunctionDef) -> Iterator[ast.Name]:
     """The stores at which C may declare a name: the first place of it, above and around all others."""
     seen: dict[str, list[tuple[tuple[int, ...], ast.Name, bool]]] = {}
 
@@ -381,7 +377,7 @@ def first_stores(function: ast.FunctionDef) -> Iterator[tuple[ast.Name, int]]:
     for places in seen.values():
         block, first, stored = places[0]
         if stored and all(other[: len(block)] == block for other, _, _ in places):
-            yield first, len(block)
+            yield first
 
 
 def in_turn(node: ast.AST) -> Iterator[ast.Name]:

@@ -60,8 +60,7 @@ def record(where: str, size: int) -> tuple[Any, Convert]:
     def convert(value: Any) -> int:
         if value.dtype.itemsize != size:
             raise TypeError(f"{where}: record of {value.dtype.itemsize} bytes, must have {size}")
-        address: int = value.__array_interface__["data"][0]
-        return address
+        return np.asarray(value).ctypes.data  # a row is a view, too
 
     return ctypes.c_void_p, convert
 
