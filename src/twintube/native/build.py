@@ -8,17 +8,12 @@ from pathlib import Path
 
 from twintube.common.files import write_bytes
 from twintube.native import compiler, sources
-from twintube.native.expressions import INEXACT
 from twintube.native.translate import translated
 
 LIBRARIES = sources.PACKAGE / "native" / "lib"
 NAME = "twintube"
-# Equal operations in equal order on every machine, as the interpreter does them: no fused multiply-add, no reordering, no
-# function of math.h that the compiler computes itself, which rounds otherwise. Of such a function only its value is wanted.
-FLAGS = (
-    "-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden", "-shared", "-s",
-    *(f"-fno-builtin-{name}" for name in INEXACT),
-)  # fmt: skip
+# Of a function of math.h only the value is wanted.
+FLAGS = (*compiler.EQUAL, "-O3", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden", "-shared", "-s")
 MARK = b"twintube equations "
 HEAD = """\
 /* Translated by twintube/native; do not edit. */

@@ -14,12 +14,13 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from twintube.common.caches import cache_folder, writable
+from twintube.native.expressions import INEXACT
 
-# No fused multiply-add: every platform computes equal operations in equal order.
+# Equal operations in equal order on every platform, as the interpreter does them: no fused multiply-add, and no function of
+# math.h that the compiler computes itself, which rounds otherwise.
+EQUAL = ("-std=c99", "-ffp-contract=off", *(f"-fno-builtin-{name}" for name in INEXACT))
 # Functions of a shared library have no prefix; the headers of FMI 2.0 have none in any case.
-FLAGS = (
-    "-std=c99", "-O2", "-ffp-contract=off", "-fvisibility=hidden", "-shared", "-s", "-DFMI3_OVERRIDE_FUNCTION_PREFIX"
-)  # fmt: skip
+FLAGS = (*EQUAL, "-O2", "-fvisibility=hidden", "-shared", "-s", "-DFMI3_OVERRIDE_FUNCTION_PREFIX")
 LONGEST = 900  # [s] of one compilation: five times what all platforms take one after another, with their runtimes
 CACHES = ("ZIG_GLOBAL_CACHE_DIR", "ZIG_LOCAL_CACHE_DIR")
 # By the names of FMI 3.0: what ziglang calls the platform, and the ending of a library.
