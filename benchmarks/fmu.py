@@ -15,8 +15,10 @@ from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper, load
 from twintube.demo.damper_fmu import DamperFmu
 from twintube.demo.ride import RideCase, ride
-from twintube.fmu import binaries, build_fmu
+from twintube.fmu import build_fmu
 from twintube.fmu.platforms import PLATFORMS, Fmi, Kind
+from twintube.native.compiler import FLAGS, compiled
+from twintube.native.units import HEADERS
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.ride import track
 
@@ -33,7 +35,7 @@ def trivial(native: Path, folder: Path) -> Path:
     name = fmpy.read_model_description(str(native)).coSimulation.modelIdentifier
     ending, targets = PLATFORMS[fmpy.platform]
     library = folder / f"{name}.{ending}"
-    binaries.compiled(TRIVIAL, targets[0], library)
+    compiled([TRIVIAL], targets[0], library, (*FLAGS, f"-I{HEADERS}"))
     target = folder / "trivial.fmu"
     with zipfile.ZipFile(native) as old, zipfile.ZipFile(target, "w") as new:
         for item in old.namelist():
@@ -84,8 +86,8 @@ def in_c(folder: Path, damper: Damper) -> dict[str, float]:
     """The same in a program of C, at three steps, of FMI 2.0 and 3.0 and of the trivial library: time of the processor."""
     target = PLATFORMS[fmpy.platform][1][0]
     host, bare = folder / "host", folder / "bare.so"
-    binaries.compiled(HOST, target, host, ("-std=gnu99", "-O2", "-ldl"))
-    binaries.compiled(TRIVIAL, target, bare)
+    compiled([HOST], target, host, ("-std=gnu99", "-O2", "-ldl", f"-I{HEADERS}"))
+    compiled([TRIVIAL], target, bare, (*FLAGS, f"-I{HEADERS}"))
     found: dict[str, float] = {}
     for fmi, platform in VERSIONS:
         unit = build_fmu(damper, folder / f"c{fmi}.fmu", platforms=(platform,), fmi=fmi)

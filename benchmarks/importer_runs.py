@@ -17,9 +17,11 @@ from benchmarks.fmu import VERSIONS
 from benchmarks.importer_jobs import STEPS, H, Job
 from twintube.common.arrays import Array
 from twintube.dampers import load
-from twintube.fmu import binaries, build_fmu
+from twintube.fmu import build_fmu
 from twintube.fmu.platforms import PLATFORMS_3
 from twintube.fmu.ssp import CAR
+from twintube.native.compiler import compiled
+from twintube.native.units import HEADERS
 
 HOST = Path(__file__).parent.parent / "tests" / "fmu" / "foreign_host.c"
 NO_ERRORS = "no errors"
@@ -151,9 +153,9 @@ def by_host(platforms: tuple[str, str], start: Sequence[str], *flags: str, compi
         ending, targets = PLATFORMS_3[platforms[1]]
         fmu, host = build_fmu(load("SA8"), folder / "other.fmu", platforms=(platform,), fmi=fmi), folder / "host.exe"
         if compiler:
-            call([compiler, "-O1", f"-I{binaries.headers()}", str(HOST), "-o", str(host)], folder)
+            call([compiler, "-O1", f"-I{HEADERS}", str(HOST), "-o", str(host)], folder)
         else:
-            binaries.compiled(HOST, targets[0], host, ("-O1", *flags))
+            compiled([HOST], targets[0], host, ("-O1", f"-I{HEADERS}", *flags))
         with zipfile.ZipFile(fmu) as archive:
             library = archive.extract(f"binaries/{platform}/twintube_SA8.{ending}", folder)
         guid = fmpy.read_model_description(str(fmu)).guid

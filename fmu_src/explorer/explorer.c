@@ -38,7 +38,7 @@ EXPORTED(release_memory) void release_memory(void *memory)
 EXPORTED(open_unit) fmi2Component open_unit(void)
 {
     static const fmi2CallbackFunctions functions = {remember, calloc, free, NULL, NULL};
-    return fmi2Instantiate("explorer", fmi2CoSimulation, MODEL_GUID, "", &functions, fmi2False, fmi2True);
+    return fmi2Instantiate("explorer", fmi2CoSimulation, VALUES.guid, "", &functions, fmi2False, fmi2True);
 }
 
 /* At rest at a stroke, ready to step. */

@@ -4,10 +4,16 @@
 
 #include "instance.h"
 
+/* How many values a value reference has: those of this row and the next. */
+static size_t length_of(const struct variable *v)
+{
+    return ARRAYS ? v->length : 1;
+}
+
 /* The variable of a value reference if it has the kind; else NULL and a message. */
 static const struct variable *find(struct unit *u, const char *function, unsigned vr, enum kind kind)
 {
-    if (vr < VARIABLES && VARIABLE[vr].kind == kind && VARIABLE[vr].length > 0)
+    if (vr < VARIABLES && VARIABLE[vr].kind == kind && length_of(&VARIABLE[vr]) > 0)
         return &VARIABLE[vr];
     refuse(u, SAY_NO_VARIABLE, function, KIND[kind], vr <= INT_MAX ? (int)vr : -1);
     return NULL;
@@ -21,7 +27,7 @@ static int counted(struct unit *u, const char *function, const unsigned vr[], si
         const struct variable *v = find(u, function, vr[i], kind);
         if (v == NULL)
             return 0;
-        wanted += v->length;
+        wanted += length_of(v);
     }
     if (wanted == values)
         return 1;
@@ -58,7 +64,7 @@ static enum status get_reals(struct unit *u, const char *function, const unsigne
         const struct variable *v = &VARIABLE[vr[i]];
         if (v->causality == OUTPUT && !current(u))
             return REFUSED;
-        for (size_t k = 0; k < v->length; k++)
+        for (size_t k = 0; k < length_of(v); k++)
             *value++ = *real_of(&u->m, &v[k]);
     }
     return DONE;
@@ -71,7 +77,7 @@ static enum status get_integers(struct unit *u, const char *function, const unsi
         return REFUSED;
     for (size_t i = 0; i < n; i++) {
         const struct variable *v = &VARIABLE[vr[i]];
-        for (size_t k = 0; k < v->length; k++)
+        for (size_t k = 0; k < length_of(v); k++)
             *value++ = (int)*integer_of(&u->m, &v[k]);
     }
     return DONE;
@@ -93,14 +99,14 @@ static enum status set_reals(struct unit *u, const char *function, const unsigne
         return REFUSED;
     for (size_t i = 0; i < n; i++) {
         const struct variable *v = &VARIABLE[vr[i]];
-        for (size_t k = 0; k < v->length; k++) {
+        for (size_t k = 0; k < length_of(v); k++) {
             if (!settable(u, &v[k], *next++))
                 return REFUSED;
         }
     }
     for (size_t i = 0; i < n; i++) {
         const struct variable *v = &VARIABLE[vr[i]];
-        for (size_t k = 0; k < v->length; k++)
+        for (size_t k = 0; k < length_of(v); k++)
             *real_of(&u->m, &v[k]) = *value++;
         touched(&u->m, v);
     }
@@ -116,14 +122,14 @@ static enum status set_integers(struct unit *u, const char *function, const unsi
         return REFUSED;
     for (size_t i = 0; i < n; i++) {
         const struct variable *v = &VARIABLE[vr[i]];
-        for (size_t k = 0; k < v->length; k++) {
+        for (size_t k = 0; k < length_of(v); k++) {
             if (!settable(u, &v[k], *next++))
                 return REFUSED;
         }
     }
     for (size_t i = 0; i < n; i++) {
         const struct variable *v = &VARIABLE[vr[i]];
-        for (size_t k = 0; k < v->length; k++)
+        for (size_t k = 0; k < length_of(v); k++)
             *integer_of(&u->m, &v[k]) = *value++;
         touched(&u->m, v);
     }

@@ -1,5 +1,5 @@
-/* FMI 3.0 for co-simulation; the only file to compile. The equations are in kernel.h, the table of variables with the start
-   values in variables.h, what an instance does in instance.h, access.h and state.h. */
+/* FMI 3.0 for co-simulation; the only file to compile. The equations are in kernel.h, the table of variables in variables.h,
+   start values in model.h, what an instance does in instance.h, access.h and state.h. */
 #include "access.h"
 #include "state.h"
 

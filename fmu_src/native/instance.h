@@ -34,8 +34,9 @@ static struct unit *created(struct unit *blank, const char *function, const char
     blank->name = (char *)(name ? name : "");
     if (*blank->name == 0)
         return refuse(blank, "%s: the instance has no name", function), NULL;
-    if (key == NULL || strcmp(key, MODEL_GUID) != 0)
-        return refuse(blank, "%s: %s = %s: this binary belongs to " MODEL_GUID, function, label, key ? key : "null"), NULL;
+    if (key == NULL || strcmp(key, VALUES.guid) != 0)
+        return refuse(blank, "%s: %s = %s: this binary belongs to %s", function, label, key ? key : "null",
+                      VALUES.guid), NULL;
     u = blank->allocate(1, sizeof *u);
     if (u == NULL)
         return refuse(blank, "%s: no memory", function), NULL;

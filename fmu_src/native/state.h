@@ -5,8 +5,7 @@
 #include "instance.h"
 
 struct header {
-    char equations[16];
-    char guid[64]; /* of the FMU: its start values, its table of variables and the layout of its memory */
+    char guid[64]; /* of the FMU: it follows from equations, table of variables and start values */
     uint64_t size, sum;
 };
 
@@ -22,7 +21,10 @@ static uint64_t sum_of(const void *data, size_t size)
 
 static struct header header_of(const void *memory)
 {
-    const struct header head = {MODEL_EQUATIONS, MODEL_GUID, sizeof(struct memory), sum_of(memory, sizeof(struct memory))};
+    struct header head;
+    memcpy(head.guid, VALUES.guid, sizeof head.guid);
+    head.size = sizeof(struct memory);
+    head.sum = sum_of(memory, sizeof(struct memory));
     return head;
 }
 
@@ -152,8 +154,7 @@ static enum status deserialize(struct unit *u, const char *function, const void 
     memcpy(&head, bytes, sizeof head);
     memcpy(&m, (const char *)bytes + sizeof head, sizeof m);
     right = header_of(&m);
-    if (memcmp(head.equations, right.equations, sizeof head.equations) || memcmp(head.guid, right.guid, sizeof head.guid)
-        || head.size != right.size)
+    if (memcmp(head.guid, right.guid, sizeof head.guid) || head.size != right.size)
         return refuse(u, SAY_OTHER_STATE, function);
     memset(&quiet, 0, sizeof quiet);
     if (head.sum != right.sum || !credible(&quiet, &m))

@@ -10,11 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model.h"
-
 #include "kernel.h"
 #include "messages.h"
 #include "memory.h"
+#include "version.h"
 
 #define STEEPEST 1e6 /* derivatives of inputs, per second */
 
@@ -42,7 +41,7 @@ struct variable {
     const char *name, *unit; /* the unit as it follows a number: with a space before it, empty where there is none */
     enum kind kind;
     enum causality causality;
-    size_t length; /* values of its value reference: those of this row and the next; 0 where they are of a row before it */
+    size_t length; /* of the array that begins here; 0 where it began in a row before */
     size_t offset; /* in struct memory; parameters are those of `wanted` */
     double min, max;
 };
@@ -60,7 +59,15 @@ struct unit {
 
 #include "variables.h"
 
-#define VARIABLES ((unsigned)(sizeof(VARIABLE) / sizeof(VARIABLE[0])))
+#define VARIABLES ((unsigned)(sizeof(VARIABLE) / sizeof(VARIABLE[0])) - !ARRAYS) /* the time is the last row */
+
+/* What tells an FMU from others of its model; start values by value references. */
+struct values {
+    char guid[64];
+    double start[VARIABLES];
+};
+
+#include "model.h" /* VALUES */
 
 static const char LOG_ERROR[] = "logStatusError";
 static const char LOG_WARNING[] = "logStatusWarning";
@@ -101,9 +108,9 @@ static void restart(struct memory *m)
     memset(m, 0, sizeof *m);
     for (unsigned i = 0; i < VARIABLES; i++) {
         if (VARIABLE[i].kind == INTEGER)
-            *integer_of(m, &VARIABLE[i]) = (int64_t)START[i];
+            *integer_of(m, &VARIABLE[i]) = (int64_t)VALUES.start[i];
         else
-            *real_of(m, &VARIABLE[i]) = START[i];
+            *real_of(m, &VARIABLE[i]) = VALUES.start[i];
     }
     m->in_force = m->wanted;
     m->stop = INFINITY;

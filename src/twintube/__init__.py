@@ -11,8 +11,6 @@ diagnose        what state a damper is in, what has changed, and what the simula
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from twintube.version import __version__ as __version__
-
 if TYPE_CHECKING:
     from twintube.dampers import Damper as Damper
     from twintube.dampers import ParameterError as ParameterError
@@ -27,6 +25,7 @@ if TYPE_CHECKING:
     from twintube.identification import identify as identify
     from twintube.rig import Signal as Signal
     from twintube.rig import harmonic_block as harmonic_block
+    from twintube.version import __version__ as __version__
 
 # Imported where they are first used: scipy and the FMU tools take seconds.
 HOMES = {
@@ -38,11 +37,9 @@ HOMES = {
     "twintube.fmu": ("BuildError", "build_fmu"),
     "twintube.identification": ("identify",),
     "twintube.rig": ("Signal", "harmonic_block"),
+    "twintube.version": ("__version__",),  # nor is there one before the package is installed
 }
-__all__ = [  # noqa: PLE0604  # the names of HOMES, in their order
-    "__version__",
-    *(name for names in HOMES.values() for name in names),
-]
+__all__ = [name for names in HOMES.values() for name in names]
 
 if not TYPE_CHECKING:
 

@@ -1,13 +1,13 @@
 """The command and its file: one page that needs nothing else."""
 
 import re
-from importlib import metadata, util
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
+from twintube.native import units
 
 LARGEST = 500_000  # bytes
 
@@ -36,10 +36,8 @@ def test_bad_input_is_answered_with_one_line(
     assert not list(tmp_path.iterdir())
 
 
-def test_without_a_compiler_the_command_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from twintube.fmu import binaries
-
-    monkeypatch.setattr(binaries, "find_spec", lambda name: None if name == "ziglang" else util.find_spec(name))
+def test_without_the_module_the_command_says_how_to_make_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(units, "LIBRARIES", tmp_path)
     done = CliRunner().invoke(app, ["explore", "--output", str(tmp_path / "explorer.html")])
-    assert done.exit_code == 2 and done.stderr == "error: no C compiler: pip install 'twintube[fmu]'\n"
-    assert metadata.version("ziglang")  # it was there all the time
+    assert done.exit_code == 2
+    assert done.stderr == "error: no library for wasm32-wasi: `python -m twintube.native wasm32-wasi` makes it\n"

@@ -13,8 +13,7 @@ from fmpy.validation import validate_fmu
 from twintube.core.units import DISPLAY
 from twintube.dampers import load, names
 from twintube.demo.damper_fmu import DamperFmu
-from twintube.fmu import BuildError, build_fmu
-from twintube.fmu.assemble import validated
+from twintube.fmu import build_fmu
 from twintube.fmu.instance import FmuError
 from twintube.fmu.platforms import Kind
 
@@ -138,13 +137,13 @@ def sa8(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_fmu(load("SA8"), tmp_path_factory.mktemp("sa8") / "a.fmu", platforms=(fmpy.platform,))
 
 
-def test_a_build_raises_what_fmpy_says(sa8: Path, tmp_path: Path) -> None:
+def test_fmpy_finds_a_wrong_unit(sa8: Path, tmp_path: Path) -> None:
+    """The schema does not know units: fmpy's validation stands in the tests for such errors."""
     assert validate_fmu(str(sa8)) == []
     with zipfile.ZipFile(sa8) as archive, zipfile.ZipFile(tmp_path / "bad.fmu", "w") as bad:
         text = archive.read("modelDescription.xml").replace(b'Force" unit="N"', b'Force" unit="kN"')
         bad.writestr("modelDescription.xml", text)
-    with pytest.raises(BuildError, match=r"not valid: .*kN"):
-        validated(tmp_path / "bad.fmu")
+    assert any("kN" in remark for remark in validate_fmu(str(tmp_path / "bad.fmu")))
 
 
 @pytest.mark.parametrize(

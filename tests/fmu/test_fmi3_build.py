@@ -3,6 +3,7 @@
 import ctypes
 import shutil
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -12,10 +13,12 @@ from typer.testing import CliRunner
 
 from twintube.cli import app
 from twintube.dampers import load
-from twintube.fmu import BuildError, binaries, build_fmu, sources
+from twintube.fmu import BuildError, build_fmu, sources
 from twintube.fmu.platforms import Fmi, known
 from twintube.fmu.ssp import described
 from twintube.fmu.standards import STANDARDS
+from twintube.native import units
+from twintube.native.compiler import compiled
 from twintube.vehicle.cars import load_car
 from twintube.vehicle.full.run import full_car
 
@@ -27,8 +30,8 @@ def test_functions_of_the_sources_have_the_prefix_of_the_model(tmp_path: Path) -
     """So that several are linked into one program; `test_source_build.py` links two of FMI 2.0."""
     for file, text in sources.sources(load("SA7"), "{}", STANDARDS[3]).items():
         (tmp_path / file).write_text(text)
-    flags = ("-std=c99", "-O0", "-shared", f"-I{tmp_path}")
-    binaries.compiled(tmp_path / STANDARDS[3].compiled, "x86_64-linux-gnu.2.17", tmp_path / "linked.so", flags)
+    flags = ("-std=c99", "-O0", "-shared", f"-I{units.HEADERS}")
+    compiled([tmp_path / STANDARDS[3].compiled], "x86_64-linux", tmp_path / "linked.so", flags)
     linked = ctypes.CDLL(str(tmp_path / "linked.so"))
     version = linked.twintube_SA7_fmi3GetVersion
     version.restype = ctypes.c_char_p
@@ -67,15 +70,38 @@ def test_ssp_2_says_the_same_in_the_types_of_fmi_3() -> None:
     ]
 
 
+@pytest.fixture
+def stale(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str, str, str], None]:
+    """Changes a text in a file of a copy of the sources, which is used in their place."""
+
+    def change(file: str, old: str, new: str) -> None:
+        shutil.copytree(units.SOURCES, tmp_path / "sources")
+        path = tmp_path / "sources" / "native" / file
+        text = path.read_text(encoding="utf-8")
+        assert old in text
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+        monkeypatch.setattr(units, "SOURCES", tmp_path / "sources")
+
+    return change
+
+
 @pytest.mark.parametrize("fmi", [2, 3])
-def test_stale_c_is_refused(fmi: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    folder = tmp_path / "native"
-    shutil.copytree(sources.NATIVE, folder)
-    text = (folder / "kernel.h").read_text(encoding="utf-8")
-    (folder / "kernel.h").write_text(text.replace("0.02 + 20.0", "0.02 + 21.0", 1), encoding="utf-8")
-    assert (folder / "kernel.h").read_text(encoding="utf-8") != text
-    monkeypatch.setattr(sources, "NATIVE", folder)
-    with pytest.raises(BuildError, match="the C is not the translation of this package's equations"):
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            ("variables.h", '"oil_level"', '"oil"'),
+            r"variables\.h is not that of these variables: run `python -m twintube\.fmu`",
+        ),
+        (("messages.h", "must be", "may be"), r"messages\.h is not that"),
+        (("state.h", "no memory", "no room"), r"damper_fmi[23]\.\w+: is not compiled from these equations and sources"),
+    ],
+)
+def test_stale_c_is_refused(
+    stale: Callable[[str, str, str], None], fmi: Any, change: tuple[str, str, str], message: str, tmp_path: Path
+) -> None:
+    stale(*change)
+    with pytest.raises(BuildError, match=message):
         build_fmu(load("SA8"), tmp_path / "a.fmu", fmi=fmi)
     assert not (tmp_path / "a.fmu").exists()
 

@@ -14,8 +14,10 @@ import pytest
 
 from twintube.dampers import load
 from twintube.demo.damper_fmu import DamperFmu
-from twintube.fmu import binaries, build_fmu
+from twintube.fmu import build_fmu
 from twintube.fmu.platforms import PLATFORMS, Fmi
+from twintube.native.compiler import compiled
+from twintube.native.units import HEADERS
 
 WORN = {"oil_level": 0.56, "gas_preload": 0}
 STEPS = 3000
@@ -32,7 +34,7 @@ def motion(i: int) -> tuple[float, float]:
 def compiled_host(platform: str, folder: Path, *flags: str) -> Path:
     """The program for a platform."""
     program = folder / "host.exe"
-    binaries.compiled(HOST, PLATFORMS[platform][1][0], program, ("-O1", *flags))
+    compiled([HOST], PLATFORMS[platform][1][0], program, ("-O1", f"-I{HEADERS}", *flags))
     return program
 
 

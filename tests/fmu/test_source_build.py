@@ -13,8 +13,10 @@ from fmpy.util import create_zip_archive
 
 from twintube.dampers import load
 from twintube.demo.damper_fmu import DamperFmu
-from twintube.fmu import binaries, sources
+from twintube.fmu import sources
 from twintube.fmu.standards import STANDARDS
+from twintube.native.compiler import FLAGS, compiled
+from twintube.native.units import HEADERS
 
 # fmpy's copy of the header leaves out the prefix, which is for static linking.
 NO_PREFIX = "#define fmi2FullName(name) name"
@@ -52,9 +54,9 @@ def test_fmpy_compiles_the_sources(sa8_native: Path, tmp_path: Path, monkeypatch
 @pytest.mark.skipif(sys.platform != "linux", reason="objects are linked as on Linux")
 def test_two_dampers_are_linked_into_one_library(tmp_path: Path) -> None:
     """As a HiL target does it, with the standard's header: every function has the model identifier as prefix."""
-    target, objects = "x86_64-linux-gnu.2.17", []
+    target, objects = "x86_64-linux", []
     for header in ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h"):
-        text = (binaries.headers() / header).read_text()
+        text = (HEADERS / header).read_text()
         assert header != "fmi2Functions.h" or NO_PREFIX in text
         (tmp_path / header).write_text(text.replace(NO_PREFIX, PREFIX))
     for name in ("SA7", "SA8"):
@@ -64,8 +66,8 @@ def test_two_dampers_are_linked_into_one_library(tmp_path: Path) -> None:
             (folder / file).write_text(text)
         objects.append(tmp_path / f"{name}.o")
         flags = ("-std=c99", "-O2", "-c", f"-I{tmp_path}")
-        binaries.compiled(folder / STANDARDS[2].compiled, target, objects[-1], flags)
-    binaries.compiled(objects[0], target, tmp_path / "both.so", (*binaries.FLAGS, str(objects[1])))
+        compiled([folder / STANDARDS[2].compiled], target, objects[-1], flags)
+    compiled(objects, target, tmp_path / "both.so", FLAGS)
     linked = ctypes.CDLL(str(tmp_path / "both.so"))
     for name in ("SA7", "SA8"):
         version = linked[f"twintube_{name}_fmi2GetVersion"]

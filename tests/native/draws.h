@@ -38,7 +38,7 @@ static double number_for(unsigned vr)
     if (v == NULL || kind == 0)
         return any_number();
     if (kind < 7)
-        return kind == 5 ? v->min : kind == 6 ? v->max : START[vr] * uniform(0.9, 1.1);
+        return kind == 5 ? v->min : kind == 6 ? v->max : VALUES.start[vr] * uniform(0.9, 1.1);
     return v->max < INFINITY ? uniform(v->min, v->max) : uniform(0.0, 3.0);
 }
 

@@ -116,7 +116,7 @@ static void open_instance(struct instance *i)
     const fmi2CallbackFunctions functions = {log_message, allocate, release, NULL, i};
     memset(i, 0, sizeof *i);
     i->functions = functions;
-    i->c = fmu.Instantiate("damper", fmi2CoSimulation, MODEL_GUID, NULL, &i->functions, fmi2False, fmi2False);
+    i->c = fmu.Instantiate("damper", fmi2CoSimulation, VALUES.guid, NULL, &i->functions, fmi2False, fmi2False);
     CHECK(i->c != NULL, "%s", i->text);
 }
 
@@ -140,7 +140,7 @@ static int activates(fmi2ValueReference vr)
 {
     const struct variable *v = &VARIABLE[vr];
     const int bounded = v->kind == REAL && v->max < INFINITY && strncmp(v->name, "geometry.", 9);
-    return v->causality == FIXED && bounded && START[vr] == 0.0;
+    return v->causality == FIXED && bounded && VALUES.start[vr] == 0.0;
 }
 
 static void set_up(struct instance *i, enum set which, double oil)
@@ -205,9 +205,9 @@ static int sound(struct instance *i)
 }
 
 /* Serialized states: bytes before the memory, and where among them its size and its sum are. */
-#define HEADER 96
-#define SIZE_AT 80
-#define SUM_AT 88
+#define HEADER 80
+#define SIZE_AT 64
+#define SUM_AT 72
 
 /* Give bytes the sum of a state, as anybody can. */
 static void sign(fmi2Byte *bytes, size_t size)

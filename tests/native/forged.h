@@ -140,9 +140,6 @@ static void headers_of(void)
     serialized_in(&i, DEGRADED, STEPPING);
     memcpy(wrong_bytes, original, state_size);
     wrong_bytes[0] ^= 1;
-    refused_bytes(&i, "equations", "another FMU");
-    memcpy(wrong_bytes, original, state_size);
-    wrong_bytes[16] ^= 1;
     refused_bytes(&i, "GUID", "another FMU");
     memcpy(wrong_bytes, original, state_size);
     wrong_bytes[SIZE_AT] ^= 1;

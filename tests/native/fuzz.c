@@ -65,7 +65,7 @@ static void renewed(struct slot *s)
         CHECK(fmu.FreeFMUstate(s->i.c, &s->state[k]) == fmi2OK, "%s", s->i.text);
     fmu.FreeInstance(s->i.c);
     s->i.messages = 0;
-    s->i.c = fmu.Instantiate(drawn(3) ? "x" : "", (fmi2Type)drawn(3), drawn(3) ? MODEL_GUID : "", NULL, f, 0, 1);
+    s->i.c = fmu.Instantiate(drawn(3) ? "x" : "", (fmi2Type)drawn(3), drawn(3) ? VALUES.guid : "", NULL, f, 0, 1);
     CHECK(s->i.c != NULL || s->i.messages == 1, "no instance and %d messages", s->i.messages);
     fmu.FreeInstance(s->i.c);
     fresh(s);

@@ -16,7 +16,7 @@ static int extended;
 static int activates(const struct variable *v)
 {
     const int bounded = v->kind == REAL && v->max < INFINITY && strncmp(v->name, "geometry.", 9);
-    return v->causality == FIXED && bounded && START[v - VARIABLE] == 0.0;
+    return v->causality == FIXED && bounded && VALUES.start[v - VARIABLE] == 0.0;
 }
 
 static fmi3Instance instantiated(struct slot *s, fmi3String name, fmi3String token, fmi3Boolean events, size_t required)
@@ -28,7 +28,7 @@ static fmi3Instance instantiated(struct slot *s, fmi3String name, fmi3String tok
 
 static void fresh(struct slot *s)
 {
-    s->c = instantiated(s, "damper", MODEL_GUID, fmi3False, 0);
+    s->c = instantiated(s, "damper", VALUES.guid, fmi3False, 0);
     CHECK(s->c != NULL, "%s", s->text);
     for (unsigned vr = 0; vr < VARIABLES; vr++) {
         const double value = VARIABLE[vr].max * (drawn(8) ? uniform(0.0, 0.3) : 1.0);
@@ -46,7 +46,7 @@ static void renewed(struct slot *s)
         CHECK(fmi3FreeFMUState(s->c, &s->state[k]) == fmi3OK, "%s", s->text);
     fmi3FreeInstance(s->c);
     s->messages = 0;
-    c = instantiated(s, wrong == 1 ? "" : wrong == 2 ? NULL : "x", wrong == 3 ? "%s%n" : MODEL_GUID, wrong == 4, wrong == 5);
+    c = instantiated(s, wrong == 1 ? "" : wrong == 2 ? NULL : "x", wrong == 3 ? "%s%n" : VALUES.guid, wrong == 4, wrong == 5);
     CHECK((c != NULL) == (wrong == 0) && s->messages == (wrong != 0), "%d: %s", wrong, s->text);
     fmi3FreeInstance(c);
     fresh(s);

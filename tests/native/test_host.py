@@ -10,8 +10,8 @@ import pytest
 
 from twintube.dampers import load
 from twintube.fmu import build_fmu
-from twintube.fmu.binaries import compiled
-from twintube.fmu.platforms import PLATFORMS
+from twintube.native.compiler import compiled
+from twintube.native.units import HEADERS
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or platform.machine() != "x86_64", reason="the host is for linux on x86-64"
@@ -27,8 +27,8 @@ def host(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     fmu = build_fmu(load("SA8"), folder, platforms=("linux64",))
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)
-    flags = ("-std=gnu99", "-O2", f"-I{folder / 'sources'}", "-pthread", "-ldl")
-    compiled(HERE / "host.c", PLATFORMS["linux64"][1][0], folder / "host", flags)
+    flags = ("-std=gnu99", "-O2", f"-I{folder / 'sources'}", f"-I{HEADERS}", "-pthread", "-ldl")
+    compiled([HERE / "host.c"], "x86_64-linux", folder / "host", flags)
     (library,) = (folder / "binaries" / "linux64").iterdir()
     return [str(folder / "host"), str(library)]
 

@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from twintube.dampers import load
-from twintube.fmu.binaries import headers
 from twintube.fmu.sources import sources
 from twintube.fmu.standards import STANDARDS, Standard
+from twintube.native.units import HEADERS
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or platform.machine() != "x86_64", reason="the host is for linux on x86-64"
@@ -64,7 +64,7 @@ def compiler(folder: Path) -> str:
 
 def program(compiler: str, folder: Path, name: str, standard: Standard = STANDARDS[2]) -> Path:
     """A program of this folder, with the sources instead of the library."""
-    command = [compiler, *FLAGS, "-DSTATIC", "-DFMI3_OVERRIDE_FUNCTION_PREFIX", "-pthread", f"-I{folder}", f"-I{headers()}"]
+    command = [compiler, *FLAGS, "-DSTATIC", "-DFMI3_OVERRIDE_FUNCTION_PREFIX", "-pthread", f"-I{folder}", f"-I{HEADERS}"]
     files = [str(HERE / f"{name}.c"), str(folder / standard.compiled)]
     done = subprocess.run([*command, *files, "-o", str(folder / name), "-lm"], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -177,15 +177,15 @@ static void instances(void)
     NONE("x", fmi2CoSimulation, "{another}", NULL, f, 0, 1);
     NONE("x", fmi2CoSimulation, "%s%n#r0#", NULL, f, 0, 1);
     NONE("x", fmi2CoSimulation, NULL, NULL, f, 0, 1);
-    NONE(NULL, fmi2CoSimulation, MODEL_GUID, NULL, f, 0, 1);
-    NONE("", fmi2CoSimulation, MODEL_GUID, NULL, f, 0, 1);
-    NONE("x", fmi2ModelExchange, MODEL_GUID, NULL, f, 0, 1);
+    NONE(NULL, fmi2CoSimulation, VALUES.guid, NULL, f, 0, 1);
+    NONE("", fmi2CoSimulation, VALUES.guid, NULL, f, 0, 1);
+    NONE("x", fmi2ModelExchange, VALUES.guid, NULL, f, 0, 1);
     room = 0;
-    NONE("x", fmi2CoSimulation, MODEL_GUID, NULL, f, 0, 1);
+    NONE("x", fmi2CoSimulation, VALUES.guid, NULL, f, 0, 1);
     room = 1;
-    NONE("x", fmi2CoSimulation, MODEL_GUID, NULL, f, 0, 1);
+    NONE("x", fmi2CoSimulation, VALUES.guid, NULL, f, 0, 1);
     room = -1;
-    CHECK(fmu.Instantiate("x", fmi2CoSimulation, MODEL_GUID, NULL, NULL, 0, 1) == NULL, "no callback functions");
+    CHECK(fmu.Instantiate("x", fmi2CoSimulation, VALUES.guid, NULL, NULL, 0, 1) == NULL, "no callback functions");
 
     /* No memory for a state: the instance goes on. */
     started(&i, DEGRADED, 0.56);
@@ -203,7 +203,7 @@ static void instances(void)
         f->allocateMemory = k == 1 ? allocate : NULL;
         f->logger = k == 2 ? NULL : log_message;
         other = i;
-        c = other.c = fmu.Instantiate("y", fmi2CoSimulation, MODEL_GUID, "file:///nowhere", f, fmi2True, fmi2True);
+        c = other.c = fmu.Instantiate("y", fmi2CoSimulation, VALUES.guid, "file:///nowhere", f, fmi2True, fmi2True);
         CHECK(c != NULL && blocks == 0, "%ld blocks", blocks);
         begin_steps(&other);
         step(&other, 0);

@@ -9,7 +9,7 @@ import pytest
 SCRIPT = """
 import sys
 
-for name in ("asammdf", "distributed", "emcee", "fmpy", "h5py", "pandas", "pyarrow", "pymoo", "pythonfmu", "ziglang"):
+for name in ("asammdf", "distributed", "fmpy", "h5py", "pandas", "pyarrow", "pythonfmu", "ziglang"):
     sys.modules[name] = None
 from typer.testing import CliRunner
 
@@ -17,7 +17,7 @@ import twintube.evidence
 import twintube.report.diagnosis.page
 from twintube.cli import app
 
-for arguments in (["example", "my_example"], ["check", "my_example"], ["simulate", "SA8", "--amplitude-mm", "10"], ["ride", "SA8"]):
+for arguments in (["example", "my_example"], ["check", "my_example"], ["simulate", "SA8", "--amplitude-mm", "10"], ["ride", "SA8"], ["fmu", "SA8"], ["ssp"]):
     run = CliRunner().invoke(app, arguments)
     assert run.exit_code == 0, (arguments, run.output, run.exception)
 """

@@ -1,7 +1,6 @@
 """Commands to start with measured data: new-dataset, example."""
 
 from importlib.resources import as_file, files
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +9,6 @@ import typer
 from twintube.cli.base import BENCH, app
 from twintube.cli.options import DAMPER_ARGUMENT
 from twintube.cli.states import GAS
-from twintube.common.extras import extra_of
 from twintube.errors import InputError
 
 EXAMPLE = "bench_SA8"
@@ -69,8 +67,7 @@ def new_dataset(
         typer.echo(f"Next: edit {folder / 'dataset.toml'}, then run: twintube check {folder}")
         return
     typer.echo(f"Next: confirm what is not sure in {folder / 'dataset.toml'}, then run: twintube check {folder}")
-    needs = "" if find_spec("pymoo") else f" (needs pip install 'twintube[{extra_of('pymoo')}]')"
-    needs += ", which needs oil level and gas preload stated" if any(record.unknown for record in dataset.records) else ""
+    needs = ", which needs oil level and gas preload stated" if any(record.unknown for record in dataset.records) else ""
     typer.echo(f"After that: twintube diagnose {folder}, or twintube identify {folder}{needs}")
 
 

@@ -7,7 +7,6 @@ import typer
 
 from twintube.cli.base import MODEL, app
 from twintube.cli.outputs import keep_other
-from twintube.cli.progress import progress
 from twintube.common.files import write_text
 
 
@@ -28,8 +27,7 @@ def explore(
 
     if output.is_dir():
         raise IsADirectoryError(f"{output}: is a folder, must be a file")
-    with progress() as say:
-        text = page([load(file) for file in files or []], say)
+    text = page([load(file) for file in files or []])
     keep_other(output, text.encode())
     write_text(output, text)
     typer.echo(f"{output}: {len(text.encode()) // 1000} kB; open it in a browser")

@@ -8,7 +8,6 @@ import typer
 from twintube.cli.base import MODEL, app
 from twintube.cli.options import AS_PUBLISHED, DAMPER_ARGUMENT, PLATFORM
 from twintube.cli.outputs import keep_other, named, refuse_other, typed
-from twintube.cli.progress import progress
 from twintube.cli.states import GAS_LOST, OIL_LEVEL, in_state, in_words
 from twintube.common.files import write_text
 from twintube.common.words import printable
@@ -35,6 +34,20 @@ def tested(fmu: Path) -> None:
     typer.echo(f"{fmu}: {verdict}; largest difference: {', '.join(map(str, differences))}")
     if not right:
         raise typer.Exit(1)
+
+
+def absent(damper: "Damper", fmi: Literal[2, 3]) -> None:
+    """Say which platforms the FMU has no library for, as the package has none."""
+    from twintube.fmu.binaries import complete
+    from twintube.fmu.description import damper_model
+    from twintube.fmu.sources import unit_of
+    from twintube.fmu.standards import STANDARDS
+
+    standard = STANDARDS[fmi]
+    there = complete(unit_of(damper_model(damper), standard), standard)
+    lacking = ", ".join(name for name in standard.platforms if name not in there)
+    if lacking:
+        typer.echo(f"no library for {lacking}: `pip install ziglang`, then `python -m twintube.native --all`")
 
 
 @app.command(
@@ -67,10 +80,8 @@ def fmu(
 ) -> None:
     """Build the FMU of a damper, test one, or write parameters.
 
-    Without a damper it is that of SA8; fmpy validates it. Gas that cavitation frees dissolves again, unless --as-published
-    asks for the paper's equations alone or the parameter set says what freed gas does.
-
-    The first build for Windows compiles the runtime too and takes a minute or two; later ones take seconds.
+    Without a damper it is that of SA8. Gas that cavitation frees dissolves again, unless --as-published asks for the paper's
+    equations alone or the parameter set says what freed gas does.
     """
     from twintube.dampers import load
     from twintube.dampers.freed_gas import acting
@@ -96,13 +107,14 @@ def fmu(
     target = target_file(output, file_name(model_name(chosen), fmi))
     if target != output:
         refuse_other(target, same=start_values(target) == {v.name: v.start for v in variables(chosen)})
-    with progress() as say:
-        built = build_fmu(chosen, target, kind, platform, progress=say, fmi=fmi)
+    built = build_fmu(chosen, target, kind, platform, fmi=fmi)
     typer.echo(
         f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI {fmi}.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"
         f"start values: {in_words(chosen)}; freed gas: {acting(chosen)}"
     )
+    if kind == "native" and platform is None:
+        absent(chosen, fmi)
 
 
 def write_ssv(damper: "Damper", output: Path, version: Literal[1, 2]) -> None:

@@ -9,7 +9,6 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import AS_PUBLISHED, CAR, FRONT, PLATFORM, REAR, SSP, WORN_AT
 from twintube.cli.outputs import named, refuse_other, typed
-from twintube.cli.progress import progress
 from twintube.cli.states import WORN_GAS_LOST, WORN_OIL_LEVEL, state_in_words
 from twintube.errors import InputError
 
@@ -76,8 +75,7 @@ def ssp(
     whole = full_car(load_car(car_file), dampers)
     if not named():
         refuse_other(output, same=members(output) == described(whole, checked_speed(speed), version))
-    with progress() as say:
-        built = build_ssp(whole, checked_speed(speed), output, platform, progress=say, ssp=version)
+    built = build_ssp(whole, checked_speed(speed), output, platform, ssp=version)
     typer.echo(f"{built}: {whole.name} with {front} and {rear}, {worn}: {state}; {built.stat().st_size // 1024} kB")
 
 
@@ -87,13 +85,12 @@ def write_container(
     """Build the container of four dampers, `of` which it is said."""
     from twintube.fmu.archive import start_values
     from twintube.fmu.assemble import XML, target_file
-    from twintube.fmu.container import NAME, PLATFORMS, build_container
+    from twintube.fmu.container import NAME, build_container
     from twintube.fmu.table import variables
 
     target = target_file(output, NAME)
     if target != output:
         inside = [start_values(target, f"resources/{i:02}/{XML}") for i in range(len(dampers))]
         refuse_other(target, same=inside == [{v.name: v.start for v in variables(damper)} for damper in dampers])
-    with progress() as say:
-        built = build_container(dampers, target, step_ms / 1e3, platforms or PLATFORMS, say)
+    built = build_container(dampers, target, step_ms / 1e3, platforms)
     typer.echo(f"{built}: {of}; {built.stat().st_size // 1024} kB")

@@ -3,7 +3,7 @@
 import base64
 import hashlib
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from importlib.resources import files
 
 import jinja2
@@ -37,9 +37,9 @@ def script_hash(text: str) -> str:
     return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii") + "'"
 
 
-def page(own: Sequence[Damper] = (), progress: Callable[[str], None] = lambda text: None) -> str:
+def page(own: Sequence[Damper] = ()) -> str:
     """The page with SA1 to SA8 and the user's dampers, of which the first is shown; raises BuildError."""
-    wasm = module(progress)
+    wasm = module()
     data = content(own)
     data["shown"] = data["dampers"][0]["name"] if own else "SA8"
     library, program = web.library(), web.plots() + "".join(part(f"{name}.js") for name in SCRIPTS)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-import shutil
 import tempfile
 import uuid
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from twintube.common.files import replacing
@@ -29,11 +28,12 @@ from twintube.fmu import (
 from twintube.fmu.description import model_name
 from twintube.fmu.model import Model
 from twintube.fmu.platforms import Fmi, Kind, PlatformError, known
+from twintube.fmu.schema import SchemaError, valid
 from twintube.fmu.standards import STANDARDS
+from twintube.native.units import SOURCES, LibraryError
 
-Progress = Callable[[str], None]
 XML = archive.XML
-REFUSALS = (binaries.CompilerError, PlatformError, licences.LicenceError, archive.DateError)
+REFUSALS = (LibraryError, sources.StaleTableError, PlatformError, SchemaError, archive.DateError)
 
 
 class BuildError(UserError, RuntimeError):
@@ -46,14 +46,23 @@ def identity(content: dict[str, bytes]) -> str:
     return "{" + str(uuid.uuid5(uuid.NAMESPACE_URL, listed)) + "}"
 
 
-def native_content(model: Model, platforms: Sequence[str], date: str, progress: Progress, fmi: Fmi = 2) -> dict[str, bytes]:
+def chosen_platforms(model: Model, platforms: Sequence[str] | None, fmi: Fmi) -> tuple[str, ...]:
+    """The named platforms, by default those that there are libraries for; raises PlatformError and LibraryError."""
+    if platforms is not None:
+        return known(platforms, fmi)
+    return binaries.complete(sources.unit_of(model, STANDARDS[fmi]), STANDARDS[fmi])
+
+
+def native_content(model: Model, platforms: Sequence[str], date: str, fmi: Fmi = 2) -> dict[str, bytes]:
     """Model description, sources and libraries by their path inside the FMU."""
     standard = STANDARDS[fmi]
     texts = sources.model_sources(model, "", standard)
     guid = identity({name: text.encode() for name, text in texts.items()})
     texts |= {"model.h": sources.identity(model, guid, standard)}
     content = {f"sources/{name}": text.encode() for name, text in texts.items()}
-    content |= binaries.binaries(texts, model.name, platforms, progress, standard)
+    unit, starts = sources.unit_of(model, standard), sources.starts(model, standard)
+    chosen = {name: standard.platforms[name] for name in platforms}
+    content |= binaries.binaries(unit, model.name, guid, starts, chosen)
     if fmi == 2:
         capabilities = sources.capabilities(model)
         xml = description.described_model(
@@ -65,21 +74,20 @@ def native_content(model: Model, platforms: Sequence[str], date: str, progress: 
     return content | {XML: xml}
 
 
-def contents(
-    damper: Damper, kind: Kind, platforms: Sequence[str], *, date: str, progress: Progress, fmi: Fmi
-) -> dict[str, bytes]:
+def contents(damper: Damper, kind: Kind, platforms: Sequence[str] | None, *, date: str, fmi: Fmi) -> dict[str, bytes]:
     """All files of the FMU by their path, the model description first, the others by name."""
     if kind == "native":
-        content = native_content(description.damper_model(damper), platforms, date, progress, fmi)
+        model = description.damper_model(damper)
+        chosen = chosen_platforms(model, platforms, fmi)
+        content = native_content(model, chosen, date, fmi)
     else:
-        progress("Python sources")
+        chosen = known(platforms, fmi)
         content = python_kind.content(damper)
         content["documentation/externalDependencies.txt"] = documentation.NEEDS_PYTHON.encode()
         content[XML] = description.described(
             damper, identity(content), date, python_kind.CAPABILITIES, sources=[], categories=sources.LOG_CATEGORIES
         )
-    progress("reference run, documentation, licences")
-    icon = (sources.FOLDER / "model.png").read_bytes()
+    icon = (SOURCES / "model.png").read_bytes()
     if fmi == 2:
         content["model.png"] = icon
     content |= {
@@ -87,22 +95,13 @@ def contents(
         terminals.ICON: icon,
         "documentation/index.html": documentation.page(damper, kind, fmi).encode(),
     }
-    content |= licences.files(kind, platforms, STANDARDS[fmi]) | related.files(damper)
+    content |= licences.files(kind, chosen, STANDARDS[fmi]) | related.files(damper)
     return in_order(content)
 
 
 def in_order(content: Mapping[str, bytes]) -> dict[str, bytes]:
     """The files by name, the model description first."""
     return {XML: content[XML], **dict(sorted(content.items()))}
-
-
-def validated(fmu: Path) -> None:
-    """Raise BuildError with whatever fmpy's validation says."""
-    from fmpy.validation import validate_fmu
-
-    remarks = validate_fmu(str(fmu))
-    if remarks:
-        raise BuildError("the FMU is not valid: " + "; ".join(remarks))
 
 
 def file_name(name: str, fmi: Fmi) -> str:
@@ -132,18 +131,17 @@ def build_fmu(
     kind: Kind = "native",
     platforms: Sequence[str] | None = None,
     *,
-    progress: Callable[[str], None] | None = None,
     fmi: Fmi = 2,
 ) -> Path:
     """Build and validate the FMU of a damper; `output` is a file or a folder, by default the current one.
 
     `damper` may be the name or the file of a parameter set. `kind` is "native" or "python"; only native FMUs are of FMI 3.0.
-    `platforms` are those that a native FMU gets libraries for, by default all of the version `fmi`, 2 or 3. `progress` is
-    called with a few words before each step. The environment variable SOURCE_DATE_EPOCH fixes the date; all other bytes
+    `platforms` are those that a native FMU gets libraries for, by default all of the version `fmi`, 2 or 3,
+    that the package has libraries for. The environment variable SOURCE_DATE_EPOCH fixes the date; all other bytes
     follow from damper, kind, platforms and version. Nothing is left behind if it fails. Raises BuildError, ParameterError,
     and OSError where the output cannot be written.
     """
-    damper, progress = load(damper), progress or (lambda text: None)
+    damper = load(damper)
     target = target_file(output, file_name(model_name(damper), fmi))
     if kind == "python" and fmi != 2:
         raise BuildError(f"fmi = {fmi}, kind = python: the Python kind is built for FMI 2 only; build the native kind")
@@ -151,19 +149,15 @@ def build_fmu(
     if inadmissible:
         raise BuildError(f"{damper.name}: " + "; ".join(inadmissible))
     try:
-        content = contents(damper, kind, known(platforms, fmi), date=archive.build_date(), progress=progress, fmi=fmi)
+        content = contents(damper, kind, platforms, date=archive.build_date(), fmi=fmi)
+        written(target, content, fmi)
     except REFUSALS as error:
         raise BuildError(str(error)) from error
-    written(target, content, progress)
     return target
 
 
-def written(target: Path, content: Mapping[str, bytes], progress: Progress) -> None:
-    """Validate the FMU and write it; raises BuildError."""
-    with tempfile.TemporaryDirectory() as folder:
-        fresh = Path(folder) / target.name
-        archive.write(fresh, content)
-        progress("validation by fmpy")
-        validated(fresh)
-        with replacing(target) as part:
-            shutil.copyfile(fresh, part)
+def written(target: Path, content: Mapping[str, bytes], fmi: Fmi) -> None:
+    """Check the model description by the standard's schema and write the FMU; raises SchemaError."""
+    valid(content[XML], fmi)
+    with replacing(target) as part:
+        archive.write(part, content)

@@ -8,11 +8,20 @@ from typing import Any
 
 from twintube.common.words import printable
 from twintube.fmu import archive, licences
-from twintube.fmu.assemble import REFUSALS, BuildError, Progress, file_name, in_order, native_content, target_file, written
+from twintube.fmu.assemble import (
+    REFUSALS,
+    BuildError,
+    chosen_platforms,
+    file_name,
+    in_order,
+    native_content,
+    target_file,
+    written,
+)
 from twintube.fmu.description import EXPERIMENT, PREFIX, identifier
 from twintube.fmu.documentation import STYLE, interval
 from twintube.fmu.model import Model
-from twintube.fmu.platforms import Fmi, known
+from twintube.fmu.platforms import Fmi
 from twintube.fmu.standards import STANDARDS
 from twintube.fmu.table import Variable, bounds
 from twintube.vehicle.full.brakes import Brakes
@@ -101,7 +110,6 @@ def build_car_fmu(
     output: Path | str | None = None,
     platforms: Sequence[str] | None = None,
     *,
-    progress: Progress = lambda text: None,
     fmi: Fmi = 2,
 ) -> Path:
     """Build and validate the native FMU of a car that starts at a `speed` [m/s].
@@ -111,10 +119,10 @@ def build_car_fmu(
     model = car_model(car, speed)
     target = target_file(output, file_name(model.name, fmi))
     try:
-        chosen = known(platforms, fmi)
-        content = native_content(model, chosen, archive.build_date(), progress, fmi)
+        chosen = chosen_platforms(model, platforms, fmi)
+        content = native_content(model, chosen, archive.build_date(), fmi)
         content |= licences.files("native", chosen, STANDARDS[fmi]) | {"documentation/index.html": page(car, model)}
+        written(target, in_order(content), fmi)
     except REFUSALS as error:
         raise BuildError(str(error)) from error
-    written(target, in_order(content), progress)
     return target

@@ -10,10 +10,13 @@ from xml.etree import ElementTree as ET
 
 from twintube.dampers import Damper
 from twintube.fmu import archive
-from twintube.fmu.assemble import XML, BuildError, Progress, build_fmu, in_order, target_file, written
+from twintube.fmu.assemble import XML, BuildError, build_fmu, in_order, target_file, written
+from twintube.fmu.binaries import complete
 from twintube.fmu.description import damper_model, define_units, serialized
 from twintube.fmu.platforms import known
+from twintube.fmu.standards import STANDARDS
 from twintube.fmu.table import Variable
+from twintube.native.units import UNITS
 from twintube.vehicle.full.car import WHEELS
 
 NAME = "twintube_dampers"
@@ -26,8 +29,7 @@ def build_container(
     dampers: Sequence[Damper],
     output: Path | str | None = None,
     step: float = STEP,
-    platforms: Sequence[str] = PLATFORMS,
-    progress: Progress = lambda text: None,
+    platforms: Sequence[str] | None = None,
 ) -> Path:
     """Build the FMU of four dampers in the order of WHEELS; communication steps must be multiples of `step` [s].
 
@@ -39,6 +41,8 @@ def build_container(
     target = target_file(output, NAME)
     if not SHORTEST <= step <= LONGEST:
         raise BuildError(f"communication step = {step:g} s: must be from {SHORTEST:g} to {LONGEST:g} s")
+    if platforms is None:
+        platforms = [name for name in complete(UNITS["damper", 2], STANDARDS[2]) if name in PLATFORMS]
     platforms = known(platforms)
     for platform in platforms:
         if platform not in PLATFORMS:
@@ -49,8 +53,7 @@ def build_container(
         container = FMUContainer(NAME, folder)
         shown: dict[str, Variable] = {}
         for wheel, damper in zip(WHEELS, dampers, strict=True):
-            progress(f"the damper {wheel}")
-            build_fmu(damper, folder / f"{wheel}.fmu", platforms=platforms, progress=progress)
+            build_fmu(damper, folder / f"{wheel}.fmu", platforms=platforms)
             for variable in damper_model(damper).variables:
                 if variable.causality == "parameter" and variable.name not in STATE:
                     continue
@@ -59,14 +62,13 @@ def build_container(
                     container.add_output(f"{wheel}.fmu", variable.name, f"{wheel}.{variable.name}")
                 else:
                     container.add_input(f"{wheel}.{variable.name}", f"{wheel}.fmu", variable.name)
-        progress("container")
         whole = folder / f"{NAME}_whole.fmu"
         container.make_fmu(whole, step_size=step)
         with zipfile.ZipFile(whole) as made:
             content = {entry: made.read(entry) for entry in made.namelist() if not entry.endswith("/")}
         content[XML] = completed(content[XML], shown)
         shutil.rmtree(folder / whole.stem, ignore_errors=True)
-    written(target, in_order(content), progress)
+    written(target, in_order(content), 2)
     return target
 
 

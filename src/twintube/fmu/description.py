@@ -139,7 +139,7 @@ def described(
 
 def damper_model(damper: Damper) -> Model:
     """A damper as a model."""
-    return Model(model_name(damper), TITLE, tuple(variables(damper)), EXPERIMENT, "", True)
+    return Model(model_name(damper), TITLE, tuple(variables(damper)), EXPERIMENT, "damper", True)
 
 
 def origin(model: Model, date: str) -> dict[str, str]:

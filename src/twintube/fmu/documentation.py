@@ -1,7 +1,5 @@
 """The documentation page inside the FMU, generated from the table of variables and the parameter set."""
 
-import base64
-import io
 from dataclasses import fields
 from html import escape
 
@@ -11,13 +9,14 @@ from twintube.core.variables import fmi_name
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import OWN, acting
 from twintube.fmu import reference, related
+from twintube.fmu.picture import svg
 from twintube.fmu.platforms import Fmi
 from twintube.fmu.table import Variable, variables
 from twintube.version import __version__
 
 STYLE = (
     "body{font-family:sans-serif;max-width:70em;padding:0 1.5em;margin:2em auto;color:#222;line-height:1.4}"
-    "img{max-width:100%}table{border-collapse:collapse;width:100%;font-size:.92em}"
+    "svg{max-width:60em}table{border-collapse:collapse;width:100%;font-size:.92em}"
     "td,th{border-bottom:1px solid #ccc;padding:.25em .6em;text-align:left;vertical-align:top}"
     "td:nth-child(2),td:nth-child(3){white-space:nowrap}td:nth-child(4){width:55%}"
     "h2{margin-top:1.6em}td small{color:#555}td small.assumed{color:#a40}"
@@ -101,20 +100,10 @@ def text(words: str) -> str:
 
 
 def picture(damper: Damper) -> str:
-    """Force over stroke and over velocity in the reference run, as a PNG in a data address."""
-    from matplotlib.figure import Figure
-
-    t, z, v, force, _ = zip(*reference.rows(damper), strict=True)
-    last = slice(len(t) // 2, None)
-    figure = Figure(figsize=(9, 3.2), layout="constrained")
-    for axes, x, label in zip(figure.subplots(1, 2, sharey=True), (z, v), ("stroke [m]", "velocity [m/s]"), strict=True):
-        axes.plot(x[last], force[last], color="#204a87")
-        axes.set_xlabel(label)
-        axes.grid(alpha=0.3)
-    figure.axes[0].set_ylabel("force [N]")
-    data = io.BytesIO()
-    figure.savefig(data, format="png", dpi=110, metadata={"Software": None})
-    return "data:image/png;base64," + base64.b64encode(data.getvalue()).decode()
+    """Force over stroke and over velocity in the second half of the reference run, as SVG."""
+    rows = reference.rows(damper)
+    _, z, v, force, _ = zip(*rows[len(rows) // 2 :], strict=True)
+    return svg([("stroke [m]", z), ("velocity [m/s]", v)], "force [N]", force, "force over stroke and over velocity")
 
 
 def chosen_by() -> str:
@@ -184,7 +173,7 @@ def page(damper: Damper, kind: str, fmi: Fmi = 2) -> str:
         "a twin-tube shock absorber after oil and gas loss, after Schramm, Zwosta, Prokop, Vehicles 2025, 7(1), 26, "
         f"doi 10.3390/vehicles7010026. Version {__version__}.</p>{MEANING}"
         f"{GAS.format(text(acting(damper)), chosen_by())}{about}"
-        f'<figure><img alt="force over stroke and velocity" src="{picture(damper)}"><figcaption>Second half of the '
+        f"<figure>{picture(damper)}<figcaption>Second half of the "
         f"reference run in {related.FOLDER}: {reference.FREQUENCY:g} Hz, {amplitude * 1e3:.0f} mm, with the start values of "
         f"this FMU.</figcaption></figure>{STROKE}{tables}</html>"
     )

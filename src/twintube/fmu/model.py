@@ -14,5 +14,5 @@ class Model:
     title: str
     variables: tuple[Variable, ...]
     experiment: Mapping[str, str]
-    folder: str  # of its equations and wrapper, below `fmu_src/native`
+    kind: str  # of the libraries, damper or car
     takes_derivatives: bool  # of inputs

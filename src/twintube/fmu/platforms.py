@@ -7,13 +7,13 @@ Kind = Literal["native", "python"]
 Fmi = Literal[2, 3]
 Ssp = Literal[1, 2]
 Platforms = Mapping[str, tuple[str, tuple[str, ...]]]
-# Folder in the FMU: file ending, targets. More than one target is joined to a universal file. FMI 2.0 has no name for
-# Linux on ARM; vendors may add names, and this one is that of FMI 3.0.
+# Folder in the FMU: file ending, and the platforms of `native/compiler.py`. More than one is joined to a universal file.
+# FMI 2.0 has no name for Linux on ARM; vendors may add names, and this one is that of FMI 3.0.
 PLATFORMS: Platforms = {
-    "linux64": ("so", ("x86_64-linux-gnu.2.17",)),
-    "aarch64-linux": ("so", ("aarch64-linux-gnu.2.17",)),
-    "win64": ("dll", ("x86_64-windows-gnu",)),
-    "darwin64": ("dylib", ("x86_64-macos.11.0", "aarch64-macos.11.0")),
+    "linux64": ("so", ("x86_64-linux",)),
+    "aarch64-linux": ("so", ("aarch64-linux",)),
+    "win64": ("dll", ("x86_64-windows",)),
+    "darwin64": ("dylib", ("x86_64-darwin", "aarch64-darwin")),
 }
 
 # FMI 3.0 names the processor, so that nothing is joined.
@@ -21,8 +21,8 @@ PLATFORMS_3: Platforms = {
     "x86_64-linux": PLATFORMS["linux64"],
     "aarch64-linux": PLATFORMS["aarch64-linux"],
     "x86_64-windows": PLATFORMS["win64"],
-    "x86_64-darwin": ("dylib", ("x86_64-macos.11.0",)),
-    "aarch64-darwin": ("dylib", ("aarch64-macos.11.0",)),
+    "x86_64-darwin": ("dylib", ("x86_64-darwin",)),
+    "aarch64-darwin": ("dylib", ("aarch64-darwin",)),
 }
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from twintube import core
 from twintube.dampers import Damper
 from twintube.fmu.description import model_name
-from twintube.fmu.sources import FOLDER
+from twintube.native.units import SOURCES
 
 CAPABILITIES = {"canInterpolateInputs": "false", "canNotUseMemoryManagementFunctions": "true"}
 CARRIED = "twintube.core"
@@ -32,7 +32,7 @@ def stage(folder: Path, damper: Damper) -> Path:
     The modules carry a digest of the sources in their names: two FMUs of different versions can share a process.
     """
     carried = carried_sources()
-    slave = (FOLDER / "twintube_slave.py").read_text(encoding="utf-8")
+    slave = (SOURCES / "twintube_slave.py").read_text(encoding="utf-8")
     digest = hashlib.sha256(("".join(carried.values()) + slave).encode()).hexdigest()[:12]
     package = f"twintube_{digest}"
 

@@ -1,9 +1,10 @@
 """A reference run for importers: input and output of the default experiment, computed by the interpreted model."""
 
 import math
+from functools import lru_cache
 
 from twintube.core import model
-from twintube.core.effects import State
+from twintube.core.effects import Parameters, State
 from twintube.core.outputs import total_force
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper
@@ -15,7 +16,13 @@ STEP, STEPS = 1e-3, 2000
 
 def rows(damper: Damper) -> list[tuple[float, float, float, float, float]]:
     """Time [s], stroke [m], velocity [m/s] at the start of each step, force [N] and k_degr [1] then."""
-    p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
+    return rows_of(damper.parameters)
+
+
+@lru_cache(maxsize=1)  # an FMU has them as a table and as a picture
+def rows_of(p: Parameters) -> list[tuple[float, float, float, float, float]]:
+    """`rows` of a parameter set."""
+    d, s, f = blank(Derived), blank(State), blank(Flow)
     model.set_up(p, d)
     model.start(p, d, s, 0.0)
     model.advance(p, d, s, f, 0.0, 0.0, 0.0, 0.0)

@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 from twintube.common.files import replacing
 from twintube.fmu import archive
-from twintube.fmu.assemble import BuildError, Progress, build_fmu
+from twintube.fmu.assemble import BuildError, build_fmu
 from twintube.fmu.car import build_car_fmu, car_model
 from twintube.fmu.description import damper_model, serialized
 from twintube.fmu.model import Model
@@ -118,10 +118,9 @@ def build_ssp(
     output: Path | str,
     platforms: Sequence[str] | None = None,
     *,
-    progress: Progress = lambda text: None,
     ssp: Ssp = 1,
 ) -> Path:
-    """Build the SSP of a car that starts at a `speed` [m/s], with libraries for `platforms`, by default all.
+    """Build the SSP of a car that starts at a `speed` [m/s], with libraries for `platforms`, by default all that there are.
 
     SSP 1.0 holds FMUs of FMI 2.0, SSP 2.0 those of FMI 3.0, whose platforms have other names.
 
@@ -133,11 +132,9 @@ def build_ssp(
     content, fmi = described(car, speed, ssp), INSIDE[ssp]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        progress("the car")
-        units = {CAR: build_car_fmu(car, speed, folder / f"{CAR}.fmu", platforms, progress=progress, fmi=fmi)}
+        units = {CAR: build_car_fmu(car, speed, folder / f"{CAR}.fmu", platforms, fmi=fmi)}
         for wheel, damper in zip(WHEELS, car.dampers, strict=True):
-            progress(f"the damper {wheel}")
-            units[wheel] = build_fmu(damper, folder / f"{wheel}.fmu", platforms=platforms, progress=progress, fmi=fmi)
+            units[wheel] = build_fmu(damper, folder / f"{wheel}.fmu", platforms=platforms, fmi=fmi)
         content |= {f"resources/{key}.fmu": file.read_bytes() for key, file in units.items()}
         archive.write(folder / target.name, content)
         with replacing(target) as part:

@@ -10,23 +10,26 @@ from twintube.fmu.platforms import PLATFORMS, PLATFORMS_3, Fmi, Platforms, Ssp
 class Standard:
     """What a version of FMI calls things."""
 
-    version: str
+    number: Fmi
     compiled: str  # the source file that includes all others
-    interface: tuple[str, ...]  # the sources of this version alone
     header: str  # of the standard's functions
     prefix: str  # of all functions where FMUs are linked into one program
     types: tuple[str, str]  # of numbers and of whole numbers
     arrays: bool  # whether an array is one variable
     platforms: Platforms
 
+    @property
+    def version(self) -> str:
+        """As model descriptions write it."""
+        return f"{self.number}.0"
+
 
 STANDARDS: Mapping[Fmi, Standard] = {
     2: Standard(
-        "2.0", "fmi2.c", ("fmi2.c",), "fmi2Functions.h", "FMI2_FUNCTION_PREFIX", ("Real", "Integer"), False, PLATFORMS
+        2, "fmi2.c", "fmi2Functions.h", "FMI2_FUNCTION_PREFIX", ("Real", "Integer"), False, PLATFORMS
     ),
     3: Standard(
-        "3.0", "fmi3.c", ("fmi3.c", "fmi3_absent.h"), "fmi3Functions.h", "FMI3_FUNCTION_PREFIX", ("Float64", "Int32"), True,
-        PLATFORMS_3,
+        3, "fmi3.c", "fmi3Functions.h", "FMI3_FUNCTION_PREFIX", ("Float64", "Int32"), True, PLATFORMS_3
     ),
 }  # fmt: skip
 # SSP 2.0 has the types of FMI 3.0; importers of SSP 1.0 know FMI 2.0.

@@ -1,14 +1,16 @@
-"""Optimisers from libraries behind a common call, seeded and resumable (twintube.fitting.journal)."""
+"""Optimisers behind a common call, seeded and resumable (twintube.fitting.journal)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from twintube.common.arrays import Array
 from twintube.fitting.journal import Journal, Objective
+
+# Of the swarm: the pull to each of the two best places, and the factor by which it contracts for that pull.
+ATTRACTION, CONSTRICTION = 2.05, 0.7298437881283576  # 2 / (phi - 2 + sqrt(phi**2 - 4 phi)) with phi = 2 * 2.05
 
 
 @dataclass(frozen=True)
@@ -23,17 +25,22 @@ class Best:
 
 
 def pso(journal: Journal, bounds: Array, population: int, generations: int, seed: int) -> Array:
-    """Particle swarm of pymoo, a whole swarm per call."""
-    from pymoo.algorithms.soo.nonconvex.pso import PSO
-    from pymoo.core.problem import Problem
-    from pymoo.optimize import minimize
+    """Particle swarm with constriction (Clerc and Kennedy 2002, doi 10.1109/4235.985692), a whole swarm per call.
 
-    class Vectorised(Problem):  # type: ignore[misc]  # pymoo is untyped
-        def _evaluate(self, X: Array, out: dict[str, Any], *_: Any, **__: Any) -> None:
-            out["F"] = journal(X)[:, None]
-
-    problem = Vectorised(n_var=len(bounds), n_obj=1, xl=bounds[:, 0], xu=bounds[:, 1])
-    minimize(problem, PSO(pop_size=population), ("n_gen", generations), seed=seed, verbose=False)
+    A particle that would leave the bounds stops at them.
+    """
+    (low, high), rng = bounds.T, np.random.default_rng(seed)
+    X = rng.uniform(low, high, (population, len(bounds)))
+    V = rng.uniform(low, high, X.shape) - X
+    own, least = X.copy(), journal(X)  # the best place of each particle, and the error there
+    for _ in range(generations - 1):
+        best = own[np.argmin(least)]
+        V = CONSTRICTION * (V + ATTRACTION * (rng.random(X.shape) * (own - X) + rng.random(X.shape) * (best - X)))
+        outside = (low > X + V) | (high < X + V)
+        X, V = np.clip(X + V, low, high), np.where(outside, 0.0, V)
+        errors = journal(X)
+        better = errors < least
+        own[better], least[better] = X[better], errors[better]
     return journal.x[None]
 
 

@@ -1,6 +1,6 @@
 """How well the records determine the parameters: a sample of all parameter sets that explain them about as well.
 
-The sample is drawn by emcee (affine-invariant ensemble) from the likelihood of the force errors, flat within the bounds.
+The sample is drawn by an affine-invariant ensemble from the likelihood of the force errors, flat within the bounds.
 A residual that repeats in every oscillation is an error of the model or of the sampling. It tells nothing new the second
 time, so it counts once per record; noise counts once per sample.
 """
@@ -16,6 +16,7 @@ from scipy.stats import norm
 from twintube.common.arrays import Array
 from twintube.fitting.journal import Journal
 from twintube.fitting.least_squares import bounded, derivatives, pulls, sandwich
+from twintube.identification.ensemble import sampled
 from twintube.identification.objective import Objective
 
 LEVEL = 0.95  # for all parameters together (Bonferroni)
@@ -116,8 +117,6 @@ def estimates(
 
     The intervals are wider by `moved` (k,) on each side.
     """
-    import emcee
-
     low, high = objective.bounds.T
     weight = weights(objective, x)
 
@@ -138,12 +137,9 @@ def estimates(
     J = slopes(objective, x) * rows[:, None]
     spread = np.linalg.cholesky(np.linalg.inv(J.T @ J + WEAK * np.eye(len(x))))
     start = reflected(x + rng.standard_normal((walkers, len(x))) @ spread.T * (high - low), low, high)
-    sampler = emcee.EnsembleSampler(walkers, len(x), log_probability, vectorize=True)
-    state = emcee.State(start, random_state=np.random.RandomState(seed).get_state())
-    sampler.run_mcmc(state, steps)
-    chain = sampler.get_chain(discard=int(BURN_IN * steps), flat=True)
+    chain = sampled(log_probability, start, steps, rng)[int(BURN_IN * steps) :].reshape(-1, len(x))
     z = float(norm.ppf(1 - (1 - LEVEL) / 2 / len(x)))
-    reach = z * scatter(objective, x, J, rows) * (high - low)
+    reach: Array = z * scatter(objective, x, J, rows) * (high - low)
     q16, q50, q84 = np.quantile(chain, norm.cdf([-1, 0, 1]), axis=0)
     reach = np.maximum(reach, LEAST * (high - low))
     results = []
@@ -158,7 +154,7 @@ def estimates(
             )
         results.append(Estimate(name, float(x[i]), float(a), float(b), (float(low[i]), float(high[i]))))
     with np.errstate(invalid="ignore"):
-        related: Array = np.nan_to_num(np.corrcoef(chain.T))
+        related: Array = np.asarray(np.nan_to_num(np.corrcoef(chain.T)))
     return results, related
 
 

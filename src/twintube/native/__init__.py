@@ -7,6 +7,10 @@ translate   whole sources to one C text
 sources     which equations the library holds
 build       translates and compiles the library of this machine
 library     loads the library and calls its functions
+compiler    a C compiler, for this machine or any platform
+headers     the equations as headers for FMUs
+units       the libraries of FMUs, and the explorer's module
+made        what there is for each platform
 
 Standard library only, but for arrays that a caller brings.
 """

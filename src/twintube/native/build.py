@@ -3,6 +3,7 @@
 import hashlib
 import shutil
 import tempfile
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -60,7 +61,7 @@ def library_path(platform: str) -> Path:
     return LIBRARIES / platform / f"{NAME}.{compiler.TARGETS.get(platform, ('', 'so'))[1]}"
 
 
-def made(platform: str) -> Path:
+def made(platform: str, usual: Sequence[str] = ()) -> Path:
     """Translate and compile the library for a platform; raises CompilerError, SubsetError where an equation is at fault."""
     path = library_path(platform)
     with tempfile.TemporaryDirectory() as temporary:
@@ -68,15 +69,14 @@ def made(platform: str) -> Path:
         (folder / "library.c").write_text(source(), encoding="utf-8")
         output = folder / "out" / path.name
         output.parent.mkdir()
-        compiler.compiled([folder / "library.c"], platform, output, FLAGS, usual(platform))
+        compiler.compiled([folder / "library.c"], platform, output, FLAGS, usual)
         write_bytes(path, output.read_bytes())
     return path
 
 
-def usual(platform: str) -> tuple[str, ...]:
-    """The compiler that this machine has, unless `CC` names one: it need not be installed."""
-    here = platform == compiler.this_machine() and not compiler.own_compiler()
-    return ("cc",) if here and shutil.which("cc") else ()
+def usual() -> tuple[str, ...]:
+    """The compiler that this machine has, unless `CC` names one: what it makes may not run on older machines."""
+    return ("cc",) if not compiler.own_compiler() and shutil.which("cc") else ()
 
 
 def current(path: Path) -> bool:

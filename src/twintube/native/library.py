@@ -117,7 +117,7 @@ def present() -> Path:
     if not (PACKAGE.parents[1] / "pyproject.toml").is_file():
         raise LibraryError(problem)
     try:
-        return build.made(this_machine())
+        return build.made(this_machine(), build.usual())
     except (CompilerError, OSError) as error:
         raise LibraryError(f"{problem} ({error})") from error
 

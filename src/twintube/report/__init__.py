@@ -10,5 +10,5 @@
     plot.py              the method `plot()` of results
     common               what all pages share
 
-Nothing is imported here: the figures of the paper need the extras identify and formats, other pages need neither.
+Nothing is imported here: the figures of the paper need the extra formats, other pages do not.
 """
