@@ -16,8 +16,8 @@ import numpy as np
 from twintube import build_fmu
 
 # %%
-# The build translates nothing and downloads nothing: C sources and compiler come with the package. Here it
-# compiles for the present platform only; by default it does for all.
+# The build compiles nothing and downloads nothing: the package has the libraries. Here it takes that of the
+# present platform only; by default all that there are.
 folder = Path(tempfile.mkdtemp())
 fmu = build_fmu("SA8", folder, platforms=[fmpy.platform])
 

@@ -17,7 +17,7 @@ MODULES = {
 }
 MANY = 8  # rooms that are not listed
 PROGRAMS = {"docs", "native", "test"}  # extras of those who work on the package, whose tools need no import
-ROW = re.compile(r"^\| `([\w-]+)` \| ([\w, -]+) \| [^|]+ \| ([\w, ]*)\|$", re.MULTILINE)
+ROW = re.compile(r"^\| `([\w-]+)` \| ([\w, -]+) \| \d+ \| [^|]+ \| ([\w, ]*)\|$", re.MULTILINE)
 
 
 def declared() -> dict[str, set[str]]:

@@ -40,7 +40,7 @@ def test_citation_names_the_paper() -> None:
 
 def test_the_workflow_is_valid() -> None:
     workflow = load(".github/workflows/ci.yml")
-    assert set(workflow["jobs"]) == {"test", "platforms", "fmu", "docs", "translation", "release", "nightly"}
+    assert set(workflow["jobs"]) == {"test", "platforms", "fmu", "docs", "translation", "release", "nightly", "versions"}
     for name, job in workflow["jobs"].items():
         assert job["runs-on"], name
         for step in job["steps"]:
@@ -49,6 +49,27 @@ def test_the_workflow_is_valid() -> None:
     assert {system.split("-")[0] for system in systems} == {"windows", "macos"}
     triggers = workflow[True] if True in workflow else workflow["on"]  # YAML 1.1 reads `on` as true
     assert "schedule" in triggers
+
+
+def test_every_python_that_is_named_is_tested_at_night() -> None:
+    named = {c.rsplit(" ", 1)[1] for c in PROJECT["project"]["classifiers"] if re.search(r"Python :: 3\.\d+$", c)}
+    matrix = load(".github/workflows/ci.yml")["jobs"]["versions"]["strategy"]["matrix"]
+    assert set(matrix["python"]) == named
+    assert f">={min(named, key=lambda v: int(v[2:]))}" == PROJECT["project"]["requires-python"]
+    assert {"python": "3.11", "packages": "oldest"} in matrix["include"]
+
+
+def test_the_oldest_versions_are_those_of_the_requirements() -> None:
+    done = subprocess.run([sys.executable, str(ROOT / ".ci" / "oldest")], capture_output=True, text=True, check=True)
+    lines = done.stdout.split()
+    for requirement in PROJECT["project"]["dependencies"]:
+        assert requirement.replace(">=", "==") in lines
+
+
+def test_the_package_says_who_made_it_and_carries_its_licence() -> None:
+    assert {a["name"] for a in PROJECT["project"]["authors"]} == {a["name"] for a in load("CITATION.cff")["authors"]}
+    licence = (ROOT / "LICENSE").read_text(encoding="utf-8")
+    assert (ROOT / "fmu_src" / "licences" / "twintube.txt").read_text(encoding="utf-8") == licence
 
 
 def test_pre_commit_runs_the_tools_of_the_test_command() -> None:
