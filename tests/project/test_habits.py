@@ -54,7 +54,7 @@ def test_the_workflow_is_valid() -> None:
 def test_every_python_that_is_named_is_tested_at_night() -> None:
     named = {c.rsplit(" ", 1)[1] for c in PROJECT["project"]["classifiers"] if re.search(r"Python :: 3\.\d+$", c)}
     matrix = load(".github/workflows/ci.yml")["jobs"]["versions"]["strategy"]["matrix"]
-    assert set(matrix["python"]) == named
+    assert set(matrix["python"]) >= named
     assert f">={min(named, key=lambda v: int(v[2:]))}" == PROJECT["project"]["requires-python"]
     assert {"python": "3.11", "packages": "oldest"} in matrix["include"]
 
