@@ -13,7 +13,6 @@ from twintube.core.effects import Parameters
 from twintube.core.units import UNITS
 from twintube.core.variables import Inputs, Outputs, fmi_name
 from twintube.dampers import load
-from twintube.fmu import BuildError, assemble, build_fmu
 from twintube.fmu.description import model_name
 
 CONTRACT = (
@@ -71,16 +70,6 @@ def test_page_icon_and_licence_travel_along(sa8_fmu: Path) -> None:
             if name.startswith("resources/") and "/pythonfmu/" not in name and name.endswith(".py"):
                 text = archive.read(name).decode()
                 assert "numpy" not in text
-
-
-def test_a_failed_build_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(_: Path) -> None:
-        raise BuildError("not valid")
-
-    monkeypatch.setattr(assemble, "validated", refuse)
-    with pytest.raises(BuildError, match="not valid"):
-        build_fmu(load("SA8"), tmp_path / "a.fmu", platforms=(fmpy.platform,))
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_the_modelica_text_uses_names_of_the_fmu(sa8_fmu: Path) -> None:
