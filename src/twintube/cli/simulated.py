@@ -80,9 +80,10 @@ def run(damper: "Damper", motion: "Motion | Record") -> "Simulation":
     """The simulation of a motion as it stands, or of a record as it is identified from."""
     from twintube.data import Record
     from twintube.engine.simulate import simulate_quietly
-    from twintube.fitting import prediction
 
     if isinstance(motion, Record):
+        from twintube.fitting import prediction
+
         return prediction.driven(damper, prediction.calm(motion))
     return simulate_quietly(damper, motion.stroke, motion.velocity, motion.time)
 
