@@ -45,22 +45,28 @@ class Coupled:
     @staticmethod
     def inputs(length: float) -> Array:
         """Steer angle, brake pressure and held speed (n, 3)."""
-        rows = np.zeros((round(SECONDS / length), 3))
+        return Coupled.inputs_at(np.arange(round(SECONDS / length)) * length)
+
+    @staticmethod
+    def inputs_at(times: Array) -> Array:
+        """The same for steps that begin at these times [s]."""
+        rows = np.zeros((len(times), 3))
         rows[:, 2] = SPEED
-        rows[len(rows) // 2 :, 1:] = (3e6, 0.0)
+        rows[times > 0.5 * SECONDS - 1e-9, 1:] = (3e6, 0.0)
         return rows
 
     def in_process(self, dt: float) -> CarRun:
         """The drive with steps of `dt` [s]."""
         return drive_car(self.car, self.road, SPACING, self.inputs(dt), SPEED, dt=dt, preconditioned=False)
 
-    def errors(self, loads: Array, strokes: Array, length: float) -> float:
+    def errors(self, loads: Array, strokes: Array, lengths: float | Array) -> float:
         """The larger of the RMS errors of loads and strokes (n, 4), each over the standard deviation."""
-        begins = np.arange(len(loads)) * length
+        steps = np.broadcast_to(lengths, len(loads))
+        begins = np.cumsum(steps) - steps
         at = np.arange(0.3, SECONDS - 0.05, 0.008)
         shares = []
         for time, values, wanted in (
-            (begins + length - min(length, LONGEST_PART), loads, self.exact.load),
+            (begins + steps - np.minimum(steps, LONGEST_PART), loads, self.exact.load),
             (begins, strokes, self.exact.stroke),
         ):
             exact = np.column_stack([np.interp(at, self.exact.time, wanted[:, i]) for i in range(4)])

@@ -65,18 +65,19 @@ READ = ("stroke", "load", "height")
 
 
 def drive(
-    car_file: Path, dampers: Sequence[Path], inputs: Array, road: Road, length: float, *, parallel: bool
+    car_file: Path, dampers: Sequence[Path], inputs: Array, road: Road, lengths: float | Array, *, parallel: bool
 ) -> dict[str, Array]:
-    """Strokes, loads and heights (n, 4) at the end of each communication step of `length` [s].
+    """Strokes, loads and heights (n, 4) at the end of each communication step of `lengths` [s], one for all or (n,).
 
     `inputs` (n, 3) as `drive_car` takes them. A `parallel` master exchanges values between steps only, as others do; the
     other one steps the car first and moves the dampers as the car has moved.
     """
-    rows, way = [], 0.0
+    rows, way, time = [], 0.0, 0.0
     units = [Unit(file) for file in dampers]
     with Unit(car_file) as car:
         force = [unit.get("force")[0] for unit in units]
-        for n, (steer, pressure, speed) in enumerate(inputs.tolist()):
+        steps = np.broadcast_to(lengths, len(inputs)).tolist()
+        for (steer, pressure, speed), length in zip(inputs.tolist(), steps, strict=True):
             heights, rates = road(way)
             x, y, forward = car.get("motion.x", "motion.y", "motion.v_x")
             stroke, velocity = car.get(*wheels_of("stroke")), car.get(*wheels_of("velocity"))
@@ -85,17 +86,19 @@ def drive(
             values |= dict(zip(wheels_of("road"), heights, strict=True))
             values |= dict(zip(wheels_of("road_rate"), rates * forward, strict=True))
             car.set(values)
-            car.step(n * length, length)
+            car.step(time, length)
             after = car.get("motion.x", "motion.y")
             way += float(np.hypot(after[0] - x, after[1] - y))
             if not parallel:
                 moved = car.get(*wheels_of("stroke"))
-                velocity = [(b - a) / length for a, b in zip(stroke, moved, strict=True)]
+                if length > 0.0:
+                    velocity = [(b - a) / length for a, b in zip(stroke, moved, strict=True)]
             for unit, z, v in zip(units, stroke, velocity, strict=True):
                 unit.set({"stroke": z, "velocity": v})
-                unit.step(n * length, length)
+                unit.step(time, length)
             force = [unit.get("force")[0] for unit in units]
             rows.append([*stroke, *car.get(*wheels_of("load")), *car.get(*wheels_of("height"))])
+            time += length
     for unit in units:
         unit.__exit__()
     table = np.array(rows).reshape(len(rows), len(READ), len(WHEELS))

@@ -3,7 +3,7 @@
 import fmpy
 import numpy as np
 import pytest
-from coupled import SPEED, Coupled
+from coupled import SECONDS, SPEED, Coupled
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from masters import Unit, drive
@@ -48,6 +48,21 @@ def test_the_coupling_error_falls_with_the_communication_step(coupled: Coupled, 
         errors.append(coupled.errors(rows["load"], rows["stroke"], length))
     assert all(fine < 0.8 * coarse for coarse, fine in zip(errors, errors[1:], strict=False))
     assert errors[-1] < 0.02  # of the loads' standard deviation
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_mixed_steps_are_as_good_as_steps_twice_as_long(coupled: Coupled, parallel: bool) -> None:
+    """Steps of 0 to 2 ms at random, a third of them of no length: after a short one no slope of the force is known."""
+    random = np.random.default_rng(1)
+    mixed = random.choice([0.0, 0.0, 1e-6, 1e-4, 1e-3, 2e-3], 9000) * random.uniform(0.5, 1.0, 9000)
+    mixed = mixed[np.cumsum(mixed) < SECONDS]
+    errors = []
+    for lengths in (mixed, np.full(round(SECONDS / 4e-3), 4e-3)):
+        inputs = coupled.inputs_at(np.cumsum(lengths) - lengths)
+        rows = drive(coupled.car_file, coupled.damper_files, inputs, coupled.ground, lengths, parallel=parallel)
+        some = lengths > 0.0  # else the load is still that of the step before
+        errors.append(coupled.errors(rows["load"][some], rows["stroke"][some], lengths[some]))
+    assert errors[0] < errors[1]
 
 
 def interpreted(car: FullCar, lengths: list[float], forces: np.ndarray, roads: np.ndarray) -> list[list[float]]:

@@ -16,6 +16,7 @@ from twintube.vehicle.full.signals import BodyOutputs, Course, DriverInputs, Whe
 
 LONGEST_PART = 1e-3  # [s]
 LONGEST_CARRIED = 4e-3  # [s] of steps over which forces are carried on; over longer ones that would sway more than help
+CARRIED_STEPS = 1.5  # [1] mean steps over which a force is carried on: to the end of a step as long as the last two
 NO_TIME = 1e-9  # [s] of a step that is rounding
 
 
@@ -109,7 +110,7 @@ def communication_step(
     apart = 0.5 * (t.span + earlier)
     for n in range(parts):
         at = n * dt
-        ahead = (0.5 * t.span + at) / apart if apart > 0.0 and span <= LONGEST_CARRIED else 0.0
+        ahead = min(CARRIED_STEPS, (0.5 * t.span + at) / apart) if apart > 0.0 and span <= LONGEST_CARRIED else 0.0
         meet_road(w1, j1, i.grip, ahead, at)
         meet_road(w2, j2, i.grip, ahead, at)
         meet_road(w3, j3, i.grip, ahead, at)
