@@ -1,13 +1,15 @@
 """Each effect is hidden once in a damper that is off its parameter set, and three good dampers are cleared."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import pytest
 
 from tests.diagnosis import small
+from tests.evidence.look_alikes import ACTS_ON, look_alikes
 from tests.evidence.specimen import own_law
 from twintube.core.effects import EFFECTS
+from twintube.core.hook_table import HOOKS
 from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.evidence import Answer, answer
@@ -43,7 +45,9 @@ SPEEDS = {small.INTACT: (0.3, 1.0), small.DEGRADED: (0.6, 1.3)}  # [m/s]
 TURNS = 12
 
 
-def before_and_after(level: float, changed: Mapping[str, float], seed: int = 0) -> Answer:
+def before_and_after(
+    level: float, changed: Mapping[str, float], seed: int = 0, catalogue: Collection[str] | None = None
+) -> Answer:
     """The answer to two records as delivered and two after a change."""
     damper = load("SA8", as_published=True)
     records = []
@@ -52,22 +56,28 @@ def before_and_after(level: float, changed: Mapping[str, float], seed: int = 0) 
         run = small.run(SPEEDS[level][i % 2], level, turns=TURNS, damper=worn)
         seen = small.record(run, own_law(run), seed=10 * seed + i)
         records.append(replace(seen, name=f"{name}_{i}", reference=name == "before", state=name))
-    return answer(LoadedDataset("Small", damper, records, []))
+    return answer(LoadedDataset("Small", damper, records, []), catalogue=catalogue)
 
 
 # Oil that leaks out while it is driven is taken for another fill at the beginning, beside which nothing explains the rest.
 OPEN = pytest.param("seal_leak", marks=pytest.mark.xfail(strict=True, reason="the fill is decided before the cause"))
 
 
+@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["look-alikes", "catalogue"])
 @pytest.mark.parametrize("effect", [OPEN if name == "seal_leak" else name for name in HIDDEN])
-def test_a_hidden_effect_is_among_what_is_named(effect: str) -> None:
-    found = before_and_after(small.DEGRADED if effect in IN_LOST_OIL else small.INTACT, HIDDEN[effect])
+def test_a_hidden_effect_is_among_what_is_named(effect: str, whole: bool) -> None:
+    level = small.DEGRADED if effect in IN_LOST_OIL else small.INTACT
+    found = before_and_after(level, HIDDEN[effect], catalogue=None if whole else look_alikes(effect))
     # A fill other than stated is a state.
     assert {"oil_level_error": "state"}.get(effect, effect) in {h.name for h in found.named}
 
 
 def test_every_effect_is_hidden() -> None:
     assert set(HIDDEN) == set(EFFECTS)
+
+
+def test_every_hook_acts_on_one_part_of_the_force() -> None:
+    assert sorted(hook for several in ACTS_ON.values() for hook in several) == sorted(HOOKS)
 
 
 @pytest.mark.parametrize(("level", "seed"), [(small.INTACT, 1), (small.INTACT, 2), (small.DEGRADED, 3)])

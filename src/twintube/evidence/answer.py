@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,6 +26,7 @@ from twintube.diagnosis.rules import RULES
 from twintube.evidence.bench import Bench
 from twintube.evidence.changes import NONE, STATE, UNKNOWN, Changes, Hypothesis, changes
 from twintube.evidence.heldout import HeldOut, contradicted, held_out
+from twintube.evidence.mechanisms import check
 from twintube.evidence.numbers import NUMBERS
 from twintube.evidence.search import Found
 from twintube.evidence.sizes import Sizes, chance_of_more
@@ -251,7 +252,7 @@ def state_of(bench: Bench, records: list[Record], own: list[Record], progress: P
     return StateAnswer(own[0].state, names, stated, state(bench, which, stated, progress))
 
 
-def diagnose(path: str | Path, progress: Progress | None = None) -> Answer:
+def diagnose(path: str | Path, progress: Progress | None = None, catalogue: Collection[str] | None = None) -> Answer:
     """Read a dataset folder and answer, see `answer`.
 
     Raises DataError with all defects of the records, and InputError where a stroke leaves the tube.
@@ -262,16 +263,24 @@ def diagnose(path: str | Path, progress: Progress | None = None) -> Answer:
     if turned is not None and (has_reference(dataset.records) or any(record.unknown for record in dataset.records)):
         # There the bench is not looked at, and nothing is put right in silence: this raises.
         dataset, turned = load_dataset(path), None
-    return answer(dataset, progress, turned)
+    return answer(dataset, progress, turned, catalogue)
 
 
-def answer(dataset: LoadedDataset, progress: Progress | None = None, turned: Fault | None = None) -> Answer:
+def answer(
+    dataset: LoadedDataset,
+    progress: Progress | None = None,
+    turned: Fault | None = None,
+    catalogue: Collection[str] | None = None,
+) -> Answer:
     """The states of filling, and what has happened since the reference, or what the model lacks where there is none.
 
     Where a fill is unknown and no record is a reference, its state is all that is sought. `turned` is what was put right
-    when the records were read. Raises InputError where a stroke leaves the tube.
+    when the records were read. Effects and faults that a `catalogue` does not name cannot be the cause; None: each can.
+    Raises InputError where a stroke leaves the tube, or the catalogue has a name of nothing.
     """
     began, progress = time.monotonic(), progress or silent
+    if catalogue is not None:
+        check(catalogue)
     if not has_reference(dataset.records) and any(record.unknown for record in dataset.records):
         found = tuple(states(dataset, progress))
         return Answer(
@@ -279,12 +288,12 @@ def answer(dataset: LoadedDataset, progress: Progress | None = None, turned: Fau
         )
     with threadpool_limits(1):
         if has_reference(dataset.records):
-            known = compared_with_reference(dataset, progress)
+            known = compared_with_reference(dataset, progress, catalogue)
         else:
             measured = put_right(dataset, turned, progress)
             # What looks odd may be a cause that acts in few records: it is odd where no cause explains all of them.
-            every = lacking(dataset, measured.whole, progress) if measured.whole is not None else None
-            known = lacking(dataset, measured, progress) if every is None or not explains(every) else every
+            every = lacking(dataset, measured.whole, progress, catalogue) if measured.whole is not None else None
+            known = lacking(dataset, measured, progress, catalogue) if every is None or not explains(every) else every
     return replace(known, seconds=time.monotonic() - began)
 
 
@@ -293,7 +302,7 @@ def explains(answer: Answer) -> bool:
     return not answer.unexplained and all(h.kind == "effect" for h in answer.named)
 
 
-def compared_with_reference(dataset: LoadedDataset, progress: Progress) -> Answer:
+def compared_with_reference(dataset: LoadedDataset, progress: Progress, catalogue: Collection[str] | None) -> Answer:
     """What has happened since the reference."""
     bench = Bench(dataset.damper, prepare(dataset))
     several: list[StateAnswer] = []
@@ -315,7 +324,8 @@ def compared_with_reference(dataset: LoadedDataset, progress: Progress) -> Answe
     acting = np.concatenate([~in_reference(record, r.time) for record, r in times])
     later = {record.name for record in dataset.records if not record.reference}
     told = [one for one in several if one.records[0] in later]
-    known = concluded(dataset, dataset.records, bench, acting, several=several, told=told, measured=None, progress=progress)
+    result = asked(bench, acting, told, progress, catalogue)
+    known = concluded(dataset, dataset.records, several, result, measured=None, progress=progress)
     return replace(known, tared=tuple(tared))
 
 
@@ -339,7 +349,7 @@ def bench_of(measured: Measured) -> Bench:
     return Bench(known.given, known.records, SAMPLED | zero, known.drift)
 
 
-def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress) -> Answer:
+def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress, catalogue: Collection[str] | None) -> Answer:
     """What the model lacks, in records without the faults of their bench."""
     bench = bench_of(measured)
     records = [record for record in dataset.records if record.name not in measured.odd]
@@ -349,27 +359,32 @@ def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress) -> A
         if one.posterior.rather_misstated or tared:
             bench.in_state(np.array([record.state == one.state for record in records]), preload, level, tared)
     acting = np.ones(len(bench.z), dtype=bool)
-    return concluded(dataset, records, bench, acting, several=several, told=several, measured=measured, progress=progress)
+    result = asked(bench, acting, several, progress, catalogue)
+    return concluded(dataset, records, several, result, measured=measured, progress=progress)
+
+
+def asked(
+    bench: Bench, acting: Array, told: Sequence[StateAnswer], progress: Progress, catalogue: Collection[str] | None
+) -> Changes:
+    """The probability of everything in the samples `acting` (n,), where the states `told` may be others than stated."""
+    stated = [one.posterior for one in told if one.stated.anything]
+    return changes(bench, acting, stated, [one.posterior.tared_as_stated for one in told], progress, catalogue=catalogue)
 
 
 def concluded(
     dataset: LoadedDataset,
     records: Sequence[Record],
-    bench: Bench,
-    acting: Array,
-    *,
     several: Sequence[StateAnswer],
-    told: Sequence[StateAnswer],
+    result: Changes,
+    *,
     measured: Measured | None,
     progress: Progress,
 ) -> Answer:
-    """The probability of everything in the samples `acting` (n,), where the states `told` may be others than stated."""
-    stated = [one.posterior for one in told if one.stated.anything]
-    result = changes(bench, acting, stated, [one.posterior.tared_as_stated for one in told], progress)
+    """The answer that follows from probabilities, with what causes are worth on records that were left out."""
     progress("predicting records that were left out")
     alone = result.hypotheses[0].found if len(result.credible) == 1 else None
     left_out = held_out(result, alone)
-    bench.threads.shutdown()
+    result.search.bench.threads.shutdown()
     return Answer(
         dataset.title,
         dataset.damper,

@@ -5,7 +5,7 @@ change of the model's error. `tared_cell` is `none` with a load cell that was se
 the state has it. All others are mechanisms. The verdict follows from these probabilities alone.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import comb
 
@@ -55,11 +55,12 @@ class Changes:
         return tuple(h.name for h in self.hypotheses[: int(np.searchsorted(total, NUMBERS.credible)) + 1])
 
 
-def mechanisms(bench: Bench) -> list[Mechanism]:
-    """Everything in the catalogue."""
+def mechanisms(bench: Bench, catalogue: Collection[str] | None = None) -> list[Mechanism]:
+    """What may have happened: everything known, or what a `catalogue` names."""
     longest = max(float(np.ptp(r.time)) for r in bench.records)
     reach = max(float(np.abs(r.stroke).max()) for r in bench.records)
-    return [*effects(reach), *faults(bench.peak, longest)]
+    every = [*effects(reach), *faults(bench.peak, longest)]
+    return [m for m in every if catalogue is None or m.effect in catalogue]
 
 
 def changes(
@@ -68,24 +69,27 @@ def changes(
     stated: Sequence[StatePosterior],
     tared: Sequence[float] = (),
     progress: Callable[[str], None] = lambda text: None,
+    *,
+    catalogue: Collection[str] | None = None,
 ) -> Changes:
     """The probability of all hypotheses about the samples `acting` (n,); the others are the reference.
 
     `stated` are the states of those records whose file states them, `tared` the probabilities that the load cell was set to
-    zero with the damper in it, in each state that is as its file says.
+    zero with the damper in it, in each state that is as its file says. What a `catalogue` does not name
+    cannot have happened.
     """
-    catalogue = mechanisms(bench)
-    names = list(dict.fromkeys(m.effect for m in catalogue))
+    causes = mechanisms(bench, catalogue)
+    names = list(dict.fromkeys(m.effect for m in causes))
     always = float(np.log(NUMBERS.lacking / (1.0 - NUMBERS.lacking) / len(names)))
     base, every = Base(bench, acting), np.ones(len(acting), dtype=bool)
     found: dict[Mechanism, Found] = {}
     while True:
         search = base.search()
-        found = searched(search, catalogue, found, progress)
+        found = searched(search, causes, found, progress)
         if acting.all() or len(base.mechanisms) == MOST:
             break
         # What all records show is no change.
-        likely = [m for m in catalogue if found[m].log_z > search.none.log_z + WORTH and not base.has(m)]
+        likely = [m for m in causes if found[m].log_z > search.none.log_z + WORTH and not base.has(m)]
         whole = Search(bench, search.frame, every)
         also = searched(whole, likely, found, progress)
         best = max(also.values(), key=weight, default=None)

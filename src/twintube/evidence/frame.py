@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import block_diag, cho_factor, cho_solve, cholesky, solve_triangular
+from scipy.linalg import block_diag, cho_solve, cholesky, solve_triangular
 
 from twintube.common.arrays import Array
 from twintube.evidence.bench import Bench
@@ -47,11 +47,19 @@ class White:
 
 @dataclass(frozen=True)
 class Reduced:
-    """Inner products over all records, the contributions of single records integrated out."""
+    """Inner products with errors over all records, the contributions of single records integrated out."""
 
-    shared: Array  # (k, k)
     shared_errors: Array  # (k, c)
     errors: Array  # (c, c)
+    own: list[Array]  # (m, c) of each part, what was taken off
+
+
+@dataclass(frozen=True)
+class Integrated:
+    """The contributions of single records integrated out."""
+
+    factors: list[tuple[Array, Array]]  # of each part: the Cholesky factor (m, m), and what was taken off (m, k)
+    shared: Array  # (k, k) inner products over all records
     log_det: float
 
 
@@ -66,6 +74,10 @@ class Part:
     lasts: Array  # [N] of size one
     kept: Array
     known: dict[int, White] = field(default_factory=dict, init=False, compare=False)
+
+    def scale(self, sizes: Sizes) -> Array:
+        """Standard deviations of the own contributions (m,)."""
+        return np.where(self.fixed, 1.0, sizes.own)
 
     def innovations(self, values: Array, lasting_at: int) -> tuple[Array, float]:
         """Values (n, c) [N] without noise, and half the logarithm of its determinant."""
@@ -104,6 +116,12 @@ class Frame:
         self.still = STILL + more.shape[1]
         self.k = self.still - STILL + several[0][0].shape[1]
         self.parts = [self.part(group, several, noise, more) for group in bench.motions()]
+        self.forget()
+
+    def forget(self) -> None:
+        """Nothing is known yet of any sizes."""
+        self.known: dict[tuple[int, int], Integrated] = {}
+        self.factors: dict[Sizes, Array] = {}
 
     def hiding(self, at: slice, noise: float) -> "Frame":
         """The same contributions, with a further noise [N] in the samples `at`."""
@@ -113,6 +131,7 @@ class Frame:
             replace(part, sigma=np.hypot(part.sigma, noise * some)) if some.any() else part
             for part, some in zip(self.parts, inside, strict=True)
         ]
+        other.forget()
         return other
 
     def part(self, group: list[int], several: list[tuple[Array, Array, Array]], noise: Array, more: Array) -> Part:
@@ -145,29 +164,47 @@ class Frame:
         """Standard deviations of the shared contributions (k,)."""
         return np.where(np.arange(self.k) < self.still, 1.0, sizes.law)
 
+    def integrated(self, sizes: Sizes) -> Integrated:
+        """What integrating out the contributions of single records asks for, whatever the errors are."""
+        key = (sizes.own_at, sizes.lasting_at)
+        if key not in self.known:
+            k, factors, SS, log_det = self.k, [], np.zeros((self.k, self.k)), 0.0
+            for part, w in zip(self.parts, self.white(sizes.lasting_at), strict=True):
+                scale = part.scale(sizes)
+                L = cholesky(np.eye(len(scale)) + scale[:, None] * w.gram[k:, k:] * scale, lower=True, check_finite=False)
+                P = solve_triangular(L, scale[:, None] * w.gram[k:, :k], lower=True, check_finite=False)
+                SS += w.gram[:k, :k] - P.T @ P
+                log_det += float(np.log(np.diag(L)).sum()) + w.log_noise
+                factors.append((L, P))
+            self.known[key] = Integrated(factors, SS, log_det)
+        return self.known[key]
+
+    def factor(self, sizes: Sizes) -> Array:
+        """The Cholesky factor (k, k) of the precision of the shared contributions, in standard deviations."""
+        if sizes not in self.factors:
+            scale = self.scale(sizes)
+            G = np.eye(self.k) + scale[:, None] * self.integrated(sizes).shared * scale
+            self.factors[sizes] = cholesky(G, lower=True, check_finite=False)
+        return self.factors[sizes]
+
     def reduced(self, errors: list[Array], sizes: Sizes) -> Reduced:
         """What whitened errors (n, c) say of the shared contributions, those of single records integrated out."""
-        k = self.k
-        c = errors[0].shape[1]
-        SS, SY, YY, log_det = np.zeros((k, k)), np.zeros((k, c)), np.zeros((c, c)), 0.0
-        for part, w, y in zip(self.parts, self.white(sizes.lasting_at), errors, strict=True):
-            scale = np.where(part.fixed, 1.0, sizes.own)
+        k, c = self.k, errors[0].shape[1]
+        SY, YY, own = np.zeros((k, c)), np.zeros((c, c)), []
+        several = zip(self.parts, self.white(sizes.lasting_at), self.integrated(sizes).factors, errors, strict=True)
+        for part, w, (L, P), y in several:
             cross = w.columns.T @ y
-            L = cholesky(np.eye(len(scale)) + scale[:, None] * w.gram[k:, k:] * scale, lower=True, check_finite=False)
-            PQ = solve_triangular(L, scale[:, None] * np.hstack([w.gram[k:, :k], cross[k:]]), lower=True, check_finite=False)
-            P, Q = PQ[:, :k], PQ[:, k:]
-            SS, SY, YY = SS + w.gram[:k, :k] - P.T @ P, SY + cross[:k] - P.T @ Q, YY + y.T @ y - Q.T @ Q
-            log_det += float(np.log(np.diag(L)).sum()) + w.log_noise
-        return Reduced(SS, SY, YY, log_det)
+            Q = solve_triangular(L, part.scale(sizes)[:, None] * cross[k:], lower=True, check_finite=False)
+            SY, YY = SY + cross[:k] - P.T @ Q, YY + y.T @ y - Q.T @ Q
+            own.append(Q)
+        return Reduced(SY, YY, own)
 
     def log_z(self, reduced: Reduced, sizes: Sizes) -> float:
         """Evidence of the first of several errors; shared contributions and those of the other columns integrated out."""
-        scale = self.scale(sizes)
-        G = np.eye(self.k) + scale[:, None] * reduced.shared * scale
-        L = cholesky(G, lower=True, check_finite=False)
-        pulled = solve_triangular(L, scale[:, None] * reduced.shared_errors, lower=True, check_finite=False)
+        L = self.factor(sizes)
+        pulled = solve_triangular(L, self.scale(sizes)[:, None] * reduced.shared_errors, lower=True, check_finite=False)
         inner = reduced.errors - pulled.T @ pulled
-        left, log_det = float(inner[0, 0]), reduced.log_det + float(np.log(np.diag(L)).sum())
+        left, log_det = float(inner[0, 0]), self.integrated(sizes).log_det + float(np.log(np.diag(L)).sum())
         if len(inner) > 1:
             L = cholesky(np.eye(len(inner) - 1) + inner[1:, 1:], lower=True, check_finite=False)
             taken = solve_triangular(L, inner[1:, 0], lower=True, check_finite=False)
@@ -204,24 +241,19 @@ class Frame:
 
         Both are in standard deviations of their priors.
         """
-        shared_scale = self.scale(sizes)
-        k, c = self.k, values.shape[1]
-        white, y = self.white(sizes.lasting_at), self.whitened(values, sizes.lasting_at)
-        G, h, own = np.eye(k), np.zeros((k, c)), []
-        for part, w, some in zip(self.parts, white, y, strict=True):
-            cross, scale = w.columns.T @ some, np.where(part.fixed, 1.0, sizes.own)
-            A = np.eye(len(scale)) + scale[:, None] * w.gram[k:, k:] * scale
-            both = cho_solve(cho_factor(A), scale[:, None] * np.hstack([w.gram[k:, :k] * shared_scale, cross[k:]]))
-            own.append(both)
-            so = shared_scale[:, None] * w.gram[:k, k:] * scale
-            G += shared_scale[:, None] * w.gram[:k, :k] * shared_scale - so @ both[:, :k]
-            h += shared_scale[:, None] * cross[:k] - so @ both[:, k:]
-        a = np.linalg.solve(G, h)
-        return y, a, [both[:, k:] - both[:, :k] @ a for both in own]
+        y, scale = self.whitened(values, sizes.lasting_at), self.scale(sizes)
+        reduced = self.reduced(y, sizes)
+        a = cho_solve((self.factor(sizes), True), scale[:, None] * reduced.shared_errors, check_finite=False)
+        several = zip(self.integrated(sizes).factors, reduced.own, strict=True)
+        own = [
+            solve_triangular(L, Q - P @ (scale[:, None] * a), lower=True, trans="T", check_finite=False)
+            for (L, P), Q in several
+        ]
+        return y, a, own
 
     def expected(self, part: Part, a: Array, b: Array, sizes: Sizes) -> Array:
         """The contributions (k + m, c) to a part whose shared and own ones are `a` (k, c) and `b` (m, c) deviations."""
-        return np.concatenate([self.scale(sizes)[:, None] * a, np.where(part.fixed, 1.0, sizes.own)[:, None] * b])
+        return np.concatenate([self.scale(sizes)[:, None] * a, part.scale(sizes)[:, None] * b])
 
     def left(self, errors: Array, sizes: Sizes) -> Array:
         """Errors (n,) [N] without what the contributions are expected to be."""

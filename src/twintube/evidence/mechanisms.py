@@ -1,7 +1,7 @@
 """What may have happened: each mechanism with its strengths and what is known of their size before the data."""
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from importlib.resources import files
 from typing import Any, Literal
@@ -10,8 +10,10 @@ import numpy as np
 from scipy.stats import norm
 
 from twintube.common.arrays import Array
+from twintube.common.words import shown
 from twintube.core.effects import EFFECTS
 from twintube.diagnosis.records.seen import AS_RECORDED
+from twintube.errors import InputError
 
 Kind = Literal["half", "normal", "log", "place"]
 
@@ -101,6 +103,16 @@ UNITS_OF_FAULTS = {
     "force_offset": "N", "force_gain": "1", "channel_delay": "s", "stroke_gain": "1", "time_base": "1", "zero_drift": "N/s",
     "clock_error": "1", "clamp_inertia": "kg",
 }  # fmt: skip
+CATALOGUE = (*STRENGTHS, *UNITS_OF_FAULTS)
+
+
+def check(catalogue: Collection[str]) -> None:
+    """Raise InputError unless a catalogue names effects and faults."""
+    if isinstance(catalogue, str) or not catalogue:
+        raise InputError(f"catalogue = {shown(catalogue)}: must be a list of some of {', '.join(CATALOGUE)}")
+    for name in catalogue:
+        if name not in CATALOGUE:
+            raise InputError(f"catalogue: {shown(name)}: must be one of {', '.join(CATALOGUE)}")
 
 
 def unit_of(name: str) -> str:
