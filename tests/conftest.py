@@ -18,12 +18,29 @@ settings.register_profile("ci", derandomize=True)
 if os.environ.get("CI"):
     settings.load_profile("ci")
 
-
+TESTS = Path(__file__).parent
+# The tests of these folders and files have a mark; all others are `unit`.
+MARKS = {
+    "diagnosis": ["diagnosis", "evidence", "identification", "claims", "studies", "worlds", "challenge", "blind_trials"],
+    "fmu": ["fmu", "native", "vehicle", "explorer"],
+    "docs": ["project"],
+}
 HERE = (fmpy.platform,)
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 # No sandbox: containers run as root. The rest keeps the browser from calling its maker.
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync"]  # fmt: skip
+
+
+def mark_of(folder: str) -> str:
+    """The mark of a folder's tests."""
+    return next((mark for mark, folders in MARKS.items() if folder in folders), "unit")
+
+
+@pytest.hookimpl(tryfirst=True)  # before -m looks at marks
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        item.add_marker(mark_of(item.path.relative_to(TESTS).parts[0]))
 
 
 @pytest.fixture(scope="session", autouse=True)
