@@ -1,4 +1,8 @@
 import os
+
+# The workers share the cores: threads of the linear algebra would wait for each other. Read when numpy is imported.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import shutil
 import tempfile
 from collections.abc import Iterator
