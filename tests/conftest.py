@@ -27,7 +27,7 @@ TESTS = Path(__file__).parent
 MARKS = {
     "diagnosis": ["diagnosis", "evidence", "identification", "claims", "studies", "worlds", "challenge", "blind_trials"],
     "fmu": ["fmu", "native", "vehicle", "explorer"],
-    "docs": ["project"],
+    "docs": ["project", "hardening"],
 }
 HERE = (fmpy.platform,)
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
