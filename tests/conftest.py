@@ -26,7 +26,7 @@ TESTS = Path(__file__).parent
 # The tests of these folders and files have a mark; all others are `unit`.
 MARKS = {
     "diagnosis": ["diagnosis", "evidence", "identification", "claims", "studies", "worlds", "challenge", "blind_trials"],
-    "fmu": ["fmu", "native", "vehicle", "explorer"],
+    "fmu": ["fmu", "native", "vehicle", "driving", "inspection", "explorer"],
     "docs": ["project", "hardening"],
 }
 HERE = (fmpy.platform,)
