@@ -16,6 +16,8 @@ from hypothesis import settings
 from twintube.dampers import load
 from twintube.fmu import build_fmu
 from twintube.fmu.platforms import Kind
+from twintube.native import made
+from twintube.native.units import MODULE
 
 # CI repeats the same examples; elsewhere new ones are tried every time.
 settings.register_profile("ci", derandomize=True)
@@ -47,6 +49,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         item.add_marker(mark_of(item.path.relative_to(TESTS).parts[0]))
 
 
+def ensure_made(platform: str) -> None:
+    """Make what the package brings for a platform, where this checkout does not have it."""
+    if not made.complete(platform):
+        made.made_for(platform)
+
+
 @pytest.fixture(scope="session", autouse=True)
 def unpacked_in_pytests_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """What importers unpack goes where pytest clears up; many leave it behind."""
@@ -65,6 +73,12 @@ def kind(request: pytest.FixtureRequest) -> Kind:
 @pytest.fixture(scope="session")
 def sa8_fmu(kind: Kind, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_fmu(load("SA8"), tmp_path_factory.mktemp("fmu"), kind, HERE)
+
+
+@pytest.fixture(scope="session")
+def explorer_module() -> None:
+    """The explorer's module; a checkout has it only where somebody asked for it."""
+    ensure_made(MODULE)
 
 
 @pytest.fixture(scope="session")

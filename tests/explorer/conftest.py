@@ -5,17 +5,13 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
-from twintube.native import made
-from twintube.native.units import MODULE
 
 OWN = "Mine </script> & <b>more</b>"
 
 
 @pytest.fixture(scope="session", autouse=True)
-def made_module() -> None:
-    """The module; a checkout has it only where somebody asked for it."""
-    if not made.complete(MODULE):
-        made.made_for(MODULE)
+def made_module(explorer_module: None) -> None:
+    """All tests here need the module."""
 
 
 @pytest.fixture(scope="session")

@@ -170,7 +170,7 @@ def test_bad_arguments_are_refused_before_anything_is_built(
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--parameters", "mine.toml", "SA7"], "Got unexpected extra argument (mine.toml)"),
+        (["mine.toml", "SA7"], "Got unexpected extra argument"),
         (["SA8", "--ssv", "--kind", "python"], "--ssv: holds parameters for every library, leave out kind"),
         (["SA8", "--platform", "linux46"], "platform = linux46: must be one of linux64, aarch64-linux, win64, darwin64"),
         (["SA8", "--kind", "python", "--platform", "linux64"], "--platform linux64: only for the native kind"),

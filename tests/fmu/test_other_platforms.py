@@ -12,6 +12,7 @@ from pathlib import Path
 import fmpy
 import pytest
 
+from tests.conftest import ensure_made
 from twintube.dampers import load
 from twintube.demo.damper_fmu import DamperFmu
 from twintube.fmu import build_fmu
@@ -42,6 +43,8 @@ def forces(
     platform: str, start: list[str], host: Path, folder: Path, *, environment: Mapping[str, str] | None = None, fmi: Fmi = 2
 ) -> list[float]:
     """Forces of the library in a program that `start` runs."""
+    for target in PLATFORMS[platform][1]:
+        ensure_made(target)
     fmu = build_fmu(load("SA8"), folder / "unit", platforms=(platform,), fmi=fmi)
     with zipfile.ZipFile(fmu) as archive:
         library = archive.extract(f"binaries/{platform}/twintube_SA8.{PLATFORMS[platform][0]}", folder)

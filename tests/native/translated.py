@@ -22,7 +22,7 @@ def in_c(source: str, entries: list[str], folder: Path, warnings: Sequence[str] 
     (folder / "source.c").write_text(text, encoding="utf-8")
     library = folder / "source.so"
     here = compiler.this_machine()
-    compiler.compiled([folder / "source.c"], here, library, (*build.FLAGS, *warnings), build.usual(here))
+    compiler.compiled([folder / "source.c"], here, library, (*build.FLAGS, *warnings), build.usual())
     return functions(ctypes.CDLL(str(library)))["t"]
 
 

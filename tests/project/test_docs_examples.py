@@ -66,6 +66,8 @@ def blocks(path: Path) -> Iterator[Block]:
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> Path:
     """An empty working folder; for the page on importing, with the FMU of which it speaks."""
     monkeypatch.chdir(tmp_path)
+    if "twintube explore" in request.node.callspec.params["page"].read_text(encoding="utf-8"):
+        request.getfixturevalue("explorer_module")
     if request.node.callspec.params["page"].name == "import.md":
         shutil.copy(request.getfixturevalue("sa8_native"), tmp_path / "twintube_SA8.fmu")
         with zipfile.ZipFile(tmp_path / "twintube_SA8.fmu") as fmu:

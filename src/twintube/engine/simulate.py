@@ -112,7 +112,7 @@ def disagreement(time: Array, stroke: Array, velocity: Array, *, interpreted: bo
         found = loops.first_parted(a, time.tolist(), stroke.tolist(), velocity.tolist())
     else:
         row = compiled.as_row(a)[0]
-        found = compiled.module().first_parted(row, time, stroke, velocity)
+        found = compiled.module().first_parted(row, *map(np.ascontiguousarray, (time, stroke, velocity)))
         a = Agreement(*row.item())
     return messages.parted(float(time[found]), *ways(a)) if found >= 0 else ""
 
