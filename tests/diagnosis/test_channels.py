@@ -8,7 +8,7 @@ import pytest
 
 from tests.diagnosis import small
 from twintube.data import Record
-from twintube.diagnosis.channels import FAULT_TITLES, faults, period, usual_delay
+from twintube.diagnosis.channels import FAULT_TITLES, TARED, faults, period, usual_delay
 from twintube.diagnosis.measurement.odd import own_fault
 from twintube.diagnosis.measurement.sampling import with_sampling
 from twintube.diagnosis.rules import RULES
@@ -45,8 +45,10 @@ FAULTS: dict[str, tuple[float, Callable[[small.Run], Record]]] = {
 
 
 def test_every_fault_of_a_channel_is_tested_here(runs: list[small.Run]) -> None:
-    assert [c.name for c in faults(small.problem([small.record(runs[0])]))] == list(FAULT_TITLES)
-    assert set(FAULTS) == set(FAULT_TITLES)
+    # A cell set to zero with the damper in it is told with the state of the gas: tests/evidence/test_tared.py.
+    single = [name for name in FAULT_TITLES if name != TARED]
+    assert [c.name for c in faults(small.problem([small.record(runs[0])]))] == single
+    assert set(FAULTS) == set(single)
 
 
 @pytest.mark.parametrize("name", FAULTS)

@@ -15,6 +15,7 @@ from twintube.core.publishing import NAMES as COLUMNS
 from twintube.dampers import Damper
 from twintube.engine import compiled
 from twintube.engine.simulate import at_rest, rows
+from worlds.model.kernel import kernel, njit
 
 # Between two acts upon the volumes, whichever takes longer: a time [s], or a stroke [m] that a long time at rest cuts short.
 CHUNK, WAY, LONG = 0.004, 0.002, 0.05
@@ -73,7 +74,7 @@ def march(
     n = len(time)
     if mount is not None:
         p, d, s, f = rows(at_rest(damper, float(stroke[0])))
-        compiled.module().fill(p, d, s, stroke[0])
+        kernel().fill(p, d, s, stroke[0])
         m = np.array([mount.stiffness, mount.cubic, mount.damping, mount.friction, mount.half_way])
         values = np.empty((6, n))
         done = mounted()(p, d, s, f, time, stroke, velocity, m, values)
@@ -111,18 +112,10 @@ def in_chunks(damper: Damper, t: Array, z: Array, v: Array, acts: Sequence[Act],
     return n
 
 
-def njit(function: Any) -> Any:
-    """Compiled by numba; without a cache on disk, which would not see a change of the kernel."""
-    import numba
-
-    return numba.njit(error_model="numpy", nogil=True)(function)
-
-
 @cache
 def balance() -> Any:
     """The compiled balance of mount and damper."""
-    kernel = compiled.module()
-    dahl, stribeck, fluid_force = kernel.dahl, kernel.stribeck, kernel.fluid_force
+    dahl, stribeck, fluid_force = kernel().dahl, kernel().stribeck, kernel().fluid_force
 
     @njit
     def mount_force(m: Any, e: Any, rate: Any, e_turn: Any, F_turn: Any, direction: Any) -> Any:  # noqa: PLR0917 - compiled
@@ -158,7 +151,7 @@ def balance() -> Any:
 @cache
 def mounted() -> Any:
     """The compiled loop with a mount."""
-    step, surplus = compiled.module().step, balance()
+    step, surplus = kernel().step, balance()
 
     @njit
     def run(  # noqa: PLR0913, PLR0917 - compiled

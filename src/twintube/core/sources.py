@@ -30,6 +30,11 @@ def texts_of(*names: str) -> dict[str, str]:
     return {f"core/{name}": (FOLDER / name).read_text(encoding="utf-8") for name in names}
 
 
+def kernel_texts() -> dict[str, str]:
+    """The paper's equations by path."""
+    return texts_of(*(name for name in BEFORE if name.startswith("kernel/")))
+
+
 def rule_sources() -> dict[str, str]:
     """Whether a velocity belongs to its stroke, and what must hold between parameters, by path."""
     return texts_of(*RULES)
