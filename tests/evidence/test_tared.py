@@ -1,6 +1,7 @@
 """A load cell that was set to zero with the damper in it is not taken for a lost gas preload, nor the other way round."""
 
 from dataclasses import replace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -124,6 +125,21 @@ def test_where_only_a_constant_tells_the_odds_are_those_before_the_records() -> 
     )
     assert "read the load cell with the damper taken out" in state.next_step(answers)
     assert state.badge(answers) == ("cannot tell", "warn")
+
+
+def test_a_tared_cell_that_is_certain_is_the_next_step_though_the_level_is_open() -> None:
+    answers = [StateAnswer("1", ("a",), NOTHING, alike(-10.0, -100.0, 0.0))]
+    assert "the load cell was set to zero with the damper in it" in state.sentences(answers)[0]
+    assert state.next_step(answers).startswith("Next: read the load cell with the damper taken out")
+    assert state.badge(answers) == ("load cell set to zero with the damper", "warn")
+
+
+def test_the_interval_of_a_damper_that_may_be_full_holds_the_bar_of_a_full_one() -> None:
+    found = alike(-100.0, 0.0, -100.0)
+    assert found.interval()[1] == 1.0
+    (ax,) = state.picture([StateAnswer("1", ("a",), NOTHING, found)]).axes
+    band, *bars = cast(Any, ax.patches)
+    assert band.get_x() + band.get_width() >= max(bar.get_x() + bar.get_width() for bar in bars)
 
 
 @pytest.mark.parametrize(

@@ -40,3 +40,19 @@ def test_what_nothing_explains_has_no_bar_of_a_probability() -> None:
     (ax,) = changes.picture(cast(Answer, found)).axes
     assert ax.get_xlabel() == "force error, RMS [N]"
     assert max(bar.get_width() for bar in cast(Any, ax.patches)) == 126.0
+
+
+def test_a_cause_that_makes_left_out_records_worse_has_no_bar_of_a_probability_either() -> None:
+    """Over 99 % and "the records cannot tell" would contradict each other."""
+    only = SimpleNamespace(name="oil_displacement", kind="effect", probability=1.0, found=object())
+    found: Any = SimpleNamespace(
+        unexplained="", doubted=True, compared=False, faults=(), changes=SimpleNamespace(hypotheses=[only]),
+        named=(only, SimpleNamespace(name="none", kind="none", probability=0.0, found=None)),
+        held_out=(HeldOut("slow", 10.0, 4.0, 2.0), HeldOut("fast", 37.0, 67.0, 3.0)),
+    )  # fmt: skip
+    (ax,) = changes.picture(cast(Answer, found)).axes
+    assert ax.get_xlabel() == "force error, RMS [N]"
+    assert changes.sentence(cast(Answer, found)) == (
+        "The records cannot tell: freed gas displaces oil explains all records best (over 99 %), "
+        "but with it records that were left out are predicted worse."
+    )

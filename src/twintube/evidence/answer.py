@@ -137,6 +137,11 @@ class Answer:
         return (*some, *(h for h in several if h.kind == NONE)) if contradicted(self.held_out) else some
 
     @property
+    def doubted(self) -> bool:
+        """Whether the only likely hypothesis predicts records that were left out worse than without it."""
+        return self.changes is not None and len(self.changes.credible) == 1 and contradicted(self.held_out)
+
+    @property
     def cause(self) -> Found | None:
         """The most probable mechanism, where it is the answer or one of several."""
         return next((h.found for h in self.named if h.found is not None), None)

@@ -70,8 +70,7 @@ def remaining(answer: Answer) -> str:
         near = f"; nearest: {lower(title(first, answer.compared))}" if first.found is not None else ""
         return f"No cause of the catalogue explains the records: {answer.unexplained}{near}."
     if len(named) > 1:
-        several = listed([f"{lower(name_of(h, answer))} ({chance(h.probability)})" for h in named], len(named))
-        return f"The records cannot tell: {several}."
+        return f"The records cannot tell: {choice(answer)}."
     if first.kind == STATE:
         told = sorted((one for one in answer.states if one.stated.anything), key=lambda one: one.posterior.as_stated)
         changed = [one for one in told if one.posterior.rather_misstated] or told[:1]  # several may be doubtful, none alone
@@ -83,6 +82,15 @@ def remaining(answer: Answer) -> str:
         return f"{title(first, answer.compared)}{since}. {certain(first.probability)}"
     kind = f"Changed{since}" if answer.compared else "Cause" if first.kind == "effect" else "The measurement is faulty"
     return f"{kind}: {lower(title(first, answer.compared))}.{worth(answer)} {certain(first.probability)}"
+
+
+def choice(answer: Answer) -> str:
+    """What the records leave open, as the end of a sentence."""
+    if answer.doubted:
+        likely, share = lower(name_of(answer.named[0], answer)), chance(answer.named[0].probability)
+        return f"{likely} explains all records best ({share}), but with it records that were left out are predicted worse"
+    several = [f"{lower(name_of(h, answer))} ({chance(h.probability)})" for h in answer.named]
+    return listed(several, len(several))
 
 
 def worth(answer: Answer) -> str:
@@ -143,6 +151,8 @@ def headline(answer: Answer) -> Headline:
     caption += f", and the error of each {later}record, predicted from all other records." if gained(answer) else "."
     if answer.unexplained:
         caption = "The error of each record, predicted from all other records: no cause of the catalogue takes it away."
+    elif answer.doubted:
+        caption = "The error of each record, predicted from all other records: in all it is larger with the cause."
     drawn = Picture.drawn(lambda narrow: picture(answer, narrow), caption)
     text = " ".join([*state_sentences(answer.asked), sentence(answer)])
     return Headline(text, badge, mark, next=step[0].upper() + step[1:], picture=drawn)
@@ -151,7 +161,7 @@ def headline(answer: Answer) -> Headline:
 def picture(answer: Answer, narrow: bool = False) -> Figure:
     """Probabilities of the hypotheses, the largest first, and the errors that the first one takes away."""
     assert answer.changes is not None
-    if answer.unexplained:
+    if answer.unexplained or answer.doubted:
         return unexplained(answer, narrow)
     several = [h for h in answer.changes.hypotheses[:SHOWN] if h.probability >= LEAST]
     bars = [(name_of(h, answer), h.probability, h.name in answer.changes.credible) for h in several]
@@ -170,10 +180,11 @@ def picture(answer: Answer, narrow: bool = False) -> Figure:
 
 
 def unexplained(answer: Answer, narrow: bool) -> Figure:
-    """What no hypothesis explains: how likely each would be if one were right says nothing of that."""
+    """What no hypothesis explains, or the only one makes worse: no probability of theirs says anything of that."""
     several = answer.held_out
     figure, axes = style.grid(1, (9.0, max(2.4, 1.4 + 0.45 * len(several))), narrow, most=1)
-    errors(axes.flat[0], several, ("without a cause", "with the nearest one"))
+    nearest = "with the nearest one" if answer.unexplained else "with the likeliest one"
+    errors(axes.flat[0], several, ("without a cause", nearest))
     return figure
 
 
@@ -208,7 +219,7 @@ def rows_of(answer: Answer) -> list[Table]:
     ]
     nothing = lower(TITLES[answer.compared][NONE])
     caption = f"Log evidence: how much better it predicts all records than '{nothing}', whatever its strength is."
-    likely = "probability, if one of them were right" if answer.unexplained else "probability"
+    likely = "probability, if one of them were right" if answer.unexplained or answer.doubted else "probability"
     tables = [Table(("answer", likely, "log evidence"), several, caption, (1, 2))]
     if answer.cause is not None:
         f = answer.cause

@@ -74,7 +74,7 @@ def sentences(answers: Sequence[StateAnswer]) -> list[str]:
 
 def next_step(answers: Sequence[StateAnswer]) -> str:
     """What to do next."""
-    if any(undecided(answer.posterior) for answer in answers):
+    if any(answer.posterior.tared > 1.0 - SURE for answer in answers):
         return f"Next: {REPAIRS[TARED_CELL]}."
     wide = any(high - low > WIDE for low, high in (answer.posterior.interval() for answer in answers))
     if wide:
@@ -96,6 +96,8 @@ def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
         return "oil lost", "no"
     if any(answer.posterior.gas_lost > SURE for answer in answers):
         return "gas preload lost", "no"
+    if any(answer.posterior.tared > SURE for answer in answers):
+        return "load cell set to zero with the damper", "warn"
     if any(high - low > WIDE for low, high in intervals) or any(undecided(answer.posterior) for answer in answers):
         return "cannot tell", "warn"
     return "no oil lost", "yes"
@@ -112,7 +114,8 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
     for ax, answer in zip(axes[:, 0], answers, strict=True):
         p = answer.posterior
         low, high = p.interval()
-        ax.axvspan(100 * low, 100 * high, color=style.FAINT, alpha=0.35, lw=0, label="90 % interval")
+        end = high if high < 1.0 else 1.0 + 2 * BAR  # beyond it stands the bar of a damper that has lost nothing
+        ax.axvspan(100 * low, 100 * end, color=style.FAINT, alpha=0.35, lw=0, label="90 % interval")
         edges = np.arange(NUMBERS.level_low, 1.0 - 1e-9, BAR)
         bars = [np.histogram(p.levels[:-1], [*edges, 1.0 + 1e-9], weights=row[:-1])[0] for row in p.probability]
         middles = np.concatenate([100 * (edges + BAR / 2), [100 * (1.0 + BAR)]])  # the last: nothing lost
