@@ -24,8 +24,11 @@ def sa8() -> Damper:
 
 @pytest.fixture
 def block() -> Signal:
-    """A fast block after preconditioning and a rest of a minute, 2 ms."""
-    return harmonic_block(1.572, dt=2e-3, rest=60.0)
+    """The end of the preconditioning, a rest of a minute, and six fast oscillations; 2 ms."""
+    whole = harmonic_block(1.572, dt=2e-3, rest=60.0)
+    first, last = int(whole.marks[0]) - 300, int(whole.marks[6]) + 1
+    part = slice(first, last)
+    return Signal(whole.time[part], whole.stroke[part], whole.velocity[part], whole.marks[:7] - first)
 
 
 @pytest.fixture(params=EFFECTS)

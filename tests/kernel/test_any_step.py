@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.eight import EIGHT
 from twintube.common.arrays import Array
 from twintube.core.agreement import PLAY
 from twintube.core.instance import Instance
-from twintube.dampers import load, names
+from twintube.dampers import load
 
 FINE = 2.5e-4  # [s] of the run that the others are compared with
 NOISE = 20e-6  # [m] of a stroke signal
@@ -90,7 +91,7 @@ def beyond(forces: Array, path: Segments, exact: Array) -> Array:
 
 
 @pytest.mark.parametrize("state", STATES)
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", EIGHT)
 @pytest.mark.parametrize("short", [0.0, 1e-6, 1e-5, 1e-4])
 def test_a_short_step_among_usual_ones_stays_between_its_neighbours(name: str, state: str, short: float) -> None:
     """The velocity of the moment leads beyond the next place wherever the motion slows down."""
@@ -124,7 +125,7 @@ def work(path: Segments, state: str, effect: str) -> float:
 @pytest.mark.parametrize("state", STATES)
 def test_a_drive_cut_at_random_does_the_same_work(state: str, effect: str) -> None:
     """An effect that is integrated over time has a step error of its own: up to that of the steps it is cut from."""
-    path = segments(np.random.default_rng(3).choice([5e-4, 1e-3, 2e-3], size=1200).tolist())
+    path = segments(np.random.default_rng(3).choice([5e-4, 1e-3, 2e-3], size=600).tolist())
     whole, pieces = work(path, state, effect), work(cut(path), state, effect)
     own = 0.0 if effect == "none" else abs(work(cut(path, (7,)), state, effect) - whole)
     assert abs(pieces - whole) < 1e-3 * whole + own

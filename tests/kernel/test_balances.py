@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.eight import EIGHT
 from twintube.core import model
 from twintube.core.checks import stroke_limit
 from twintube.core.effects import Parameters, State
@@ -91,7 +92,7 @@ def run(p: Parameters, motion: list[tuple[float, float, float]], displaced: floa
 
 
 @given(dampers(cavitating=False), motions())
-@settings(max_examples=300, deadline=None)
+@settings(deadline=None)
 def test_oil_is_conserved_without_cavitation(p: Parameters, motion: list[tuple[float, float, float]]) -> None:
     totals, s = run(p, motion)
     assert s.V_cav == 0.0
@@ -99,14 +100,14 @@ def test_oil_is_conserved_without_cavitation(p: Parameters, motion: list[tuple[f
 
 
 @given(dampers(cavitating=True), motions())
-@settings(max_examples=300, deadline=None)
+@settings(deadline=None)
 def test_oil_falls_by_cavitation_alone(p: Parameters, motion: list[tuple[float, float, float]]) -> None:
     totals, s = run(p, motion)
     assert abs(totals[0] - totals[-1] - s.V_cav) <= 1e-12 * p.V_oil
     assert all(after <= before + 1e-12 * p.V_oil for before, after in zip(totals, totals[1:], strict=False))
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", EIGHT)
 def test_a_sliding_flow_with_a_trace_of_foaming_ends(name: str) -> None:
     # V1 slides along "no gas": what it keeps is zero up to rounding, of either sign, and the foam takes a share of that.
     for sixty_fourths in range(1, 65):
@@ -117,7 +118,7 @@ def test_a_sliding_flow_with_a_trace_of_foaming_ends(name: str) -> None:
 
 
 @given(dampers(cavitating=True), motions(), st.one_of(UNIT, st.just(1.0)))
-@settings(max_examples=200, deadline=None)
+@settings(deadline=None)
 def test_displaced_oil_stays_in_the_damper(
     p: Parameters, motion: list[tuple[float, float, float]], displaced: float
 ) -> None:
@@ -128,7 +129,7 @@ def test_displaced_oil_stays_in_the_damper(
 
 
 @given(dampers(cavitating=True), motions())
-@settings(max_examples=100, deadline=None)
+@settings(deadline=None)
 def test_work_never_comes_back_from_the_fluid(p: Parameters, motion: list[tuple[float, float, float]]) -> None:
     p = replace(p, F_FrS=0.0)
     d, s, f = blank(Derived), blank(State), blank(Flow)

@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 
-from twintube.dampers import load, names
+from tests.eight import EIGHT
+from twintube.dampers import load
 from twintube.engine.simulate import work_between
 from twintube.rig.signals import harmonic_block
 
 LEVELS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", EIGHT)
 @pytest.mark.parametrize("velocity", [0.05, 0.131, 0.524, 1.048, 1.572, 2.0])
 def test_steps_of_1_and_a_tenth_of_a_millisecond_agree_in_work(name: str, velocity: float) -> None:
     coarse, fine = harmonic_block(velocity, dt=1e-3), harmonic_block(velocity, dt=1e-4)

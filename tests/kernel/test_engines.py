@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from twintube.dampers import load, names
+from tests.eight import EIGHT
+from twintube.dampers import load
 from twintube.engine.simulate import simulate
 from twintube.rig.signals import harmonic_block
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", EIGHT)
 def test_interpreted_and_compiled_agree_to_the_bit(name: str) -> None:
     damper = load(name, as_published=True)
     block = harmonic_block(1.572, dt=2e-3)

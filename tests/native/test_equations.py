@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Slave
 
+from tests.eight import EIGHT
 from twintube.common.arrays import Array
 from twintube.core import model
 from twintube.core.effects import State
@@ -93,7 +94,7 @@ def assert_same(damper: Damper, velocity: float, folder: Path) -> None:
     assert found.tobytes() == by_library(damper, stroke, steps).tobytes()
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", EIGHT)
 def test_same_bits_as_interpreter_and_library(name: str, tmp_path: Path) -> None:
     damper = load(name)
     assert_same(damper.with_(oil_level=damper.measured_levels[-1], gas_preload=0), BLOCKS[-1], tmp_path)

@@ -3,8 +3,8 @@ from functools import cache
 import numpy as np
 import pytest
 
+from tests.eight import EIGHT
 from twintube.lab.virtual_rig import run, virtual_damper
-from twintube.lab.virtual_rig.dimensions import DIMENSIONS
 
 DAMPER = virtual_damper("SA8")
 
@@ -45,7 +45,7 @@ def test_oil_and_gas_are_conserved(velocity, oil_level, gas_preload):
     conserves(record(velocity, oil_level, gas_preload, 8))
 
 
-@pytest.mark.parametrize("name", DIMENSIONS)
+@pytest.mark.parametrize("name", EIGHT)
 def test_every_damper_runs_with_little_oil(name):
     for oil_level in (0.6, 0.35):
         r = record(1.048, oil_level, False, 3, name)
@@ -53,7 +53,7 @@ def test_every_damper_runs_with_little_oil(name):
         assert (works(r) > 0).all()
 
 
-@pytest.mark.parametrize("name", DIMENSIONS)
+@pytest.mark.parametrize("name", EIGHT)
 def test_intact_damper_reaches_the_forces_it_is_sized_for(name):
     damper = virtual_damper(name)
     gas = damper.preload * damper.A_rod  # pushes the rod out

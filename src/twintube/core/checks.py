@@ -4,8 +4,10 @@ Standard library only: the Python FMU carries it. Every message names the quanti
 """
 
 import math
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import Field, fields
+from functools import cache
 from typing import Any
 
 from twintube.core import messages
@@ -15,6 +17,7 @@ from twintube.core.frame import stroke_limit
 from twintube.core.kernel import prepare
 from twintube.core.variables import Derived, Inputs, blank, fmi_name
 
+LARGEST = sys.float_info.max  # within it a number is finite
 VELOCITY = {item.name: item.metadata for item in fields(Inputs)}["velocity"]
 
 
@@ -32,13 +35,25 @@ def out_of_range(item: Field[Any], value: float) -> str:
     return outside(fmi_name(item), value, item.metadata["lower"], item.metadata["upper"], item.metadata["unit"])
 
 
+@cache
+def bounds(record: type) -> tuple[tuple[Field[Any], float, float], ...]:
+    """The fields of a record of the table, each with the least and the largest number that it may hold."""
+    return tuple(
+        (item, -LARGEST if item.metadata["lower"] is None else item.metadata["lower"],
+         LARGEST if item.metadata["upper"] is None else item.metadata["upper"])
+        for item in fields(record)
+    )  # fmt: skip
+
+
 def out_of_bounds(p: Parameters) -> list[str]:
     """Messages for every parameter beyond its bounds in the table, of an array for the first value that is."""
     texts = []
-    for item in fields(p):
+    for item, low, high in bounds(type(p)):
         value = getattr(p, item.name)
-        values = value if item.metadata["size"] > 1 else [value]
-        texts += [text for number in values if (text := out_of_range(item, number))][:1]
+        for number in value if item.metadata["size"] > 1 else (value,):
+            if not low <= number <= high:
+                texts.append(out_of_range(item, number))
+                break
     return texts
 
 

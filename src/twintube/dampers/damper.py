@@ -86,7 +86,7 @@ def joined(messages: list[str]) -> str:
 
 def explained(messages: list[str], p: Parameters) -> list[str]:
     """The messages about a parameter set, with the share where somebody gave a percentage."""
-    for item in fields(p):
+    for item in fields(p) if messages else ():
         value, meta = getattr(p, item.name), item.metadata
         if (
             meta["size"] == 1

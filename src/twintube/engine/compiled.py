@@ -1,7 +1,9 @@
 """The compiled kernel and loops, and the records that they take: rows of structured arrays, which are structs in C."""
 
+from collections.abc import Callable
 from dataclasses import fields
 from functools import cache
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -20,10 +22,13 @@ def dtype(record: type) -> np.dtype[Any]:
     return np.dtype(layout, align=True)
 
 
+@cache
+def values(record: type) -> Callable[[Any], tuple[Any, ...]]:
+    """What takes the values of a record, in their order."""
+    return attrgetter(*(item.name for item in fields(record)))
+
+
 def as_row(record: Any) -> np.ndarray[Any, Any]:
     """A record as a structured array of length 1."""
     kind: type = type(record)
-    row = np.zeros(1, dtype(kind))
-    for item in fields(record):
-        row[0][item.name] = getattr(record, item.name)
-    return row
+    return np.array([values(kind)(record)], dtype(kind))

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import rfft
 from scipy.integrate import cumulative_trapezoid
-from scipy.optimize import lsq_linear
+from scipy.optimize import nnls
 
 from twintube.common.arrays import Array
 from twintube.fitting.harmonic import Harmonic
@@ -122,9 +122,11 @@ def asked(block: Harmonic) -> tuple[float, float] | None:
 
 def unexplained(number: NDArray[np.int64], logs: Array) -> float:
     """Squared distance of log amplitudes (n,) from a smooth fall."""
-    shape = np.column_stack([np.ones(len(number)), np.log(number), number])
-    fit = lsq_linear(shape, logs, bounds=([-np.inf] * 3, [np.inf, RULES.jump_slope, 0.0]))
-    return float(2 * fit.cost) + 1e-12
+    # About its mean, so that no constant is left; steeper than a jump's slope and than none by what is not negative.
+    slopes = np.column_stack([np.log(number), number])
+    slopes -= slopes.mean(axis=0)
+    _, left = nnls(-slopes, logs - logs.mean() - RULES.jump_slope * slopes[:, 0])
+    return float(left**2) + 1e-12
 
 
 def through(blocks: Sequence[Harmonic], seen: Averaging) -> list[Harmonic]:
