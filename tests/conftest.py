@@ -21,6 +21,7 @@ from twintube.native.units import MODULE
 
 # CI repeats the same examples; elsewhere new ones are tried every time.
 settings.register_profile("ci", derandomize=True)
+settings.register_profile("night", max_examples=500)
 if os.environ.get("CI"):
     settings.load_profile("ci")
 

@@ -5,7 +5,6 @@ Nobody keeps a list of files: a new import of a module, a new effect or a change
 
 import ast
 import hashlib
-from collections.abc import Iterator
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -27,8 +26,10 @@ def location(module: str) -> Path | None:
     return next((path for path in (place.with_suffix(".py"), place / "__init__.py") if path.is_file()), None)
 
 
-def named(path: Path) -> Iterator[Path]:
+@cache
+def named(path: Path) -> tuple[Path, ...]:
     """The files that a source file depends on: by imports, by naming them in a text, by importing its folder's files."""
+    found: list[Path] = []
     for node in ast.walk(parsed(path.read_text(encoding="utf-8"))):
         modules: list[str] = []
         match node:
@@ -38,10 +39,11 @@ def named(path: Path) -> Iterator[Path]:
                 parts = [f"{module}.{item.name}" for item in node.names]
                 modules = [part if location(part) else module for part in parts]
             case ast.Constant(value=str(text)) if "/" in text and text.endswith(".py") and (ROOT / text).is_file():
-                yield ROOT / text
+                found.append(ROOT / text)
             case ast.Name(id="importlib") if path.name == "__init__.py":
-                yield from path.parent.glob("*.py")
-        yield from filter(None, map(location, modules))
+                found += path.parent.glob("*.py")
+        found += filter(None, map(location, modules))
+    return tuple(found)
 
 
 @cache

@@ -1,7 +1,7 @@
 """What a bench leaves open hides what looks like it, and nothing else."""
 
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -70,6 +70,7 @@ def test_steps_that_a_part_of_a_sample_moves_to_the_next_are_hidden_by_that_part
     assert rms(beyond(whole, bench)) > 0.5 * rms(whole)
 
 
+@cache
 def campaign() -> tuple[Bench, list[Run]]:
     for seed in range(20):
         bench = bench_for(frozenset({"degraded", "sine"}), False, np.random.default_rng(seed))

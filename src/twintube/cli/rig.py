@@ -45,7 +45,7 @@ def rig(
         name = f"{m.number:02}_{re.sub(r'[^a-z0-9.]+', '_', m.name.lower()).strip('_')}.csv"
         scale, head = (1.0, "time,stroke,velocity") if for_fmu else (1e3, "time [s],stroke [mm],velocity [mm/s]")
         table = np.column_stack([m.signal.time, m.signal.stroke * scale, m.signal.velocity * scale])
-        lines = [head] + [f"{t:.9g},{z:.9g},{v:.9g}" for t, z, v in table]
+        lines = [head] + [f"{t:.9g},{z:.9g},{v:.9g}" for t, z, v in table.tolist()]
         write_text(output / name, "\n".join(lines) + "\n")
         start, end = (float(m.signal.time[m.signal.marks[i]]) for i in (0, -1))
         listed.append({"number": m.number, "name": m.name, "measurement": m.kind, "file": name,
