@@ -28,10 +28,11 @@ if os.environ.get("CI"):
 TESTS = Path(__file__).parent
 # The tests of these folders and files have a mark; all others are `unit`.
 MARKS = {
-    "diagnosis": ["diagnosis", "evidence", "identification", "claims", "studies", "worlds", "challenge", "blind_trials"],
+    "diagnosis": ["diagnosis", "evidence", "identification", "claims", "studies", "worlds", "challenge", "blind_trials",
+                  "virtual_rig"],
     "fmu": ["fmu", "native", "vehicle", "driving", "inspection", "explorer"],
-    "docs": ["project", "hardening"],
-}
+    "docs": ["project", "hardening", "report"],
+}  # fmt: skip
 HERE = (fmpy.platform,)
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 # No sandbox: containers run as root. The rest keeps the browser from calling its maker.

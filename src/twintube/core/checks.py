@@ -48,7 +48,8 @@ def bounds(record: type) -> tuple[tuple[Field[Any], float, float], ...]:
 def out_of_bounds(p: Parameters) -> list[str]:
     """Messages for every parameter beyond its bounds in the table, of an array for the first value that is."""
     texts = []
-    for item, low, high in bounds(type(p)):
+    kind: type = type(p)
+    for item, low, high in bounds(kind):
         value = getattr(p, item.name)
         for number in value if item.metadata["size"] > 1 else (value,):
             if not low <= number <= high:
