@@ -20,20 +20,20 @@ from benchmarks.diagnosis import folder_of
 from twintube.common.arrays import Array
 from twintube.dampers import Damper, load
 from twintube.data import MEASURED, LoadedDataset, Record
+from twintube.diagnosis import changes as method
+from twintube.diagnosis.base import set_up
+from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.changes import NONE, UNKNOWN, changes, mechanisms
+from twintube.diagnosis.frame import Frame
+from twintube.diagnosis.mechanisms import Mechanism
+from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.records.noise import averaging_noise, noise
 from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.records.record import PreparedRecord
+from twintube.diagnosis.search import Fill, off_its_law
+from twintube.diagnosis.sizes import Sizes, log_weights
+from twintube.diagnosis.state import NOTHING, log_prior, state
 from twintube.engine.simulate import simulate
-from twintube.evidence import changes as method
-from twintube.evidence.base import set_up
-from twintube.evidence.bench import Bench
-from twintube.evidence.changes import NONE, UNKNOWN, Changes, changes, mechanisms, slightly
-from twintube.evidence.frame import Frame
-from twintube.evidence.mechanisms import Mechanism
-from twintube.evidence.numbers import NUMBERS
-from twintube.evidence.search import Found, off_its_law
-from twintube.evidence.sizes import Sizes, log_weights
-from twintube.evidence.state import NOTHING, log_prior, state
 from twintube.rig.signals import AMPLITUDE
 from worlds.bench.plan import chance
 
@@ -183,9 +183,9 @@ def of_changes(seed: int) -> dict[str, Any]:
     force += day @ rng.standard_normal(day.shape[1]) + drawn_errors(bench, frame, sizes, rng)
     seen = Bench(bench.given, measured(bench, force))
     began = time.monotonic()
-    with patch.object(method, "mechanisms", lambda _: several):
-        found = changes(seen, acting, [])
-    truth = UNKNOWN if kind == UNKNOWN else named(found, causes)
+    with patch.object(method, "mechanisms", lambda *_: several):
+        found = changes(seen, acting, [Fill()])
+    truth = UNKNOWN if kind == UNKNOWN else named(bench, causes)
     for some in (bench, seen):
         some.threads.shutdown()
     return {
@@ -196,14 +196,10 @@ def of_changes(seed: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def named(found: Changes, causes: Sequence[Hidden]) -> str:
-    """What is true: what is too slight for the channels is nothing."""
-    search = found.search
-    shown = []
-    for c in causes:
-        values = c.mechanism.values(c.at)
-        shown.append(Found(c.mechanism, 0.0, c.at, values, {}, search.none, search.base + c.change))
-    return "+".join(sorted(f.mechanism.effect for f in shown if not slightly(search, f))) or NONE
+def named(bench: Bench, causes: Sequence[Hidden]) -> str:
+    """What is true: what changes forces by less than the zero of a load cell is nothing."""
+    least = NUMBERS.zero * bench.peak
+    return "+".join(sorted(c.mechanism.effect for c in causes if float(np.sqrt(np.mean(c.change**2))) > least)) or NONE
 
 
 def bench_calibration(draws: int, keep: Path | None = None) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.stats import beta, chisquare, kstest
 
 from twintube.common.arrays import Array
-from twintube.evidence.changes import NONE
+from twintube.diagnosis.changes import NONE
 
 BINS = 10
 EVEN = 0.5  # probability of the one and the other

@@ -4,7 +4,7 @@ Each is halved and doubled, on datasets that are always the same.
 """
 
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -16,17 +16,17 @@ from typing import Any
 from unittest.mock import patch
 
 from benchmarks.diagnosis import folder_of
+from twintube.diagnosis import Answer, answer, changes
+from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.contract import as_json
 from twintube.diagnosis.measurement.faults import read
+from twintube.diagnosis.mechanisms import Mechanism, Strength
+from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.put_right import Measured
-from twintube.evidence import Answer, answer, changes
-from twintube.evidence.bench import Bench
-from twintube.evidence.contract import as_json
-from twintube.evidence.mechanisms import Mechanism, Strength
-from twintube.evidence.numbers import NUMBERS
 from worlds.bench.files import write_truth
 from worlds.makers import WORLDS, Job
 
-answering = import_module("twintube.evidence.answer")  # its package has a function of that name
+answering = import_module("twintube.diagnosis.answer")  # its package has a function of that name
 SEED = 43001  # the first of each world
 EACH = {"unknown_fill": 2, "before_after": 2, "challenge": 2, "workshop": 2}
 BENCH_LOOKED_AT = ("example", "challenge", "workshop")  # without a reference
@@ -67,8 +67,8 @@ def wider(s: Strength, by: float) -> Strength:
 def varied(variant: Variant, put_right: Callable[..., Measured]) -> Iterator[None]:
     """The method with other priors; what is put right before does not depend on them."""
 
-    def several(bench: Bench) -> list[Mechanism]:
-        return [scaled(m, variant.strengths) for m in usual(bench)]
+    def several(bench: Bench, catalogue: Collection[str] | None = None) -> list[Mechanism]:
+        return [scaled(m, variant.strengths) for m in usual(bench, catalogue)]
 
     usual, law = changes.mechanisms, NUMBERS.law_usual
     with patch.object(changes, "mechanisms", several), patch.object(answering, "put_right", put_right):

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from twintube.dampers import Damper as Damper
     from twintube.dampers import ParameterError as ParameterError
     from twintube.dampers import load as load
+    from twintube.diagnosis import diagnose as diagnose
     from twintube.engine.simulate import simulate as simulate
     from twintube.engine.simulation import Simulation as Simulation
     from twintube.errors import InputError as InputError
     from twintube.errors import InputWarning as InputWarning
-    from twintube.evidence import diagnose as diagnose
     from twintube.fmu import BuildError as BuildError
     from twintube.fmu import build_fmu as build_fmu
     from twintube.identification import identify as identify
@@ -33,7 +33,7 @@ HOMES = {
     "twintube.engine.simulate": ("simulate",),
     "twintube.engine.simulation": ("Simulation",),
     "twintube.errors": ("InputError", "InputWarning"),
-    "twintube.evidence": ("diagnose",),
+    "twintube.diagnosis": ("diagnose",),
     "twintube.fmu": ("BuildError", "build_fmu"),
     "twintube.identification": ("identify",),
     "twintube.rig": ("Signal", "harmonic_block"),

@@ -45,7 +45,7 @@ FAULTS: dict[str, tuple[float, Callable[[small.Run], Record]]] = {
 
 
 def test_every_fault_of_a_channel_is_tested_here(runs: list[small.Run]) -> None:
-    # A cell set to zero with the damper in it is told with the state of the gas: tests/evidence/test_tared.py.
+    # A cell set to zero with the damper in it is told with the state of the gas: tests/diagnosis/test_tared.py.
     single = [name for name in FAULT_TITLES if name != TARED]
     assert [c.name for c in faults(small.problem([small.record(runs[0])]))] == single
     assert set(FAULTS) == set(single)

@@ -14,9 +14,9 @@ from twintube.core.effects import EFFECTS
 from twintube.core.frame import stroke_limit
 from twintube.core.variables import blank
 from twintube.dampers import Damper, load
+from twintube.diagnosis import memory_loops
 from twintube.engine import compiled, loops
 from twintube.engine.simulate import at_rest
-from twintube.evidence import memory_loops
 from twintube.lab.virtual_rig import physics, virtual_damper
 from twintube.lab.virtual_rig.rig import initial_state
 from twintube.native import library, sources

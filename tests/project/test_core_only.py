@@ -13,7 +13,7 @@ for name in ("asammdf", "distributed", "fmpy", "h5py", "pandas", "pyarrow", "pyt
     sys.modules[name] = None
 from typer.testing import CliRunner
 
-import twintube.evidence
+import twintube.diagnosis
 import twintube.report.diagnosis.page
 from twintube.cli import app
 

@@ -5,9 +5,9 @@ import pytest
 
 from benchmarks.calibration_figures import alike, of_changes, told
 from benchmarks.priors import Variant, scaled, summary, varied
-from twintube.evidence import changes
-from twintube.evidence.mechanisms import faults
-from twintube.evidence.numbers import NUMBERS
+from twintube.diagnosis import changes
+from twintube.diagnosis.mechanisms import faults
+from twintube.diagnosis.numbers import NUMBERS
 
 
 def test_probabilities_that_are_too_sure() -> None:
@@ -34,7 +34,7 @@ def test_other_priors_hold_only_inside() -> None:
         assert changes.mechanisms is not usual
     assert NUMBERS.law_usual == law
     assert changes.mechanisms is usual
-    gain = faults(1000.0, 10.0)[0]
+    gain = faults(1000.0, 10.0, 0.1)[0]
     assert scaled(gain, 0.5).strengths[0].scale == 0.5 * gain.strengths[0].scale
 
 

@@ -89,7 +89,7 @@ def test_a_folder_keeps_the_answer_to_another_dataset(command: str, monkeypatch:
     def computing(*arguments: object, **options: object) -> None:
         raise InputError("it computes")
 
-    monkeypatch.setattr("twintube.evidence.diagnose", computing)
+    monkeypatch.setattr("twintube.diagnosis.diagnose", computing)
     monkeypatch.setattr("twintube.identification.identify_dataset", computing)
     for name in ("first", "second"):
         assert run("example", name).exit_code == 0

@@ -6,8 +6,8 @@ from typing import Any, cast
 
 from tests.diagnosis import small
 from twintube.dampers import load
-from twintube.evidence import Answer
-from twintube.evidence.heldout import HeldOut
+from twintube.diagnosis import Answer
+from twintube.diagnosis.heldout import HeldOut
 from twintube.report.common.html_page import Headline, html
 from twintube.report.diagnosis import changes, limits
 
@@ -46,7 +46,7 @@ def test_a_cause_that_makes_left_out_records_worse_has_no_bar_of_a_probability_e
     """Over 99 % and "the records cannot tell" would contradict each other."""
     only = SimpleNamespace(name="oil_displacement", kind="effect", probability=1.0, found=object())
     found: Any = SimpleNamespace(
-        unexplained="", doubted=True, compared=False, faults=(), changes=SimpleNamespace(hypotheses=[only]),
+        unexplained="", doubted=True, doubting=("none",), compared=False, faults=(), changes=SimpleNamespace(hypotheses=[only]),
         named=(only, SimpleNamespace(name="none", kind="none", probability=0.0, found=None)),
         held_out=(HeldOut("slow", 10.0, 4.0, 2.0), HeldOut("fast", 37.0, 67.0, 3.0)),
     )  # fmt: skip
@@ -54,5 +54,5 @@ def test_a_cause_that_makes_left_out_records_worse_has_no_bar_of_a_probability_e
     assert ax.get_xlabel() == "force error, RMS [N]"
     assert changes.sentence(cast(Answer, found)) == (
         "The records cannot tell: freed gas displaces oil explains all records best (over 99 %), "
-        "but with it records that were left out are predicted worse."
+        "but nothing is missing predicts records that were left out better."
     )

@@ -185,10 +185,10 @@ def diagnose(
     The model is extended by the cause and judged on records that it was not fitted to. extended.toml is written where
     something is named that changes the parameter set. docs/diagnosis.md gives the hit rates.
     """
-    from twintube import evidence
+    from twintube import diagnosis
     from twintube.common.bars import Bar
     from twintube.dampers import to_toml
-    from twintube.evidence.contract import as_json
+    from twintube.diagnosis.contract import as_json
     from twintube.report.common.titles import in_words
     from twintube.report.diagnosis.page import lines, write_report
 
@@ -199,7 +199,7 @@ def diagnose(
         def progress(text: str) -> None:
             bar.set_description_str(in_words(text))
 
-        found = evidence.diagnose(dataset, progress)
+        found = diagnosis.diagnose(dataset, progress)
     mark_folder(output, made_from)
     *sentences, step = lines(found)
     content = as_json(found) | {"sentence": " ".join(sentences), "next_step": step.removeprefix("Next: ")}

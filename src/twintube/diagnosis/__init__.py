@@ -1,1 +1,21 @@
-"""Measured records prepared for a diagnosis: what is compared of them, and faults of the bench put right."""
+"""What the records say of the damper's state: one probability model, the model's own error and the bench in it.
+
+numbers        all priors, in physical units, with their sources
+discrepancy    D: what a damper's law is off, and what degradation is off
+bench          the records under a simulation, and what the bench may add to their forces
+memory, sizes  noise with memory; how large the model's own errors are
+frame          the evidence of errors, all of this integrated out; heavy: under noise with heavy tails
+state          probability over oil level and preload
+mechanisms     effects and faults, with what is known of their strengths
+search         the evidence of a mechanism
+base           what always acts, and is no change
+changes        the probability of every hypothesis about what has happened since the reference
+heldout        what hypotheses are worth on records that they were not fitted to
+budget         what the error consists of
+answer         from a dataset to its answer; contract: diagnosis.json
+"""
+
+from twintube.diagnosis.answer import Answer, StateAnswer, answer, diagnose, states
+from twintube.diagnosis.budget import Budget, Line
+
+__all__ = ["Answer", "Budget", "Line", "StateAnswer", "answer", "diagnose", "states"]

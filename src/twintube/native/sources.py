@@ -25,7 +25,7 @@ LOOPS = (
     "vehicle/full/loop.py",
     "vehicle/full/unit_loop.py",
     "vehicle/full/rolling.py",
-    "evidence/memory_loops.py",
+    "diagnosis/memory_loops.py",
 )
 RIG = ("lab/virtual_rig/constants.py", "lab/virtual_rig/physics.py")
 # Functions of other libraries at their addresses, which `vehicle/full/unit_loop.py` calls.
@@ -57,7 +57,7 @@ def loops() -> Equations:
     """Kernel and effects with the loops over them, which the package runs."""
     entries = (
         "advance", "run_record", "run_work", "run_held", "run_means", "first_parted", "run_drive", "run_car", "step_units",
-        "run_car_with_units", "roll_wheels", "filter_noise", "lag",
+        "run_car_with_units", "roll_wheels", "filter_noise", "smooth_noise", "lag",
     )  # fmt: skip
     return Equations(sources.damper_sources() | texts_of(*CAR, *LOOPS), entries, outer=OUTER)
 

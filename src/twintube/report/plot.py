@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from twintube.diagnosis import Answer
 from twintube.engine.simulation import Simulation
-from twintube.evidence import Answer
 from twintube.identification import Result
 from twintube.report.common import style
 from twintube.report.diagnosis import changes, state

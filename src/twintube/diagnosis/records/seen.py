@@ -20,6 +20,7 @@ BENDS = {"bend_ahead": 1, "bend_about": 0, "bend_before": -1}
 SAMPLING = ("sample_mean", *BENDS)
 # What it changes of the motion under which the force is seen; a simulation of its own for each value.
 STROKE_GAIN, TIME_BASE, DELAY, CLOCK = "stroke_gain", "time_base", "channel_delay", "clock_error"
+TARE = "tare"  # of the gas force, by which the load cell was set to zero with the damper in it
 INERTIA = "clamp_inertia"  # mass [kg] that moves with the stroke between the load cell and the damper
 AS_RECORDED = {STROKE_GAIN: 1.0, TIME_BASE: 1.0, DELAY: 0.0, CLOCK: 0.0, INERTIA: 0.0}  # where they change nothing
 REMEMBERED = 32  # latest simulations
@@ -42,6 +43,8 @@ class SeenRecords(SimulatedRecords):
         self.elapsed = np.concatenate([r.time - r.begin for r in records])
         self.used = np.concatenate([r.judged for r in records])
         self.known = {item.name for item in fields(effects.Parameters)}
+        self.alone = True  # one simulation at a time, whose records run side by side
+        self.fills: dict[str, tuple[int, Array]] = {}  # what of a state is given a value, and of which records (r,)
         # The measurement's parameters need no simulation of their own.
         self.simulated: Callable[[tuple[tuple[str, float], ...]], tuple[Array, Array]] = lru_cache(REMEMBERED)(self.simulate)
         self.moved: Callable[[float, float], tuple[Array, Array]] = lru_cache(MOVED)(self.motion_moved)
@@ -49,7 +52,7 @@ class SeenRecords(SimulatedRecords):
     def damping(self, values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
         """The values that need a simulation: those of the damper's parameters and of the motion that it sees."""
         values = {**self.usual, **values}
-        named = {n: x for n, x in values.items() if n in self.known}
+        named = {n: x for n, x in values.items() if n in self.known or n in self.fills}
         named |= {n: values[n] for n, neutral in AS_RECORDED.items() if values.get(n, neutral) != neutral}
         return tuple(sorted(named.items()))
 
@@ -60,9 +63,12 @@ class SeenRecords(SimulatedRecords):
         """
         values = dict(changes)
         gain, base, delay, clock, mass = (values.pop(name, x) for name, x in AS_RECORDED.items())
+        filled = {name: values.pop(name) for name in self.fills if name in values}
+        if filled:
+            states = self.filled(filled)
         z, v = self.moved(delay, clock) if delay or clock else (self.z, self.v)
         motion = (self.t / base, z / gain, v * (base / gain))
-        force, point, _ = self.sampled(self.rows(), values.items(), motion, states, side_by_side=True)
+        force, point, _ = self.sampled(self.rows(), values.items(), motion, states, side_by_side=self.alone)
         if mass:
             accelerations = self.accelerations(motion[2])
             force, point = force + mass * accelerations[0], point + mass * accelerations[1]
@@ -93,7 +99,22 @@ class SeenRecords(SimulatedRecords):
         values = {**self.usual, **values}
         seen = point + sum(values[name] * part for name, part in self.parts_of_samples(force, point, values).items())
         zero = values.get("force_offset", 0.0) + values.get("zero_drift", 0.0) * self.elapsed
+        if TARE in values:
+            zero = zero + values[TARE] * self.pressed(values)
         return np.asarray(values.get("force_gain", 1.0) * seen + zero)
+
+    def filled(self, values: Mapping[str, float]) -> Array:
+        """The states (r, 4) of the records with what is given of their fills."""
+        states = self.states.copy()
+        for name in self.fills.keys() & values.keys():
+            column, which = self.fills[name]
+            states[which, column] = values[name]
+        return states
+
+    def pressed(self, values: Mapping[str, float]) -> Array:
+        """By how much [N] (n,) the gas pushes out the rod of a damper at rest."""
+        states = self.filled(values)
+        return np.asarray(np.repeat(self.damper.parameters.F_0 * states[:, 1] * states[:, 2], np.diff(self.starts)))
 
     def accelerations(self, speed: Array) -> tuple[Array, Array]:
         """Mean accelerations [m/s2] over the intervals and at their samples alone, both (n,), from speeds [m/s] (n,)."""

@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 from twintube.common.readable import amount
 from twintube.common.words import listed, lower
 from twintube.core.effects import EFFECTS
+from twintube.diagnosis import Answer
+from twintube.diagnosis.changes import NONE, STATE, UNKNOWN, Hypothesis
 from twintube.diagnosis.channels import TARED
+from twintube.diagnosis.heldout import HeldOut
 from twintube.diagnosis.measurement.faults import BOTH_SIGNS
-from twintube.evidence import Answer
-from twintube.evidence.changes import NONE, STATE, UNKNOWN, Hypothesis
-from twintube.evidence.heldout import HeldOut
-from twintube.evidence.mechanisms import unit_of
+from twintube.diagnosis.mechanisms import unit_of
 from twintube.report.common import style
 from twintube.report.common.html_page import Headline, Picture, Section, Table
 from twintube.report.common.probabilities import LEAST, certain, chance
@@ -44,7 +44,9 @@ TITLES = {
 
 def title(h: Hypothesis, compared: bool) -> str:
     """A hypothesis in words; `compared` with a reference."""
-    return TITLES[compared].get(h.name) or title_of(h.name)
+    cause = h.name.removeprefix(f"{STATE}+")
+    words = TITLES[compared].get(cause) or title_of(cause)
+    return words if cause == h.name else f"{TITLES[compared][STATE]} + {lower(words)}"
 
 
 def name_of(h: Hypothesis, answer: Answer) -> str:
@@ -79,7 +81,8 @@ def remaining(answer: Answer) -> str:
         what = "has changed" if answer.compared else "is missing"
         return f"Beside the fill nothing {what}{since}. {certain(first.probability)}"
     if first.name in (NONE, UNKNOWN):
-        return f"{title(first, answer.compared)}{since}. {certain(first.probability)}"
+        within = ": the error lies within what such dampers and benches differ by" if answer.verdict == "tolerance" else ""
+        return f"{title(first, answer.compared)}{since}{within}. {certain(first.probability)}"
     kind = f"Changed{since}" if answer.compared else "Cause" if first.kind == "effect" else "The measurement is faulty"
     return f"{kind}: {lower(title(first, answer.compared))}.{worth(answer)} {certain(first.probability)}"
 
@@ -88,7 +91,8 @@ def choice(answer: Answer) -> str:
     """What the records leave open, as the end of a sentence."""
     if answer.doubted:
         likely, share = lower(name_of(answer.named[0], answer)), chance(answer.named[0].probability)
-        return f"{likely} explains all records best ({share}), but with it records that were left out are predicted worse"
+        other = lower(title(next(h for h in answer.named if h.name in answer.doubting), answer.compared))
+        return f"{likely} explains all records best ({share}), but {other} predicts records that were left out better"
     several = [f"{lower(name_of(h, answer))} ({chance(h.probability)})" for h in answer.named]
     return listed(several, len(several))
 
@@ -119,7 +123,9 @@ def next_step(answer: Answer) -> str:
         decides = [EFFECTS[name].decides for h in answer.named for name in h.name.split("+") if name in EFFECTS]
         steps.append(f"what would decide: {decides[0]}" if decides else "repeat the records, at more velocities")
     elif first.kind == "fault":
-        steps += [REPAIRS[name] for name in first.name.split("+")]
+        steps += [REPAIRS[name] for name in first.name.split("+") if name in REPAIRS]
+    elif first.name.startswith(f"{STATE}+"):
+        steps.append("state the true fill in dataset.toml, and ask again")
     elif first.kind == "effect":
         steps.append("build the extended set into an FMU: `twintube fmu extended.toml`")
     elif first.kind == STATE:

@@ -7,7 +7,7 @@ import numpy as np
 from twintube.common.words import counted, listed
 from twintube.dampers import Damper
 from twintube.data import Record
-from twintube.evidence import Answer
+from twintube.diagnosis import Answer
 from twintube.report.common.html_page import Section
 
 TRIED = "It was tried on made records only: no real damper that lost oil was at hand."

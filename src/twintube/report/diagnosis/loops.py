@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from twintube.evidence import Answer
+from twintube.diagnosis import Answer
 from twintube.report.common import style
 from twintube.report.common.html_page import Picture, Section
 
@@ -23,12 +23,12 @@ def picture(answer: Answer, narrow: bool = False) -> Figure:
     assert answer.changes is not None
     search, found = answer.changes.search, answer.cause
     bench, once = search.bench, search.bench.once()
-    errors = [float(np.sqrt(np.mean((bench.measured - search.base)[at] ** 2))) for at in bench.slices]
+    errors = [float(np.sqrt(np.mean((bench.measured - search.none.force)[at] ** 2))) for at in bench.slices]
     worst = np.argsort(errors)[::-1][:MOST]
     figure, panels = style.grid(len(worst), (4.2, 3.4), narrow)
     for i, ax in zip(worst, panels.flat, strict=False):
         rows = np.arange(len(once))[bench.slices[i]][once[bench.slices[i]]]
-        lines = [("measured", bench.measured, style.INK, 2.4), ("simulated", search.base, style.RED, 1.2)]
+        lines = [("measured", bench.measured, style.INK, 2.4), ("simulated", search.none.force, style.RED, 1.2)]
         lines += [("with the cause", found.force, style.BLUE, 1.2)] if found is not None else []
         for name, force, colour, width in lines:
             ax.plot(bench.v[rows], 1e-3 * force[rows], color=colour, lw=width, label=name)

@@ -3,16 +3,18 @@
 from pathlib import Path
 
 from twintube.common.files import write_bytes, write_text
-from twintube.evidence import Answer
+from twintube.diagnosis import Answer
 from twintube.report.common.html_page import html
-from twintube.report.diagnosis import changes, limits, loops, state
+from twintube.report.diagnosis import budget, changes, limits, loops, state
 
 
 def lines(answer: Answer) -> list[str]:
     """The answer for the terminal."""
     if answer.changes is None:
         return state.lines(answer.states)
-    return [*state.sentences(answer.asked), *changes.lines(answer)]
+    known = answer.budget()
+    errors = budget.lines(known) if known is not None else []
+    return [*state.sentences(answer.asked), *changes.lines(answer), *errors]
 
 
 def write_report(answer: Answer, folder: Path) -> None:
@@ -22,7 +24,7 @@ def write_report(answer: Answer, folder: Path) -> None:
         sections = [limits.section(answer), state.section(answer.states)]
     else:
         head, name = changes.headline(answer), changes.PICTURE
-        sections = [limits.section(answer), loops.section(answer), changes.section(answer)]
+        sections = [budget.section(answer), limits.section(answer), loops.section(answer), changes.section(answer)]
         if answer.states:
             sections.append(state.section(answer.states, pictures=[state.drawn(answer.states)]))
     assert head.picture is not None, "both answers are drawn"

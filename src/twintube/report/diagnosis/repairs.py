@@ -6,6 +6,7 @@ from twintube.diagnosis.measurement.faults import BOTH_SIGNS
 BADGES = {  # verdict -> badge, class of the style sheet
     "cause": ("cause named", "found"),
     "none": ("nothing missing", "yes"),
+    "tolerance": ("within tolerance", "yes"),
     "state": ("another fill than stated", "warn"),
     "ambiguous": ("cannot tell apart", "warn"),
     "unexplained": ("unexplained", "open"),

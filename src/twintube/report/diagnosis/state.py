@@ -6,10 +6,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from twintube.common.words import listed
+from twintube.diagnosis import StateAnswer
 from twintube.diagnosis.channels import TARED as TARED_CELL
-from twintube.evidence import StateAnswer
-from twintube.evidence.numbers import NUMBERS
-from twintube.evidence.state import LOST, TARED, THERE, StatePosterior
+from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.state import LOST, TARED, THERE, StatePosterior
 from twintube.report.common import style
 from twintube.report.common.html_page import Headline, Picture, Section, Table
 from twintube.report.common.probabilities import chance

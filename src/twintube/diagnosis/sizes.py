@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 from scipy.stats import halfnorm, norm
 
-from twintube.evidence.numbers import NUMBERS
+from twintube.diagnosis.numbers import NUMBERS
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ import re
 from twintube.core.effects import EFFECTS
 from twintube.core.hook_table import HOOKS
 from twintube.core.hooks import sources
-from twintube.evidence.mechanisms import CATALOGUE
+from twintube.diagnosis.mechanisms import CATALOGUE
 
 # The hooks by which an effect changes a part.
 ACTS_ON = {

@@ -12,7 +12,8 @@ from scipy.stats import norm
 from twintube.common.arrays import Array
 from twintube.common.words import shown
 from twintube.core.effects import EFFECTS
-from twintube.diagnosis.records.seen import AS_RECORDED
+from twintube.diagnosis.channels import TARED
+from twintube.diagnosis.records.seen import AS_RECORDED, TARE
 from twintube.errors import InputError
 
 Kind = Literal["half", "normal", "log", "place"]
@@ -95,15 +96,15 @@ class Mechanism:
 META = {i.name: i.metadata for e in EFFECTS.values() for i in e.parameters}
 # Effect, way, parameter: prior and scale, see there.
 STRENGTHS: dict[str, dict[str, dict[str, dict[str, Any]]]] = tomllib.loads(
-    files("twintube.evidence").joinpath("strengths.toml").read_text(encoding="utf-8")
+    files("twintube.diagnosis").joinpath("strengths.toml").read_text(encoding="utf-8")
 )
 
 
 UNITS_OF_FAULTS = {
     "force_offset": "N", "force_gain": "1", "channel_delay": "s", "stroke_gain": "1", "time_base": "1", "zero_drift": "N/s",
-    "clock_error": "1", "clamp_inertia": "kg",
+    "clock_error": "1", "clamp_inertia": "kg", "tare": "1",
 }  # fmt: skip
-CATALOGUE = (*STRENGTHS, *UNITS_OF_FAULTS)
+CATALOGUE = (*STRENGTHS, *(name for name in UNITS_OF_FAULTS if name != TARE), TARED)
 
 
 def check(catalogue: Collection[str]) -> None:
@@ -140,8 +141,8 @@ def ends(prior: Kind, meta: Mapping[str, Any], reach: float) -> tuple[float, flo
     return (max(low, -reach), min(high, reach)) if prior == "place" and low < reach < high else (low, high)
 
 
-def faults(peak: float, longest: float) -> list[Mechanism]:
-    """The faults of the channels; `peak` [N] and `longest` [s] of the records."""
+def faults(peak: float, longest: float, rubbing: float) -> list[Mechanism]:
+    """The faults of the channels; `peak` [N] and `longest` [s] of the records, `rubbing` [1] friction over gas force."""
     one = AS_RECORDED
 
     def single(name: str, scale: float, low: float, high: float, centre: float = 0.0) -> Mechanism:
@@ -156,6 +157,8 @@ def faults(peak: float, longest: float) -> list[Mechanism]:
         single("zero_drift", 0.03 * peak / longest, -peak / longest, peak / longest),
         single("clock_error", 1e-3, -0.01, 0.01),
         single("clamp_inertia", 1.0, -5.0, 5.0),
+        # The force at rest lies anywhere between the gas force less and more friction.
+        Mechanism(TARED, TARED, "fault", (Strength(TARE, "normal", rubbing / np.sqrt(3.0), 1.0),)),
     ]
 
 
@@ -164,8 +167,3 @@ def both(a: Mechanism, b: Mechanism) -> Mechanism:
     kind = "effect" if "effect" in (a.kind, b.kind) else "fault"
     way = f"{a.way}+{b.way}"
     return Mechanism(f"{a.effect}+{b.effect}", way, kind, a.strengths + b.strengths, a.log_odds + b.log_odds, (a, b))
-
-
-def neutral(hypothesis: Mechanism) -> Mapping[str, float]:
-    """The parameters where it does nothing."""
-    return {s.name: s.centre for s in hypothesis.strengths}

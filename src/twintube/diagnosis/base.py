@@ -3,18 +3,18 @@
 import numpy as np
 
 from twintube.common.arrays import Array
-from twintube.evidence.bench import Bench
-from twintube.evidence.frame import Frame
-from twintube.evidence.mechanisms import Mechanism
-from twintube.evidence.numbers import NUMBERS
-from twintube.evidence.search import SLOPE, Found, Search
+from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.frame import Frame
+from twintube.diagnosis.mechanisms import Mechanism
+from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.search import SLOPE, Fill, Found, Search
 
 
 class Base:
     """Mechanisms that always act, found one after the other; their strengths stay open to what the records say."""
 
-    def __init__(self, bench: Bench, acting: Array) -> None:
-        self.bench, self.acting = bench, acting
+    def __init__(self, bench: Bench, acting: Array, fill: Fill) -> None:
+        self.bench, self.acting, self.fill = bench, acting, fill
         self.mechanisms: list[Mechanism] = []
         self.at: Array = np.zeros(0)  # coordinates of all their strengths
 
@@ -23,8 +23,15 @@ class Base:
         self.mechanisms.append(found.mechanism)
         self.bench.at_usual({})
         every = np.ones(len(self.acting), dtype=bool)
-        alone = Search(self.bench, Frame(self.bench, self.bench.states, more=set_up(self.bench, self.acting)), every)
-        self.at = alone.optimum(self.joint, found.evidence.sizes, np.concatenate([self.at, found.at]))
+        alone = Search(
+            self.bench,
+            Frame(self.bench, states_of(self.bench, self.fill), more=set_up(self.bench, self.acting), known=True),
+            every,
+            self.fill,
+        )
+        k = len(found.mechanism.strengths)
+        start = np.concatenate([self.at, found.at[:k], alone.none.at])
+        self.at = alone.climbed(self.joint, start, found.sizes, found.weights).at[: len(self.at) + k]
         self.bench.at_usual(self.joint.values(self.at))
 
     @property
@@ -36,10 +43,17 @@ class Base:
         """Whether a strength of a mechanism is among theirs."""
         return bool({s.name for s in mechanism.strengths} & {s.name for s in self.joint.strengths})
 
-    def search(self) -> Search:
-        """The search for changes beside it."""
-        more = np.hstack([slopes_of(self.bench, self.joint, self.at), set_up(self.bench, self.acting)])
-        return Search(self.bench, Frame(self.bench, self.bench.states, more=more), self.acting, more)
+    def search(self, fill: Fill) -> Search:
+        """The search for changes beside it, in a fill."""
+        more = slopes_of(self.bench, self.joint, self.at)
+        if not self.acting.all():
+            more = np.hstack([more, set_up(self.bench, self.acting)])
+        return Search(self.bench, Frame(self.bench, states_of(self.bench, fill), more=more, known=True), self.acting, fill)
+
+
+def states_of(bench: Bench, fill: Fill) -> Array:
+    """The states (r, 4) of the records, as a fill has them."""
+    return bench.filled({**{s.name: s.centre for s in fill.levels}, **fill.values})
 
 
 def slopes_of(bench: Bench, joint: Mechanism, at: Array) -> Array:
@@ -52,11 +66,8 @@ def slopes_of(bench: Bench, joint: Mechanism, at: Array) -> Array:
 
 
 def set_up(bench: Bench, acting: Array) -> Array:
-    """What the samples `acting` (n,) have of their own day: zero, gain, temperature; (n, 3) [N] of size one.
-
-    Besides, what a cell that was set to zero with the damper in it read of friction.
-    """
+    """What the samples `acting` (n,) have of their own day: zero, gain, temperature; (n, 3) [N] of size one."""
     force, n = bench.forces({}), NUMBERS
     fluid = bench.fluid(force, bench.full(bench.states)[1], bench.states)
     day = np.column_stack([np.full(len(force), n.zero * bench.peak), n.gain * force, n.begun * fluid])
-    return np.hstack([acting[:, None] * day, bench.days])
+    return np.asarray(acting[:, None] * day)

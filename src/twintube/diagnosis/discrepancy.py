@@ -9,12 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from twintube.common.arrays import Array
-from twintube.evidence.memory import lagged
-from twintube.evidence.numbers import NUMBERS
+from twintube.diagnosis.memory import lagged
+from twintube.diagnosis.numbers import NUMBERS
 
 KNOTS = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2])  # [m/s] octaves of the speed
 FINE = np.array([0.035, 0.07, 0.14, 0.28, 0.57, 1.13])  # [m/s] between them
-STROKES = 3  # Legendre polynomials of the stroke
 
 
 @dataclass(frozen=True)
@@ -78,3 +77,10 @@ def discrepancy(speeds: Array, span: float, floor: float) -> Discrepancy:
     """The basis up to the largest of some speeds [m/s]."""
     inside = int(np.searchsorted(KNOTS, float(np.max(np.abs(speeds))))) + 1
     return Discrepancy(KNOTS[: max(3, inside)], span, floor)
+
+
+def late(stroke: Array, time: Array, change: Array) -> Array:
+    """Contributions (n, k) [N] of size one to a force that changes by (n,) [N]: the change comes later."""
+    gone, passed = (np.abs(np.diff(x, prepend=x[0])) for x in (stroke, time))
+    several = [np.exp(-gone / way) for way in NUMBERS.cause_ways] + [np.exp(-passed / lag) for lag in NUMBERS.cause_lags]
+    return np.column_stack([lagged(change, kept) - change for kept in several])

@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 
 from twintube.common.arrays import Array
 from twintube.dampers import Damper
+from twintube.diagnosis.discrepancy import Discrepancy, degraded, discrepancy
+from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.records.noise import colour, noise
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.records.seen import BENDS, DELAY, REMEMBERED, SeenRecords
-from twintube.evidence.discrepancy import Discrepancy, degraded, discrepancy
-from twintube.evidence.numbers import NUMBERS
 
+LEVEL, GAS = "oil_level", "gas_preload"  # with the name of a state, what a hypothesis may have otherwise
 FLOOR = 0.3  # of the largest force: drawings allow some per cent and 20 to 30 N
 TURNED = 0.03  # of the largest force, above which the share of the fluid force that is left is read
 LATEST = [2, 5]  # columns of `degraded` in which a loss comes latest
@@ -36,15 +37,17 @@ class Bench(SeenRecords):
         damper: Damper,
         records: Sequence[PreparedRecord],
         usual: Mapping[str, float] | None = None,
-        drift: float = 0.0,
+        fills: Sequence[str] = (),
     ) -> None:
-        """`drift` [N] is how far the zero of the load cell was seen to differ from record to record."""
+        """`fills` are the names of the states of filling of the records."""
         super().__init__(damper, records, usual)
+        self.labels = {name: np.array([one == name for one in fills]) for name in dict.fromkeys(fills)}
+        for name, which in self.labels.items():
+            self.fills |= {f"{LEVEL}:{name}": (0, which), f"{GAS}:{name}": (1, which)}
         self.measured = np.concatenate([r.force for r in records])
         self.peak = max(r.peak for r in records)
-        # A sample is taken anywhere within its interval.
-        self.delayed = float(np.hypot(NUMBERS.late, UNIFORM * np.median([r.period for r in records])))
-        self.zero = max(NUMBERS.zero * self.peak, drift)
+        self.delayed = float(np.hypot(NUMBERS.late, NUMBERS.skew * np.median([r.period for r in records])))
+        self.zero = NUMBERS.zero * self.peak
         self.slices = [slice(a, b) for a, b in zip(self.starts[:-1], self.starts[1:], strict=True)]
         self.noisy(np.concatenate([r.noise for r in records]))
         self.days = np.zeros((len(self.z), 0))  # [N] friction, each time the cell was set to zero with the damper in it
@@ -122,12 +125,17 @@ class Bench(SeenRecords):
             mean, point = self.simulate(self.damping({}), filled)
             force = self.observed(mean, point, {})
             friction = (self.sampled(rows, (), None, filled)[1] - force) / MORE
-            now, by = self.usual.get(DELAY, 0.0), self.delayed
-            late, early = (self.observed(*self.simulate(self.damping({DELAY: now + x}), filled), {}) for x in (by, -by))
-            parts = self.parts_of_samples(mean, point)
-            sampling = [UNIFORM * parts["sample_mean"], *(NUMBERS.filtered * parts[name] for name in BENDS)]
-            self.fulls[key] = force, friction, np.column_stack([0.5 * (late - early), *sampling])
+            self.fulls[key] = force, friction, self.channels(filled)
         return self.fulls[key]
+
+    def channels(self, states: Array) -> Array:
+        """What the channels may change (n, 5) [N]: a delay by a part of a sample, a mean instead of a point, three bends."""
+        mean, point = self.simulate(self.damping({}), states)
+        now, by = self.usual.get(DELAY, 0.0), self.delayed
+        late, early = (self.observed(*self.simulate(self.damping({DELAY: now + x}), states), {}) for x in (by, -by))
+        parts = self.parts_of_samples(mean, point)
+        sampling = [UNIFORM * parts["sample_mean"], *(NUMBERS.filtered * parts[name] for name in BENDS)]
+        return np.column_stack([0.5 * (late - early), *sampling])
 
     def loss(self, states: Array) -> Array:
         """Force (n,) [N] that missing oil takes away, friction apart, which rises with it."""
@@ -175,10 +183,14 @@ class Bench(SeenRecords):
         apart = np.abs((phase[:, None] - np.arange(PHASES) + PHASES / 2.0) % PHASES - PHASES / 2.0)
         return np.asarray(np.maximum(0.0, 1.0 - apart) * np.hypot(self.intact[at], FLOOR * self.peak)[:, None])
 
-    def contributions(self, states: Array) -> list[tuple[Array, Array, Array]]:
-        """For each record shared (n, k) and own (n, m) contributions of size one [N], and those of what lasts (n,) [N]."""
+    def contributions(self, states: Array, known: bool = False) -> list[tuple[Array, Array, Array]]:
+        """For each record shared (n, k) and own (n, m) contributions of size one [N], and those of what lasts (n,) [N].
+
+        Where the fill is `known`, the channels see the steps of its force; else other levels stay alike.
+        """
         # All but the loss is that of the full damper: levels that do not differ in it are alike to the last digit.
         (whole, friction, channels), loss = self.full(states), self.loss(states)
+        channels = self.channels(states) if known else channels
         fluid = self.fluid(whole + loss, friction, states)
         turn = np.clip(1.0 - np.abs(loss) / np.maximum(self.intact, TURNED * self.peak), 0.0, 1.0)
         p = self.damper.parameters
@@ -191,17 +203,18 @@ class Bench(SeenRecords):
             one, rubbing = np.ones_like(F), np.tanh(v / TURN)
             rub = rubs / p.F_FrS * friction[at]
             # Without preload some gas is left, too.
-            gas = NUMBERS.preload * np.column_stack([p.F_0 * one, p.c_gas * z])
+            gas = NUMBERS.preload * np.column_stack([p.c_gas * z - p.F_0, p.c_gas * z])
             lost = degraded(self.z[at], v, loss[at])
-            still = np.column_stack([rub, rub * along, rub * (1.5 * along**2 - 0.5), gas, lost])
             n = NUMBERS
             zero = self.zero
+            channel = channels[at].copy()
+            if not known:
+                channel[:, 0] += self.delayed * np.gradient(loss[at], self.t[at])
+            still = np.column_stack([rub, rub * along, rub * (1.5 * along**2 - 0.5), gas, lost, zero * one, channel])
             # Oil and load cell get warm within a record.
             passed = (self.elapsed[at] - 0.5 * self.elapsed[at].max()) / max(1e-9, 0.5 * self.elapsed[at].max())
             warm = [n.begun * fluid[at], n.begun * fluid[at] * passed, zero * passed]
             others = [zero * along, zero * rubbing]
-            channel = channels[at].copy()
-            channel[:, 0] += self.delayed * np.gradient(loss[at], self.t[at])
             bench = np.column_stack([zero * one, n.gain * F, channel, *warm, *others])
             # Steps of the state itself apart, how steep the force is does not depend on the state.
             lasts = np.hypot(self.intact[at], FLOOR * self.peak) + n.timed * np.abs(np.gradient(whole[at], self.t[at]))

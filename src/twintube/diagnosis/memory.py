@@ -25,3 +25,11 @@ def lagged(values: Array, kept: Array) -> Array:
     out = np.empty(len(values))
     compiled.module().lag(values, kept, out)
     return out
+
+
+def lasting(values: Array, sigma: Array, size: Array, kept: Array) -> Array:
+    """What is expected (n,) of the lasting part of `values` (n,), the noise as in `innovations`."""
+    out = np.empty(len(values))
+    work = np.empty((2, len(values)))
+    compiled.module().smooth_noise(np.ascontiguousarray(values), sigma, size, kept, *work, out)
+    return out

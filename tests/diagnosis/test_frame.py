@@ -8,10 +8,10 @@ from tests.diagnosis import small
 from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.data import LoadedDataset
+from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.records.prepare import prepare
-from twintube.evidence.bench import Bench
-from twintube.evidence.frame import Frame
-from twintube.evidence.sizes import LARGEST, USUAL, Sizes
+from twintube.diagnosis.sizes import LARGEST, USUAL, Sizes
 
 SIZES = (USUAL, Sizes(1, 3, 1), LARGEST)
 

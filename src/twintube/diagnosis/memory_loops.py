@@ -37,3 +37,32 @@ def lag(values: Vector, kept: Vector, out: Vector) -> None:
     for i in range(len(values)):
         state = kept[i] * state + (1.0 - kept[i]) * values[i]
         out[i] = state
+
+
+def smooth_noise(
+    values: Vector, sigma: Vector, size: Vector, kept: Vector, mean: Vector, spread: Vector, out: Vector
+) -> None:
+    """Write what is expected of the lasting part of `values` (n,) to `out`, with all of them known (Rauch, Tung, Striebel).
+
+    Noise as in `filter_noise`; `mean` and `spread` (n,) are work space.
+    """
+    n = len(values)
+    m = 0.0
+    s = 1.0
+    for i in range(n):
+        a, phi = size[i], kept[i]
+        m = phi * m
+        s = phi * phi * s + 1.0 - phi * phi
+        gain = s * a / (a * a * s + sigma[i] * sigma[i])
+        m = m + gain * (values[i] - a * m)
+        s = s * (1.0 - gain * a)
+        mean[i] = m
+        spread[i] = s
+    later = mean[n - 1]
+    out[n - 1] = size[n - 1] * later
+    for j in range(n - 1):
+        i = n - 2 - j
+        phi = kept[i + 1]
+        ahead = phi * phi * spread[i] + 1.0 - phi * phi
+        later = mean[i] + spread[i] * phi / ahead * (later - phi * mean[i])
+        out[i] = size[i] * later

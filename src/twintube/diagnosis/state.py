@@ -14,10 +14,10 @@ from scipy.special import expit, logsumexp
 from scipy.stats import norm
 
 from twintube.common.arrays import Array
-from twintube.evidence.bench import Bench
-from twintube.evidence.frame import Evidence, Frame
-from twintube.evidence.numbers import NUMBERS
-from twintube.evidence.sizes import LARGEST, Sizes
+from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.frame import Evidence, Frame
+from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.sizes import LARGEST, Sizes
 
 # Numerics of the grid.
 WITHIN = (-0.02, -0.01, 0.0, 0.01)  # levels of a coarse cell that are looked at
@@ -89,6 +89,8 @@ class StatePosterior:
     # Preload, level, and whether the cell was set to zero with the damper in it, that fit best, within what a file says.
     best: tuple[int, float, bool]
     log_odds_stated: float  # evidence of what a file says, to the tolerance of a fill, over that of any state
+    free: tuple[int, float]  # preload and level that fit best, whatever a file says
+    levels_of: Mapping[int, float]  # level that fits best without preload and with it
     tared_as_stated: float  # probability that the load cell was set to zero with the damper in it, where the file is right
 
     @property
@@ -243,11 +245,15 @@ def posterior(found: Mapping[tuple[int, float], Zeroed], stated: Stated = NOTHIN
     said = 1.0 - NUMBERS.misstated if stated.anything else 0.0
     both = logsumexp([free, as_stated], axis=0, b=[[[1.0 - said]], [[said]]])
     best = max(found, key=lambda key: found[key].log_z + fitting(key, stated))
+    free_best = max(found, key=lambda key: found[key].log_z)
+    levels_of = {gas: max((key for key in found if key[0] == gas), key=lambda key: found[key].log_z)[1] for gas in (0, 1)}
     known, tared = found[best], found[best].rather_tared
     probability, right = (np.exp(x - logsumexp(x)) for x in (both, as_stated))
     odds = float(logsumexp(as_stated) - logsumexp(free))
     share = float(right[TARED].sum())
-    return StatePosterior(fine, probability, known.tared if tared else known.right, (*best, tared), odds, share)
+    return StatePosterior(
+        fine, probability, known.tared if tared else known.right, (*best, tared), odds, free_best, levels_of, share
+    )
 
 
 def fitting(key: tuple[int, float], stated: Stated) -> float:

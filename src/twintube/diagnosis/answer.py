@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,22 +15,25 @@ from threadpoolctl import threadpool_limits
 from twintube.common.arrays import Array
 from twintube.common.showing import data_frame, picture
 from twintube.dampers import Damper
+from twintube.dampers.freed_gas import DEFAULT, VARIED, has_own, values_of
 from twintube.data import LoadedDataset, Record, has_reference, load_dataset
+from twintube.diagnosis.bench import GAS, LEVEL, Bench
+from twintube.diagnosis.budget import LASTING, LAW, Budget, budget
+from twintube.diagnosis.changes import NONE, STATE, UNKNOWN, Changes, Hypothesis, changes
 from twintube.diagnosis.channels import TARED
+from twintube.diagnosis.heldout import HeldOut, asked, changed, held_out, predicted, weights
 from twintube.diagnosis.measurement.edges import with_edges
 from twintube.diagnosis.measurement.faults import Fault, read
+from twintube.diagnosis.mechanisms import Strength, check
+from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.put_right import Measured, put_right
 from twintube.diagnosis.records.prepare import prepare
+from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.rules import RULES
-from twintube.evidence.bench import Bench
-from twintube.evidence.changes import NONE, STATE, UNKNOWN, Changes, Hypothesis, changes
-from twintube.evidence.heldout import HeldOut, contradicted, held_out
-from twintube.evidence.mechanisms import check
-from twintube.evidence.numbers import NUMBERS
-from twintube.evidence.search import Found
-from twintube.evidence.sizes import Sizes, chance_of_more
-from twintube.evidence.state import Stated, StatePosterior, rather_tared, state
+from twintube.diagnosis.search import Fill, Found
+from twintube.diagnosis.sizes import Sizes
+from twintube.diagnosis.state import Stated, StatePosterior, rather_tared, state
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,6 +42,10 @@ if TYPE_CHECKING:
 Progress = Callable[[str], None]
 
 SAMPLED = {"sample_mean": 0.5}  # a sample is a point of the force, a mean over its interval, or between them
+
+JUDGED = 4  # the likeliest hypotheses, whose predictions of left-out records are compared
+LEAST_LEVEL = 0.05  # [1] numerics
+MOST_DELAY = 0.02  # [s] numerics
 
 VERDICTS = {NONE: "none", STATE: "state", UNKNOWN: "unexplained", "effect": "cause", "fault": "measurement_fault"}
 
@@ -92,6 +99,7 @@ class Answer:
     compared: bool  # with a reference
     measured: Measured | None  # None where the bench was not looked at
     seconds: float
+    weights: Mapping[str, float] = field(default_factory=dict)  # of hypotheses, by records that were left out
     tared: tuple[str, ...] = ()  # records of the reference whose load cell was set to zero with the damper in it
 
     @property
@@ -115,6 +123,10 @@ class Answer:
         first = self.changes.hypotheses[0]
         if first.kind == NONE and self.faults:
             return "measurement_fault"
+        # Beside a reference the damper's own law is no change.
+        known = self.budget() if first.kind == NONE and not self.compared else None
+        if known is not None and known.largest.force > known.noise:
+            return "tolerance"
         return VERDICTS[first.kind]
 
     @property
@@ -129,37 +141,54 @@ class Answer:
 
     @property
     def named(self) -> tuple[Hypothesis, ...]:
-        """The hypotheses that hold 90 % together, and `none` where records that were left out contradict the only one."""
+        """The hypotheses that hold 90 % together, and those that predict left-out records where these do not."""
         if self.changes is None:
             return ()
         several = self.changes.hypotheses
         some = several[: len(self.changes.credible)]
-        return (*some, *(h for h in several if h.kind == NONE)) if contradicted(self.held_out) else some
+        return (*some, *(h for h in several if h.name in self.doubting))
+
+    @property
+    def doubting(self) -> tuple[str, ...]:
+        """The fewest hypotheses that hold 90 % by records left out, where the likeliest by evidence have next to nothing."""
+        if self.changes is None:
+            return ()
+        credible = self.changes.credible
+        if not self.weights or sum(self.weights.get(name, 0.0) for name in credible) >= 1.0 - NUMBERS.credible:
+            return ()
+        ordered = sorted(self.weights, key=lambda name: -self.weights[name])
+        total = np.cumsum([self.weights[name] for name in ordered])
+        return tuple(n for n in ordered[: int(np.searchsorted(total, NUMBERS.credible)) + 1] if n not in credible)
 
     @property
     def doubted(self) -> bool:
-        """Whether the only likely hypothesis predicts records that were left out worse than without it."""
-        return self.changes is not None and len(self.changes.credible) == 1 and contradicted(self.held_out)
+        """Whether the only likely hypothesis predicts records that were left out worse than others."""
+        return self.changes is not None and len(self.changes.credible) == 1 and bool(self.doubting)
 
     @property
     def cause(self) -> Found | None:
         """The most probable mechanism, where it is the answer or one of several."""
-        return next((h.found for h in self.named if h.found is not None), None)
+        return next((h.found for h in self.named if h.found is not None and h.found.mechanism.strengths), None)
+
+    def budget(self) -> Budget | None:
+        """What the error consists of under the likeliest hypothesis; None where nothing but the fill was sought."""
+        if self.changes is None:
+            return None
+        h = next(h for h in self.changes.hypotheses if h.found is not None)
+        assert h.found is not None and h.search is not None
+        return budget(self.changes.search, h.search, h.found)
 
     @property
     def unexplained(self) -> str:
         """Why even the most probable hypothesis is no answer, in a sentence; empty where it is one."""
         if self.changes is None or self.compared:
             return ""
-        first, search = self.changes.hypotheses[0], self.changes.search
-        if first.kind == UNKNOWN:
+        first = self.changes.hypotheses[0]
+        if first.found is None or first.search is None:
             return ""
-        sizes = first.found.evidence.sizes if first.found is not None else search.none.sizes
-        if first.kind == STATE:
-            sizes = min(self.states, key=lambda one: one.posterior.as_stated).posterior.evidence.sizes
-        force = first.found.force if first.found is not None else search.base
-        outside = seen_outside(self.measured, search.bench, force) if self.measured is not None else ""
-        return outside or beyond(sizes, self.damper.name)
+        bench = first.search.bench
+        outside = seen_outside(self.measured, bench, first.found.force) if self.measured is not None else ""
+        return outside or beyond(self.budget(), first.found.sizes, self.damper.name)
 
     @property
     def extended(self) -> Damper | None:
@@ -194,21 +223,15 @@ class Answer:
         return f"<Answer about {self.damper.name} from {len(self.records)} records: {self.verdict}{rest}>"
 
 
-def beyond(sizes: Sizes, damper: str) -> str:
-    """Which error of the model is larger than one may be, in a sentence; empty where none is."""
-    n = NUMBERS
-    law, own, lasting = (
-        chance_of_more(grid, at, scale) < n.implausible
-        for grid, at, scale in (
-            (n.law_sizes, sizes.law_at, n.law_usual),
-            (n.own_sizes, sizes.own_at, n.own_usual),
-            (n.lasting_sizes, sizes.lasting_at, n.lasting_usual),
-        )
-    )
-    if law:
+def beyond(known: Budget | None, sizes: Sizes, damper: str) -> str:
+    """What is largest where that has no name and is larger than it may be, in a sentence; else empty."""
+    largest = known.largest if known is not None else None
+    if largest is None or not largest.finding:
+        return ""
+    if largest.name == LAW:
         off = f"the forces are some {100 * sizes.law:.0f} % off those of {damper}"
         return f"{off}: identify this damper first (twintube identify)"
-    if own or lasting:
+    if largest.name == LASTING:
         return "what is left comes and goes in a way that no cause of the catalogue has"
     return ""
 
@@ -309,7 +332,7 @@ def explains(answer: Answer) -> bool:
 
 def compared_with_reference(dataset: LoadedDataset, progress: Progress, catalogue: Collection[str] | None) -> Answer:
     """What has happened since the reference."""
-    bench = Bench(dataset.damper, prepare(dataset))
+    bench = Bench(dataset.damper, prepare(dataset), fills=labels(dataset.records))
     several: list[StateAnswer] = []
     tared: list[str] = []
     # A reference is as its file says; what is unknown of it is found first.
@@ -321,17 +344,72 @@ def compared_with_reference(dataset: LoadedDataset, progress: Progress, catalogu
         else:
             several.append(state_of(bench, dataset.records, own, progress))
             best = several[-1].posterior.best
-        bench.in_state(which, *best)
+        # What is stated is open to its tolerance in each hypothesis, and a tared cell since the reference is one.
+        if own[0].unknown or own[0].reference:
+            bench.in_state(which, *best[:2], best[2] and own[0].reference)
         if own[0].reference and best[0] and best[2]:
             tared += [record.name for record in own]
     bench.with_edges(edges(bench))
     times = zip(dataset.records, bench.records, strict=True)
     acting = np.concatenate([~in_reference(record, r.time) for record, r in times])
-    later = {record.name for record in dataset.records if not record.reference}
-    told = [one for one in several if one.records[0] in later]
-    result = asked(bench, acting, told, progress, catalogue)
+    later = {record.state for record in dataset.records if not record.reference}
+    asked_for = [one for one in several if one.state in later]
+    result = changes(bench, acting, likely_fills(bench, asked_for), progress, catalogue=catalogue)
     known = concluded(dataset, dataset.records, several, result, measured=None, progress=progress)
     return replace(known, tared=tuple(tared))
+
+
+def labels(records: Sequence[Record]) -> list[str]:
+    """The state of each record."""
+    return [record.state for record in records]
+
+
+def as_filled(bench: Bench, name: str, other: Mapping[str, tuple[int, float]] | None = None, log_prior: float = 0.0) -> Fill:
+    """The fill of a bench, levels open to the tolerance of a fill; of some states another preload and level."""
+    other = other or {}
+    levels, values = [], {}
+    for label, which in bench.labels.items():
+        gas, level = other.get(label, (int(bench.states[which][0, 1]), float(bench.states[which][0, 0])))
+        if label in other:
+            values[f"{GAS}:{label}"] = float(gas)
+        if level < 1.0 or label in other:
+            levels.append(Strength(f"{LEVEL}:{label}", "normal", NUMBERS.level_tolerance, level, LEAST_LEVEL, 1.0))
+    delay = Strength(DELAY, "normal", bench.delayed, 0.0, -MOST_DELAY, MOST_DELAY)
+    return Fill((*levels, delay), values, log_prior, name)
+
+
+def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill]:
+    """The fill as stated, and the likeliest other one of those states that may be another; what freed gas does is open.
+
+    Nobody has measured that. Where the parameter set states it, it is as stated.
+    """
+    n = NUMBERS
+    told = [one for one in several if one.stated.anything]
+    doubtful = [one for one in told if one.posterior.as_stated < n.credible]
+    out = [as_filled(bench, "as_stated", log_prior=float(np.log(1.0 - n.misstated)) if told else 0.0)]
+    # Of a fill that nobody knows the preload may be there or lost.
+    for one in several:
+        gas = one.posterior.best[0]
+        other = one.posterior.gas_lost if gas else 1.0 - one.posterior.gas_lost
+        if not one.stated.anything and other > n.implausible:
+            out.append(
+                as_filled(bench, one.state, {one.state: (1 - gas, one.posterior.levels_of[1 - gas])}, out[0].log_prior)
+            )
+    if doubtful:
+        # Anywhere between the least level and all oil, with preload and without: the share of it that a tolerance holds.
+        wide = np.sqrt(2.0 * np.pi) * n.level_tolerance / (1.0 - n.level_low)
+        log_prior = float(np.log(n.misstated) + len(doubtful) * np.log(0.5 * (1.0 - n.full) * wide))
+        other_fill = as_filled(bench, "another", {one.state: one.posterior.free for one in doubtful}, log_prior)
+        out.append(replace(other_fill, other=True))
+    ways = [{}] if has_own(bench.given) else [{}, *(values_of(name) for name in VARIED if name != DEFAULT)]
+    return [
+        replace(
+            fill, values={**fill.values, **way}, log_prior=fill.log_prior - float(np.log(len(ways))),
+            name=f"{fill.name} {i}",
+        )
+        for i, way in enumerate(ways)
+        for fill in out
+    ]  # fmt: skip
 
 
 def edges(bench: Bench) -> list[Array]:
@@ -343,37 +421,23 @@ def edges(bench: Bench) -> list[Array]:
     return [record.edges for record in with_edges(Problem(bench.given, filled)).records]
 
 
-def bench_of(measured: Measured) -> Bench:
+def bench_of(measured: Measured, records: Sequence[Record]) -> Bench:
     """The bench of records that were put right.
 
-    Delay and filter that suit the damper without any cause are no facts: each hypothesis has them open. The zero that all
-    records share stays put right, as another state of filling would explain it, too.
+    Delay, zero and filter that suit the damper without any cause are no facts: each hypothesis has them open.
     """
     known = measured.problem
-    zero = {name: x for name, x in known.usual.items() if name == "force_offset"}
-    return Bench(known.given, known.records, SAMPLED | zero, known.drift)
+    return Bench(known.given, known.records, SAMPLED, fills=labels(records))
 
 
 def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress, catalogue: Collection[str] | None) -> Answer:
     """What the model lacks, in records without the faults of their bench."""
-    bench = bench_of(measured)
     records = [record for record in dataset.records if record.name not in measured.odd]
+    bench = bench_of(measured, records)
     several = [state_of(bench, records, own, progress) for own in fillings(records)]
-    for one in several:
-        preload, level, tared = one.posterior.best
-        if one.posterior.rather_misstated or tared:
-            bench.in_state(np.array([record.state == one.state for record in records]), preload, level, tared)
     acting = np.ones(len(bench.z), dtype=bool)
-    result = asked(bench, acting, several, progress, catalogue)
+    result = changes(bench, acting, likely_fills(bench, several), progress, catalogue=catalogue)
     return concluded(dataset, records, several, result, measured=measured, progress=progress)
-
-
-def asked(
-    bench: Bench, acting: Array, told: Sequence[StateAnswer], progress: Progress, catalogue: Collection[str] | None
-) -> Changes:
-    """The probability of everything in the samples `acting` (n,), where the states `told` may be others than stated."""
-    stated = [one.posterior for one in told if one.stated.anything]
-    return changes(bench, acting, stated, [one.posterior.tared_as_stated for one in told], progress, catalogue=catalogue)
 
 
 def concluded(
@@ -385,11 +449,22 @@ def concluded(
     measured: Measured | None,
     progress: Progress,
 ) -> Answer:
-    """The answer that follows from probabilities, with what causes are worth on records that were left out."""
+    """The answer that follows from probabilities, with what hypotheses are worth on records that were left out."""
     progress("predicting records that were left out")
-    alone = result.hypotheses[0].found if len(result.credible) == 1 else None
-    left_out = held_out(result, alone)
-    result.search.bench.threads.shutdown()
+    places = changed(result.search)
+    judged = [h for h in asked(result.hypotheses, JUDGED) if h.found is not None and h.search is not None]
+    threads = result.search.bench.threads
+    several_predicted = dict(
+        zip(
+            (h.name for h in judged),
+            threads.map(lambda h: predicted(h.search, h.found, places), judged),
+            strict=True,
+        )
+    )
+    first = result.hypotheses[0]
+    cause = several_predicted.get(first.name) if first.name != NONE else None
+    left_out = held_out(several_predicted[NONE], cause, result.search, places)
+    threads.shutdown()
     return Answer(
         dataset.title,
         dataset.damper,
@@ -400,6 +475,7 @@ def concluded(
         measured is None,
         measured,
         0.0,
+        weights=weights(several_predicted),
     )
 
 

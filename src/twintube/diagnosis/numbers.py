@@ -81,6 +81,13 @@ class Numbers:
     law_of_cause: float = declared(
         0.2, "1", "what a cause does, off its law", "the like of the loss by missing oil; a fifth, judged"
     )
+    cause_ways: tuple[float, ...] = declared(
+        (3e-4, 1e-3, 4e-3, 1.2e-2), "m", "strokes by which a cause may come later than by its law", "those of valves, judged"
+    )
+    cause_lags: tuple[float, ...] = declared((1e-3, 5e-3), "s", "times by which it may come later", "the like, judged")
+    freedom: float = declared(
+        4.0, "1", "degrees of freedom of Student's noise", "usual for heavy tails: Lange, Little and Taylor 1989"
+    )
     lacking: float = declared(
         0.5, "1", "probability that a damper or its bench always has something that the model lacks", "judged"
     )
@@ -90,6 +97,12 @@ class Numbers:
     other: float = declared(0.05, "1", "probability of something that is not in the catalogue", "judged")
     change_sizes: tuple[float, ...] = declared(
         (0.01, 0.03, 0.1, 0.3), "1", "sizes of a free change tried, share of the fluid force", "each as likely"
+    )
+    slight: float = declared(
+        0.05,
+        "1",
+        "force of a cause over the noise, or over the largest one, below which it stands in the budget alone",
+        "convention",
     )
     credible: float = declared(0.9, "1", "probability that the hypotheses in an answer hold together", "convention")
     implausible: float = declared(
@@ -105,6 +118,9 @@ class Numbers:
     )
     gain: float = declared(0.005, "1", "gain of a record", "load cell of class 0.5")
     late: float = declared(2e-4, "s", "delay of the force channel", "filters of a measuring amplifier at 1 to 2 kHz")
+    skew: float = declared(
+        0.1, "1", "delay of the force channel, share of a sample", "converters that read one channel after the other, judged"
+    )
     begun: float = declared(
         0.02, "1", "fluid force of a record at the temperature it begins with", "some kelvins at 0.3 %/K"
     )

@@ -11,14 +11,15 @@ from twintube import diagnose
 from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.data import LoadedDataset
+from twintube.diagnosis import answer
+from twintube.diagnosis.answer import as_filled, bench_of
+from twintube.diagnosis.base import Base
+from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.changes import mechanisms
+from twintube.diagnosis.contract import as_json
 from twintube.diagnosis.put_right import put_right
 from twintube.diagnosis.records.prepare import prepare
-from twintube.evidence import answer
-from twintube.evidence.answer import bench_of
-from twintube.evidence.base import Base
-from twintube.evidence.bench import Bench
-from twintube.evidence.changes import mechanisms
-from twintube.evidence.contract import as_json
+from twintube.diagnosis.search import Search
 from twintube.report.diagnosis.page import lines, write_report
 
 SPEEDS = (0.3, 0.6, 1.0)  # [m/s]
@@ -31,6 +32,12 @@ def moved_zero(r: small.Run) -> Array:
 
 def heavy_clamp(r: small.Run) -> Array:
     return np.asarray(r.force + 4.0 * np.gradient(r.velocity, r.time))
+
+
+def search_in(bench: Bench) -> Search:
+    """The search in the fill as stated."""
+    fill = as_filled(bench, "as_stated")
+    return Base(bench, np.ones(len(bench.z), dtype=bool), fill).search(fill)
 
 
 HIDDEN: dict[str, small.Formula] = {
@@ -61,9 +68,9 @@ def test_a_delay_that_suits_no_cause_is_not_held_against_one() -> None:
     records = [small.record(r, seed=i) for i, r in enumerate(runs)]
     measured = put_right(LoadedDataset("Small", damper, records, []), None, lambda step: None)
     assert measured.problem.usual["channel_delay"] > 1e-3
-    bench = bench_of(measured)
+    bench = bench_of(measured, records)
     (stop,) = (m for m in mechanisms(bench) if m.way == "compression")
-    found = Base(bench, np.ones(len(bench.z), dtype=bool)).search().found(stop)
+    found = search_in(bench).again(search_in(bench).found(stop))
     assert found.values["F_stop_co"] == pytest.approx(300.0, rel=0.05)
 
 
@@ -75,8 +82,8 @@ def test_a_cause_far_larger_than_expected_is_found() -> None:
     records = [small.record(r, force, seed=i) for i, (r, force) in enumerate(zip(runs, late, strict=True))]
     bench = Bench(damper, prepare(LoadedDataset("Small", damper, records, [])))
     (clock,) = (m for m in mechanisms(bench) if m.way == "clock_error")
-    search = Base(bench, np.ones(len(bench.z), dtype=bool)).search()
-    found = search.found(clock)
+    search = search_in(bench)
+    found = search.again(search.found(clock))
     assert found.log_z > search.none.log_z + 100.0
     assert found.values["clock_error"] == pytest.approx(0.005, rel=0.02)
 

@@ -4,14 +4,14 @@ from typing import Any
 
 import numpy as np
 
-from twintube.diagnosis.channels import TARED
+from twintube.diagnosis.answer import Answer
+from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.changes import NONE, Hypothesis
+from twintube.diagnosis.heldout import HeldOut
 from twintube.diagnosis.measurement.faults import Fault
-from twintube.evidence.answer import Answer
-from twintube.evidence.bench import Bench
-from twintube.evidence.changes import NONE, Hypothesis
-from twintube.evidence.heldout import HeldOut
-from twintube.evidence.mechanisms import Mechanism, unit_of
-from twintube.evidence.search import Found
+from twintube.diagnosis.mechanisms import Mechanism, unit_of
+from twintube.diagnosis.records.seen import TARE
+from twintube.diagnosis.search import Found
 
 HALF = 1.645  # standard deviations of half a 90 % interval
 
@@ -21,17 +21,18 @@ def as_json(answer: Answer) -> dict[str, Any]:
     content: dict[str, Any] = {"verdict": answer.verdict, "state": [one.as_json() for one in answer.states]}
     if answer.changes is not None:
         several = [(name_of(h, answer.faults), h) for h in answer.changes.hypotheses]
-        found = [] if answer.verdict == "unexplained" else [h.found for h in answer.named if h.found]
+        named = [] if answer.verdict == "unexplained" else answer.named
+        known = answer.budget()
         content |= {
             "compared_with_reference": answer.compared,
             "unexplained": answer.unexplained,
-            "hypotheses": [entry(name, h) for name, h in several],
+            "budget": known.as_json() if known is not None else None,
+            "hypotheses": [entry(name, h) | {"left_out_weight": answer.weights.get(h.name)} for name, h in several],
             "probabilities": {name: h.probability for name, h in several},
             "credible_set": [name_of(h, answer.faults) for h in answer.named],
             "causes": [
                 *map(faulty, answer.faults),
-                *(c for f in found for c in causes(f, answer.held_out)),
-                *(tared(answer.changes.search.bench) for h in answer.named if h.name == TARED and not answer.unexplained),
+                *(c for h in named if h.found for c in causes(h.found, h.name, answer)),
             ],
             "always": [m.effect for m in answer.changes.base],
             "left_out": list(answer.measured.odd) if answer.measured is not None else [],
@@ -59,31 +60,27 @@ def faulty(fault: Fault) -> dict[str, Any]:
     return {"effect": fault.effect, "put_right": True, "text": fault.explanation, "parameters": {fault.name: value}}
 
 
-def causes(found: Found, held_out: tuple[HeldOut, ...]) -> list[dict[str, Any]]:
-    """A mechanism, or the two that act at once, with strengths and what is gained where they were not fitted."""
-    gain = gained(held_out)
-    parts = found.mechanism.parts or (found.mechanism,)
-    return [cause(part, found) | ({"gain": {"heldout": gain}} if gain is not None else {}) for part in parts]
+def causes(found: Found, name: str, answer: Answer) -> list[dict[str, Any]]:
+    """The mechanisms that are named, with strengths and what is gained where they were not fitted."""
+    gain = gained(answer.held_out)
+    assert answer.changes is not None, "it has causes"
+    bench = answer.changes.search.bench
+    parts = [m for m in found.mechanism.parts or (found.mechanism,) if m.effect in name.split("+") and m.strengths]
+    return [cause(part, found, bench) | ({"gain": {"heldout": gain}} if gain is not None else {}) for part in parts]
 
 
-def cause(m: Mechanism, found: Found) -> dict[str, Any]:
+def cause(m: Mechanism, found: Found, bench: Bench) -> dict[str, Any]:
     """A mechanism with its strengths."""
     values = {}
     for s in m.strengths:
+        if s.name == TARE:
+            gas = bench.damper.parameters.F_0
+            x, half = gas * found.values[TARE], gas * HALF * found.spread[TARE]
+            values["force_offset"] = {"value": x, "interval": [x - half, x + half], "unit": "N"}
+            continue
         x, half = found.values[s.name], HALF * found.spread[s.name]
         values[s.name] = {"value": x, "interval": [x - half, x + half], "unit": unit_of(s.name)}
     return {"effect": m.effect, "way": m.way, "parameters": values}
-
-
-def tared(bench: Bench) -> dict[str, Any]:
-    """A load cell that was set to zero with the damper in it: the zero that this makes, to friction."""
-    zero, friction = bench.at_rest
-    interval = [zero - HALF * friction, zero + HALF * friction]
-    return {
-        "effect": TARED,
-        "way": TARED,
-        "parameters": {"force_offset": {"value": zero, "interval": interval, "unit": "N"}},
-    }
 
 
 def gained(held_out: tuple[HeldOut, ...]) -> float | None:

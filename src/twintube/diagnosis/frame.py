@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag, cho_solve, cholesky, solve_triangular
 
 from twintube.common.arrays import Array
-from twintube.evidence.bench import Bench
-from twintube.evidence.memory import innovations
-from twintube.evidence.numbers import NUMBERS
-from twintube.evidence.sizes import LARGEST, USUAL, Sizes
+from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.memory import innovations, lasting
+from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.sizes import LARGEST, USUAL, Sizes
 
-STILL = 11  # shared columns of friction, gas and degradation, before those of D
+STILL = 17  # shared columns of friction, gas, degradation, zero and channels, before those of D
 BENCH = 12  # own columns of the bench, before those of a record's own error
 LASTS = 6.0  # intervals that an error lasts: an eighth of an oscillation
 
@@ -104,24 +104,35 @@ class Frame:
         steps: Array | None = None,
         more: Array | None = None,
         used: NDArray[np.bool_] | None = None,
+        *,
+        known: bool = False,
     ) -> None:
         """Contributions in some states (r, 4); `steps` (n,) [N] is more noise, `more` (n, p) [N] are further shared ones.
 
-        Only the samples `used` (n,) are compared, if given.
+        Only the samples `used` (n,) are compared, if given. Whether the fill is `known`: see `Bench.contributions`.
         """
         self.bench, self.used = bench, bench.used if used is None else used
-        several = bench.contributions(states)
+        several = bench.contributions(states, known)
         more = np.zeros((len(bench.z), 0)) if more is None else more
         noise = bench.sigma if steps is None else np.hypot(bench.sigma, steps)
         self.still = STILL + more.shape[1]
         self.k = self.still - STILL + several[0][0].shape[1]
         self.parts = [self.part(group, several, noise, more) for group in bench.motions()]
+        self.noise = noise
         self.forget()
 
     def forget(self) -> None:
         """Nothing is known yet of any sizes."""
         self.known: dict[tuple[int, int], Integrated] = {}
         self.factors: dict[Sizes, Array] = {}
+
+    def weighted(self, weights: Array) -> "Frame":
+        """The same contributions, where each sample counts by its weight (n,)."""
+        other = copy(self)
+        sigma = self.noise / np.sqrt(weights)
+        other.parts = [replace(part, sigma=sigma[part.rows]) for part in self.parts]
+        other.forget()
+        return other
 
     def hiding(self, at: slice, noise: float) -> "Frame":
         """The same contributions, with a further noise [N] in the samples `at`."""
@@ -201,8 +212,7 @@ class Frame:
 
     def log_z(self, reduced: Reduced, sizes: Sizes) -> float:
         """Evidence of the first of several errors; shared contributions and those of the other columns integrated out."""
-        L = self.factor(sizes)
-        pulled = solve_triangular(L, self.scale(sizes)[:, None] * reduced.shared_errors, lower=True, check_finite=False)
+        L, pulled = self.factor(sizes), self.pulled(reduced, sizes)
         inner = reduced.errors - pulled.T @ pulled
         left, log_det = float(inner[0, 0]), self.integrated(sizes).log_det + float(np.log(np.diag(L)).sum())
         if len(inner) > 1:
@@ -262,6 +272,28 @@ class Frame:
         for part, b in zip(self.parts, own, strict=True):
             out[part.rows] = errors[part.rows] - (part.columns @ self.expected(part, a, b, sizes))[:, 0]
         return out
+
+    def standardised(self, errors: Array, sizes: Sizes) -> Array:
+        """Errors (n,) [N] without all that is expected of the contributions and of what lasts, over the noise."""
+        left, out = self.left(errors, sizes), np.zeros(len(errors))
+        size = NUMBERS.lasting_sizes[sizes.lasting_at]
+        for part in self.parts:
+            some = left[part.rows]
+            if size > 0.0:
+                some = some - lasting(some, part.sigma, size * part.lasts, part.kept)
+            out[part.rows] = some / self.noise[part.rows]
+        return out
+
+    def inner(self, values: Array, sizes: Sizes) -> Array:
+        """Inner products (c, c) of values (n, c) [N] under the model."""
+        reduced = self.reduced(self.whitened(values, sizes.lasting_at), sizes)
+        pulled = self.pulled(reduced, sizes)
+        return np.asarray(reduced.errors - pulled.T @ pulled)
+
+    def pulled(self, reduced: Reduced, sizes: Sizes) -> Array:
+        """What the shared contributions take off (k, c)."""
+        scaled = self.scale(sizes)[:, None] * reduced.shared_errors
+        return np.asarray(solve_triangular(self.factor(sizes), scaled, lower=True, check_finite=False))
 
     def residuals(self, values: Array, sizes: Sizes) -> Array:
         """Columns (q, c) whose inner products are those of values (n, c) [N] under the model: linear in the values."""

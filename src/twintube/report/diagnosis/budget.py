@@ -1,0 +1,83 @@
+"""The budget of the error for people: a line for each contribution, a table, and a picture."""
+
+import textwrap
+
+from matplotlib.figure import Figure
+
+from twintube.common.readable import amount
+from twintube.core.effects import EFFECTS
+from twintube.diagnosis import Answer, Budget, Line
+from twintube.report.common import style
+from twintube.report.common.html_page import Picture, Section, Table
+from twintube.report.common.titles import title_of
+from twintube.report.diagnosis.repairs import REPAIRS
+
+SHOWN = 6  # contributions in terminal and picture
+# What a contribution is, and what tells it from its neighbours.
+WORDS = {
+    "fill": ("Oil level other than stated", "measure the oil that comes out of the damper"),
+    "law": ("The damper's own F-v curve", "identify this damper from records of it full"),
+    "oil_loss": ("Loss of force by missing oil", "records at more velocities in the degraded state"),
+    "friction": ("Friction", "a quasi-static record: what does not go with velocity is friction"),
+    "gas": ("Gas force", "hang the damper out and read the force on its rod at rest"),
+    "zero": ("Zero of the load cell", "hang the damper out and read the cell"),
+    "gain": ("Calibration of the load cell", "hang a known weight on the cell"),
+    "sampling": ("Delay and filter of the channels", "record both channels through equal filters"),
+    "temperature": ("Temperature", "record the temperature of the tube"),
+    "lasting": ("Errors that come and go", "look at where the error is, and at the rig"),
+}
+
+
+def words(line: Line) -> tuple[str, str]:
+    """What a line is, and what tells it from others."""
+    if line.name in WORDS:
+        return WORDS[line.name]
+    first = line.name.split("+")[0]
+    decides = EFFECTS[first].decides if first in EFFECTS else REPAIRS.get(first, "")
+    return title_of(line.name), decides
+
+
+def rating(line: Line) -> str:
+    """How large a line is beside what is usual."""
+    if line.ratio is None:
+        return "the cause that is named"
+    usual = "a finding" if line.finding else "within tolerance"
+    return f"{line.ratio:.1f} times what is usual: {usual}"
+
+
+def lines(budget: Budget) -> list[str]:
+    """The budget for the terminal."""
+    out = [f"The simulation is {amount(budget.error, 'N')} off (largest force {budget.peak:.0f} N):"]
+    shown = [line for line in budget.lines if line.force > 0.1 * budget.noise or line.finding][:SHOWN]
+    out += [f"  {words(line)[0]:<34} {amount(line.force, 'N'):>9}  {rating(line)}" for line in shown]
+    return [*out, f"  {'Noise':<34} {amount(budget.noise, 'N'):>9}"]
+
+
+def section(answer: Answer) -> Section:
+    """The part of the page with the budget."""
+    budget = answer.budget()
+    assert budget is not None, "asked where causes were sought"
+    rows = [[words(x)[0], amount(x.force, "N"), rating(x), words(x)[1]] for x in budget.lines]
+    rows.append(["Noise", amount(budget.noise, "N"), "what does not repeat", ""])
+    caption = (
+        "Root mean square of each contribution, under the likeliest answer. Contributions may cancel: they need not add up. "
+        "Usual is one standard deviation of what such dampers and benches have; a finding lies outside 90 % of them."
+    )
+    table = Table(("contribution", "size", "beside what is usual", "what tells it apart"), rows, caption, (1,))
+    text = [f"The simulation is {amount(budget.error, 'N')} off; the largest measured force is {budget.peak:.0f} N."]
+    drawn = Picture.drawn(lambda narrow: picture(budget, narrow), "From the whole error to the noise. Blue: a finding.")
+    return Section("budget", "What the error consists of", text=text, pictures=[drawn], tables=[table], open=True)
+
+
+def picture(budget: Budget, narrow: bool = False) -> Figure:
+    """Bars from the whole error to the noise."""
+    shown = budget.lines[:SHOWN]
+    bars = [("Whole error", budget.error, style.INK)]
+    bars += [(words(x)[0], x.force, style.BLUE if x.finding else style.FAINT) for x in shown]
+    bars.append(("Noise", budget.noise, style.FAINT))
+    figure, axes = style.grid(1, (9.0, 0.8 + 0.42 * len(bars)), narrow, most=1)
+    ax = axes.flat[0]
+    names = ["\n".join(textwrap.wrap(name, 24 if narrow else 44)) for name, _, _ in bars]
+    ax.barh(names[::-1], [size for _, size, _ in bars[::-1]], color=[colour for _, _, colour in bars[::-1]])
+    ax.set_xlabel("force, RMS [N]")
+    return figure
