@@ -95,7 +95,9 @@ def budget(stated: Search, search: Search, found: Found) -> Budget:
     lines += [Line(name, rms(force[used]), None, finding=True) for name, force in causes(search, found, errors)]
     total = rms((bench.measured - begun)[used])
     lines.sort(key=lambda line: -line.force)
-    return Budget(total, bench.peak, tuple(lines), rms(bench.sigma[used]))
+    # As of records that were left out: steps of the force, which nobody can place, are not the noise.
+    noise = float(np.sqrt(1.0 / np.mean(bench.sigma[used] ** -2.0)))
+    return Budget(total, bench.peak, tuple(lines), noise)
 
 
 def causes(search: Search, found: Found, errors: Array) -> Iterator[tuple[str, Array]]:

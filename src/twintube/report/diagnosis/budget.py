@@ -12,7 +12,8 @@ from twintube.report.common.html_page import Picture, Section, Table
 from twintube.report.common.titles import title_of
 from twintube.report.diagnosis.repairs import REPAIRS
 
-SHOWN = 6  # contributions in terminal and picture
+SHOWN = 6  # contributions
+TRACE = 0.1  # of the noise, below which a contribution is not shown
 # What a contribution is, and what tells it from its neighbours.
 WORDS = {
     "fill": ("Oil level other than stated", "measure the oil that comes out of the damper"),
@@ -45,11 +46,15 @@ def rating(line: Line) -> str:
     return f"{line.ratio:.1f} times what is usual: {usual}"
 
 
+def shown(budget: Budget) -> list[Line]:
+    """The largest lines that are no mere trace beside the noise."""
+    return [line for line in budget.lines if line.force > TRACE * budget.noise or line.finding][:SHOWN]
+
+
 def lines(budget: Budget) -> list[str]:
     """The budget for the terminal."""
     out = [f"The simulation is {amount(budget.error, 'N')} off (largest force {budget.peak:.0f} N):"]
-    shown = [line for line in budget.lines if line.force > 0.1 * budget.noise or line.finding][:SHOWN]
-    out += [f"  {words(line)[0]:<34} {amount(line.force, 'N'):>9}  {rating(line)}" for line in shown]
+    out += [f"  {words(line)[0]:<34} {amount(line.force, 'N'):>9}  {rating(line)}" for line in shown(budget)]
     return [*out, f"  {'Noise':<34} {amount(budget.noise, 'N'):>9}"]
 
 
@@ -57,7 +62,7 @@ def section(answer: Answer) -> Section:
     """The part of the page with the budget."""
     budget = answer.budget()
     assert budget is not None, "asked where causes were sought"
-    rows = [[words(x)[0], amount(x.force, "N"), rating(x), words(x)[1]] for x in budget.lines]
+    rows = [[words(x)[0], amount(x.force, "N"), rating(x), words(x)[1]] for x in shown(budget)]
     rows.append(["Noise", amount(budget.noise, "N"), "what does not repeat", ""])
     caption = (
         "Root mean square of each contribution, under the likeliest answer. Contributions may cancel: they need not add up. "
@@ -71,9 +76,8 @@ def section(answer: Answer) -> Section:
 
 def picture(budget: Budget, narrow: bool = False) -> Figure:
     """Bars from the whole error to the noise."""
-    shown = budget.lines[:SHOWN]
     bars = [("Whole error", budget.error, style.INK)]
-    bars += [(words(x)[0], x.force, style.BLUE if x.finding else style.FAINT) for x in shown]
+    bars += [(words(x)[0], x.force, style.BLUE if x.finding else style.FAINT) for x in shown(budget)]
     bars.append(("Noise", budget.noise, style.FAINT))
     figure, axes = style.grid(1, (9.0, 0.8 + 0.42 * len(bars)), narrow, most=1)
     ax = axes.flat[0]
