@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm
 from threadpoolctl import threadpool_limits
 
 from twintube.common.arrays import Array
@@ -343,7 +344,9 @@ def compared_with_reference(dataset: LoadedDataset, progress: Progress, catalogu
             best = int(preload), float(level), rather_tared(bench, which)
         else:
             several.append(state_of(bench, dataset.records, own, progress))
-            best = several[-1].posterior.best
+            found = several[-1].posterior
+            # Where the records leave the level open, the middle of what is left of it says least.
+            best = found.best[0], found.level if own[0].unknown else found.best[1], found.best[2]
         # What is stated is open to its tolerance in each hypothesis, and a tared cell since the reference is one.
         if own[0].unknown or own[0].reference:
             bench.in_state(which, *best[:2], best[2] and own[0].reference)
@@ -352,9 +355,7 @@ def compared_with_reference(dataset: LoadedDataset, progress: Progress, catalogu
     bench.with_edges(edges(bench))
     times = zip(dataset.records, bench.records, strict=True)
     acting = np.concatenate([~in_reference(record, r.time) for record, r in times])
-    later = {record.state for record in dataset.records if not record.reference}
-    asked_for = [one for one in several if one.state in later]
-    result = changes(bench, acting, likely_fills(bench, asked_for), progress, catalogue=catalogue)
+    result = changes(bench, acting, likely_fills(bench, several), progress, catalogue=catalogue)
     known = concluded(dataset, dataset.records, several, result, measured=None, progress=progress)
     return replace(known, tared=tuple(tared))
 
@@ -364,8 +365,17 @@ def labels(records: Sequence[Record]) -> list[str]:
     return [record.state for record in records]
 
 
-def as_filled(bench: Bench, name: str, other: Mapping[str, tuple[int, float]] | None = None, log_prior: float = 0.0) -> Fill:
-    """The fill of a bench, levels open to the tolerance of a fill; of some states another preload and level."""
+def as_filled(
+    bench: Bench,
+    name: str,
+    other: Mapping[str, tuple[int, float]] | None = None,
+    log_prior: float = 0.0,
+    wide: Mapping[str, float] | None = None,
+) -> Fill:
+    """The fill of a bench, levels open to the tolerance of a fill; of some states another preload and level.
+
+    `wide` are standard deviations of levels that nobody has stated.
+    """
     other = other or {}
     levels, values = [], {}
     for label, which in bench.labels.items():
@@ -373,9 +383,16 @@ def as_filled(bench: Bench, name: str, other: Mapping[str, tuple[int, float]] | 
         if label in other:
             values[f"{GAS}:{label}"] = float(gas)
         if level < 1.0 or label in other:
-            levels.append(Strength(f"{LEVEL}:{label}", "normal", NUMBERS.level_tolerance, level, LEAST_LEVEL, 1.0))
+            scale = (wide or {}).get(label, NUMBERS.level_tolerance)
+            levels.append(Strength(f"{LEVEL}:{label}", "normal", scale, level, LEAST_LEVEL, 1.0))
     delay = Strength(DELAY, "normal", bench.delayed, 0.0, -MOST_DELAY, MOST_DELAY)
     return Fill((*levels, delay), values, log_prior, name)
+
+
+def spread(known: StatePosterior) -> float:
+    """Standard deviation of a level that the records tell, no less than the tolerance of a fill."""
+    low, high = known.interval()
+    return max(NUMBERS.level_tolerance, (high - low) / (2.0 * float(norm.ppf(0.95))))
 
 
 def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill]:
@@ -386,7 +403,8 @@ def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill
     n = NUMBERS
     told = [one for one in several if one.stated.anything]
     doubtful = [one for one in told if one.posterior.as_stated < n.credible]
-    out = [as_filled(bench, "as_stated", log_prior=float(np.log(1.0 - n.misstated)) if told else 0.0)]
+    wide = {one.state: spread(one.posterior) for one in several if not one.stated.anything}
+    out = [as_filled(bench, "as_stated", None, float(np.log(1.0 - n.misstated)) if told else 0.0, wide)]
     # Of a fill that nobody knows the preload may be there or lost.
     for one in several:
         gas = one.posterior.best[0]
@@ -397,9 +415,9 @@ def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill
             )
     if doubtful:
         # Anywhere between the least level and all oil, with preload and without: the share of it that a tolerance holds.
-        wide = np.sqrt(2.0 * np.pi) * n.level_tolerance / (1.0 - n.level_low)
-        log_prior = float(np.log(n.misstated) + len(doubtful) * np.log(0.5 * (1.0 - n.full) * wide))
-        other_fill = as_filled(bench, "another", {one.state: one.posterior.free for one in doubtful}, log_prior)
+        share = np.sqrt(2.0 * np.pi) * n.level_tolerance / (1.0 - n.level_low)
+        log_prior = float(np.log(n.misstated) + len(doubtful) * np.log(0.5 * (1.0 - n.full) * share))
+        other_fill = as_filled(bench, "another", {one.state: one.posterior.free for one in doubtful}, log_prior, wide)
         out.append(replace(other_fill, other=True))
     ways = [{}] if has_own(bench.given) else [{}, *(values_of(name) for name in VARIED if name != DEFAULT)]
     return [
