@@ -65,9 +65,8 @@ def test_a_column_of_a_hypothesis_is_one_more_contribution(frame: Frame) -> None
     assert found == pytest.approx(multivariate_normal(cov=covariance).logpdf(errors[used]), rel=1e-8)
 
 
-def test_residuals_have_the_inner_products_of_the_model(frame: Frame) -> None:
+def test_inner_products_are_those_of_the_model(frame: Frame) -> None:
     values = np.column_stack([frame.bench.measured - frame.bench.forces({}), frame.bench.v])
     used = np.sort(np.concatenate([part.rows for part in frame.parts]))
     covariance = dense(frame, USUAL)[0][np.ix_(used, used)]
-    rows = frame.residuals(values, USUAL)
-    assert rows.T @ rows == pytest.approx(values[used].T @ np.linalg.solve(covariance, values[used]), rel=1e-7)
+    assert frame.inner(values, USUAL) == pytest.approx(values[used].T @ np.linalg.solve(covariance, values[used]), rel=1e-7)

@@ -294,11 +294,3 @@ class Frame:
         """What the shared contributions take off (k, c)."""
         scaled = self.scale(sizes)[:, None] * reduced.shared_errors
         return np.asarray(solve_triangular(self.factor(sizes), scaled, lower=True, check_finite=False))
-
-    def residuals(self, values: Array, sizes: Sizes) -> Array:
-        """Columns (q, c) whose inner products are those of values (n, c) [N] under the model: linear in the values."""
-        y, a, own = self.explained(values, sizes)
-        rows = [a, *own]
-        for part, w, some, b in zip(self.parts, self.white(sizes.lasting_at), y, own, strict=True):
-            rows.append(some - w.columns @ self.expected(part, a, b, sizes))
-        return np.concatenate(rows)

@@ -26,7 +26,7 @@ def zero_drift(problem: Problem) -> tuple[Problem, list[str]]:
     drift = max(drift, own_zero(problem, means, RULES.usual_zeros * drift) / RULES.usual_zeros)
     share = drift / largest(problem.records)
     size = f"about {drift:.2g} N, {100 * share:.2g} % of the largest force"
-    text = f"the zero of the force channel differs from record to record by {size}; every comparison allows for it"
+    text = f"the zero of the force channel differs from record to record by {size}: read it before each record"
     return problem.with_drift(drift), [text] if share > RULES.small_zero else []
 
 
