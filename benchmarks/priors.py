@@ -16,7 +16,7 @@ from typing import Any
 from unittest.mock import patch
 
 from benchmarks.diagnosis import folder_of
-from twintube.diagnosis import Answer, answer, changes
+from twintube.diagnosis import Answer, answer, changes, priors
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.contract import as_json
 from twintube.diagnosis.measurement.faults import read
@@ -71,12 +71,12 @@ def varied(variant: Variant, put_right: Callable[..., Measured]) -> Iterator[Non
         return [scaled(m, variant.strengths) for m in usual(bench, catalogue)]
 
     usual, law = changes.mechanisms, NUMBERS.law_usual
-    with patch.object(changes, "mechanisms", several), patch.object(answering, "put_right", put_right):
-        object.__setattr__(NUMBERS, "law_usual", variant.law * law)  # it is frozen: nothing else changes a prior
-        try:
-            yield
-        finally:
-            object.__setattr__(NUMBERS, "law_usual", law)
+    with (
+        patch.object(changes, "mechanisms", several),
+        patch.object(answering, "put_right", put_right),
+        priors({"law_usual": variant.law * law}),
+    ):
+        yield
 
 
 def example(folder: Path) -> None:

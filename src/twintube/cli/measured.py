@@ -17,6 +17,7 @@ from twintube.common.words import counted
 from twintube.errors import InputError
 
 if TYPE_CHECKING:
+    from twintube.diagnosis import Answer
     from twintube.identification.dataset import Result
 
 
@@ -179,6 +180,9 @@ def diagnose(
     output: Annotated[
         Path, typer.Option(metavar="FOLDER", help="For the answer, the extended parameter set and the report.")
     ] = Path("diagnosis"),
+    priors: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="TOML file with other numbers of the method, see docs/state.md.")
+    ] = None,
 ) -> None:
     """Find a damper's state, what changed, or what is wrong.
 
@@ -187,20 +191,29 @@ def diagnose(
     """
     from twintube import diagnosis
     from twintube.common.bars import Bar
-    from twintube.dampers import to_toml
-    from twintube.diagnosis.contract import as_json
     from twintube.report.common.titles import in_words
-    from twintube.report.diagnosis.page import lines, write_report
 
     made_from = {"command": "diagnose", "dataset": str(dataset.resolve())}
-    check_folder(output, ("diagnosis.json",), made_from)
-    with Bar(bar_format="{elapsed}  {desc}", leave=False) as bar:
+    if priors is not None:
+        made_from["priors"] = str(priors.resolve())
+    with diagnosis.priors(priors or {}):
+        check_folder(output, ("diagnosis.json",), made_from)
+        with Bar(bar_format="{elapsed}  {desc}", leave=False) as bar:
 
-        def progress(text: str) -> None:
-            bar.set_description_str(in_words(text))
+            def progress(text: str) -> None:
+                bar.set_description_str(in_words(text))
 
-        found = diagnosis.diagnose(dataset, progress)
-    mark_folder(output, made_from)
+            found = diagnosis.diagnose(dataset, progress)
+        mark_folder(output, made_from)
+        write_answer(found, output)
+
+
+def write_answer(found: "Answer", output: Path) -> None:
+    """Write the files of an answer, and say it."""
+    from twintube.dampers import to_toml
+    from twintube.diagnosis.contract import as_json
+    from twintube.report.diagnosis.page import lines, write_report
+
     *sentences, step = lines(found)
     content = as_json(found) | {"sentence": " ".join(sentences), "next_step": step.removeprefix("Next: ")}
     write_text(output / "diagnosis.json", json.dumps(content, indent=1, allow_nan=False) + "\n")

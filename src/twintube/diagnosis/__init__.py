@@ -1,6 +1,6 @@
 """What the records say of the damper's state: one probability model, the model's own error and the bench in it.
 
-numbers        all priors, in physical units, with their sources
+numbers        all priors, in physical units, with their sources; priors: others, as a user has them
 discrepancy    D: what a damper's law is off, and what degradation is off
 bench          the records under a simulation, and what the bench may add to their forces
 memory, sizes  noise with memory; how large the model's own errors are
@@ -17,5 +17,6 @@ answer         from a dataset to its answer; contract: diagnosis.json
 
 from twintube.diagnosis.answer import Answer, StateAnswer, answer, diagnose, states
 from twintube.diagnosis.budget import Budget, Line
+from twintube.diagnosis.priors import priors
 
-__all__ = ["Answer", "Budget", "Line", "StateAnswer", "answer", "diagnose", "states"]
+__all__ = ["Answer", "Budget", "Line", "StateAnswer", "answer", "diagnose", "priors", "states"]

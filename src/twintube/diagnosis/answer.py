@@ -46,6 +46,7 @@ SAMPLED = {"sample_mean": 0.5}  # a sample is a point of the force, a mean over 
 
 JUDGED = 4  # the likeliest hypotheses, whose predictions of left-out records are compared
 LEAST_LEVEL = 0.05  # [1] numerics
+BUILD_UP = "tau_build"  # of the steps of the force
 MOST_DELAY = 0.02  # [s] numerics
 
 VERDICTS = {NONE: "none", STATE: "state", UNKNOWN: "unexplained", "effect": "cause", "fault": "measurement_fault"}
@@ -352,7 +353,7 @@ def compared_with_reference(dataset: LoadedDataset, progress: Progress, catalogu
             bench.in_state(which, *best[:2], best[2] and own[0].reference)
         if own[0].reference and best[0] and best[2]:
             tared += [record.name for record in own]
-    bench.with_edges(edges(bench))
+    bench.with_edges(edges(bench, bench.states))
     times = zip(dataset.records, bench.records, strict=True)
     acting = np.concatenate([~in_reference(record, r.time) for record, r in times])
     result = changes(bench, acting, likely_fills(bench, several), progress, catalogue=catalogue)
@@ -374,6 +375,8 @@ def as_filled(
 ) -> Fill:
     """The fill of a bench, levels open to the tolerance of a fill; of some states another preload and level.
 
+    When and how fast the force is seen to step is open beside it.
+
     `wide` are standard deviations of levels that nobody has stated.
     """
     other = other or {}
@@ -386,7 +389,8 @@ def as_filled(
             scale = (wide or {}).get(label, NUMBERS.level_tolerance)
             levels.append(Strength(f"{LEVEL}:{label}", "normal", scale, level, LEAST_LEVEL, 1.0))
     delay = Strength(DELAY, "normal", bench.delayed, 0.0, -MOST_DELAY, MOST_DELAY)
-    return Fill((*levels, delay), values, log_prior, name)
+    built = Strength(BUILD_UP, "half", NUMBERS.built, 0.0, 0.0, MOST_DELAY)
+    return Fill((*levels, delay, built), values, log_prior, name)
 
 
 def spread(known: StatePosterior) -> float:
@@ -430,11 +434,11 @@ def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill
     ]  # fmt: skip
 
 
-def edges(bench: Bench) -> list[Array]:
+def edges(bench: Bench, states: Array) -> list[Array]:
     """What the steps of the force leave open in each record (n,) [N]: where in its interval a step falls nobody knows."""
     filled = [
         replace(record, oil_level=float(level), gas_preload=int(gas))
-        for record, (level, gas, *_) in zip(bench.records, bench.states, strict=True)
+        for record, (level, gas, *_) in zip(bench.records, states, strict=True)
     ]
     return [record.edges for record in with_edges(Problem(bench.given, filled)).records]
 
@@ -453,6 +457,12 @@ def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress, cata
     records = [record for record in dataset.records if record.name not in measured.odd]
     bench = bench_of(measured, records)
     several = [state_of(bench, records, own, progress) for own in fillings(records)]
+    doubted = bench.states.copy()
+    for one in several:
+        if one.posterior.as_stated < NUMBERS.credible:
+            doubted[bench.labels[one.state], :2] = one.posterior.free[::-1]
+    # Where the steps of the force lie in another fill is open, too.
+    bench.with_edges([np.maximum(r.edges, other) for r, other in zip(bench.records, edges(bench, doubted), strict=True)])
     acting = np.ones(len(bench.z), dtype=bool)
     result = changes(bench, acting, likely_fills(bench, several), progress, catalogue=catalogue)
     return concluded(dataset, records, several, result, measured=measured, progress=progress)

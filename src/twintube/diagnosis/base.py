@@ -7,7 +7,7 @@ from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.mechanisms import Mechanism
 from twintube.diagnosis.numbers import NUMBERS
-from twintube.diagnosis.search import SLOPE, Fill, Found, Search
+from twintube.diagnosis.search import BETTER, SLOPE, Fill, Found, Search
 
 
 class Base:
@@ -25,7 +25,7 @@ class Base:
         every = np.ones(len(self.acting), dtype=bool)
         alone = Search(
             self.bench,
-            Frame(self.bench, states_of(self.bench, self.fill), more=set_up(self.bench, self.acting), known=True),
+            Frame(self.bench, self.bench.filled(begun(self.fill)), more=set_up(self.bench, self.acting), known=True),
             every,
             self.fill,
         )
@@ -43,17 +43,26 @@ class Base:
         """Whether a strength of a mechanism is among theirs."""
         return bool({s.name for s in mechanism.strengths} & {s.name for s in self.joint.strengths})
 
-    def search(self, fill: Fill) -> Search:
-        """The search for changes beside it, in a fill."""
+    def search(self, fill: Fill, near: Found | None = None) -> Search:
+        """The search for changes beside it, in a fill; `near` is what was found in it before."""
         more = slopes_of(self.bench, self.joint, self.at)
         if not self.acting.all():
             more = np.hstack([more, set_up(self.bench, self.acting)])
-        return Search(self.bench, Frame(self.bench, states_of(self.bench, fill), more=more, known=True), self.acting, fill)
+        levels = begun(fill) if near is None else near.levels
+        frame = Frame(self.bench, self.bench.filled(levels), more=more, known=True)
+        return Search(self.bench, frame, self.acting, fill, near)
+
+    def further(self, search: Search) -> Search:
+        """A search with the fill sought farther off, and with what the steps of the force leave open there."""
+        found = search.with_optimum()
+        while (better := self.search(search.fill, found.none).with_optimum()).none.log_z > found.none.log_z + BETTER:
+            found = better
+        return found
 
 
-def states_of(bench: Bench, fill: Fill) -> Array:
-    """The states (r, 4) of the records, as a fill has them."""
-    return bench.filled({**{s.name: s.centre for s in fill.levels}, **fill.values})
+def begun(fill: Fill) -> dict[str, float]:
+    """The fill from which a search begins."""
+    return {**{s.name: s.value(u) for s, u in zip(fill.levels, fill.start.tolist(), strict=True)}, **fill.values}
 
 
 def slopes_of(bench: Bench, joint: Mechanism, at: Array) -> Array:

@@ -26,6 +26,7 @@ NONE, STATE, UNKNOWN = "none", "state", "unknown"
 MOST = 6  # mechanisms of a base
 PAIRED = 5  # the most likely effects, of which two may act at once
 CLOSE = 20.0  # logarithm of the odds, to which ways of an effect are looked at again; numerics
+FAR = 300.0  # the like, from which a fill is not looked at further; numerics
 WORTH = 1.0  # logarithm of the odds from which a change is compared with what always acts; numerics
 
 
@@ -122,7 +123,7 @@ def beside_a_base(
     always = float(np.log(NUMBERS.lacking / (1.0 - NUMBERS.lacking) / max(1, len({m.effect for m in causes}))))
     base, every = Base(bench, acting, fills[0]), np.ones(len(acting), dtype=bool)
     while True:
-        searches = [base.search(fill) for fill in fills]
+        searches = in_fills(base, fills)
         lead = likeliest(searches)
         found = searched(lead, causes, progress)
         if acting.all() or len(base.mechanisms) == MOST:
@@ -134,6 +135,13 @@ def beside_a_base(
         if best is None or weight(best) + always < max(lead.none.log_z, *(weight(f) for f in found)):
             return searches, base, found
         base.add(best)
+
+
+def in_fills(base: Base, fills: Sequence[Fill]) -> list[Search]:
+    """The search in each fill; one that is far from the likeliest of its kind is left as it is."""
+    several = list(base.bench.threads.map(base.search, fills))
+    best = {other: max((s.none.log_z for s in several if s.fill.other is other), default=0.0) for other in (False, True)}
+    return list(base.bench.threads.map(lambda s: base.further(s) if s.none.log_z > best[s.fill.other] - FAR else s, several))
 
 
 def searched(search: Search, causes: Sequence[Mechanism], progress: Callable[[str], None]) -> list[Found]:

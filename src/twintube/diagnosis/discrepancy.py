@@ -53,15 +53,15 @@ class Discrepancy:
         rows = np.eye(len(inner))[np.isin(inner, FINE)]
         between = np.column_stack([np.interp(np.abs(speed), inner, row) for row in rows])
         z = stroke / self.span
-        along = [np.ones_like(z), NUMBERS.law_stroke * z, NUMBERS.law_stroke * (1.5 * z**2 - 0.5)]
+        along = [np.ones_like(z), *(NUMBERS.law_stroke * p for p in (z, 1.5 * z**2 - 0.5, 2.5 * z**3 - 1.5 * z))]
         size = self.size(speed, fluid, turn)
         passed, gone = (np.abs(np.diff(x, prepend=x[0])) for x in (time, stroke))
         late = [lagged(fluid, np.exp(-passed / tau)) - fluid for tau in NUMBERS.law_lags]
         late += [lagged(fluid, np.exp(-gone / way)) - fluid for way in NUMBERS.law_ways]
-        parts = []
+        parts: list[Array] = []
         for side in (speed >= 0.0, speed < 0.0):
             parts += [hats * (side * size * p)[:, None] for p in along]
-            parts.append(between * (side * size * NUMBERS.law_knee)[:, None])
+            parts += [between * (side * size * NUMBERS.law_knee)[:, None], (side * size * NUMBERS.law_whole)[:, None]]
             parts += [(side * x / NUMBERS.law_late)[:, None] for x in late]
         return np.hstack(parts)
 

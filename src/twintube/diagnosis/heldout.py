@@ -41,27 +41,26 @@ class Predicted:
 
 
 def predicted(search: Search, found: Found, records: Sequence[int]) -> Predicted:
-    """Each of some records predicted from all others: strengths and fill by a step of Gauss and Newton from those of all."""
+    """Each of some records predicted from all others: forces are linear in strengths and fill about those of all records."""
     bench, m = search.bench, found.mechanism
     whole = search.frame.weighted(found.weights)
     at = search.trial(m, found.at, found.exact)
-    slopes = search.slopes(m, at) if len(found.at) else None
+    values = at.values
+    if len(at.u):
+        # What the strengths may be is a contribution like others, of size one about the middle of their priors.
+        slopes = search.slopes(m, at)
+        values = np.column_stack([values[:, 0] + slopes @ at.u, values[:, 1:], slopes])
+    standardised = whole.standardised(without(whole, values, found.sizes), found.sizes)
+    every = density(whole, values, found.sizes)
     errors, densities = [], []
     for i in records:
         span = bench.slices[i]
         hidden = whole.hiding(span, UNSEEN)
-        values = at.values
-        if slopes is not None:
-            values = search.stepped(hidden, m, at, found.sizes, exact=found.exact, slopes=slopes)[0].values
         rows = span.start + np.flatnonzero(bench.used[span])
         left = hidden.left(without(hidden, values, found.sizes), found.sizes)[rows]
         errors.append(weighted_rms(left, bench.sigma[rows]))
-        standardised = whole.standardised(without(whole, values, found.sizes), found.sizes)[rows]
-        densities.append(
-            density(whole, values, found.sizes)
-            - density(hidden, values, found.sizes)
-            + tails(standardised, found.weights[rows])
-        )
+        others = density(hidden, values, found.sizes)
+        densities.append(every - others + tails(standardised[rows], found.weights[rows]))
     return Predicted(np.array(errors), np.array(densities))
 
 

@@ -3,15 +3,16 @@
 None of them is a threshold. The verdict follows from the posterior; what stands here is what is known before the data.
 """
 
+import math
 from dataclasses import dataclass, field, fields
 from typing import Any, TypeVar
 
 T = TypeVar("T")
 
 
-def declared(value: T, unit: str, meaning: str, source: str) -> Any:
+def declared(value: T, unit: str, meaning: str, source: str, most: float = math.inf) -> Any:
     """A number of the method with what a reader must know of it."""
-    return field(default=value, metadata={"unit": unit, "meaning": meaning, "source": source})
+    return field(default=value, metadata={"unit": unit, "meaning": meaning, "source": source, "most": most})
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,9 @@ class Numbers:
         0.03, "1", "scale of the half-normal prior of that size", "production tolerance of dampers, +-5 to 10 % of the force"
     )
     law_octaves: float = declared(1.5, "1", "octaves of speed over which D is alike", "a valve has two or three regimes")
+    law_whole: float = declared(
+        2.0, "1", "D at all speeds alike, over its share within octaves", "tolerance: level 5 to 10 %, shape some per cent"
+    )
     law_knee: float = declared(0.5, "1", "share of D within an octave", "the knee of a blow-off")
     law_stroke: float = declared(
         0.5, "1", "share of D that goes with the stroke", "guides and seals are alike along the tube"
@@ -39,6 +43,9 @@ class Numbers:
     law_late: float = declared(0.01, "1", "size of D with which such a lag goes", "hysteresis shows in every real damper")
     law_ways: tuple[float, ...] = declared(
         (1e-3, 5e-3), "m", "strokes over which its force builds up", "check valves close within millimetres, judged"
+    )
+    built: float = declared(
+        2e-4, "s", "time over which a step of the force builds up", "valves, and steps of a simulation; judged"
     )
     loss: float = declared(
         0.3,
@@ -89,12 +96,12 @@ class Numbers:
         4.0, "1", "degrees of freedom of Student's noise", "usual for heavy tails: Lange, Little and Taylor 1989"
     )
     lacking: float = declared(
-        0.5, "1", "probability that a damper or its bench always has something that the model lacks", "judged"
+        0.5, "1", "probability that a damper or its bench always has something that the model lacks", "judged", most=0.99
     )
     # What may have happened
-    unchanged: float = declared(0.5, "1", "probability that nothing has happened", "judged")
-    two: float = declared(0.1, "1", "probability that two causes act, where any does", "judged")
-    other: float = declared(0.05, "1", "probability of something that is not in the catalogue", "judged")
+    unchanged: float = declared(0.5, "1", "probability that nothing has happened", "judged", most=0.99)
+    two: float = declared(0.1, "1", "probability that two causes act, where any does", "judged", most=0.99)
+    other: float = declared(0.05, "1", "probability of something that is not in the catalogue", "judged", most=0.99)
     change_sizes: tuple[float, ...] = declared(
         (0.01, 0.03, 0.1, 0.3), "1", "sizes of a free change tried, share of the fluid force", "each as likely"
     )
@@ -104,9 +111,15 @@ class Numbers:
         "force of a cause over the noise, or over the largest one, below which it stands in the budget alone",
         "convention",
     )
-    credible: float = declared(0.9, "1", "probability that the hypotheses in an answer hold together", "convention")
+    credible: float = declared(
+        0.9, "1", "probability that the hypotheses in an answer hold together", "convention", most=0.99
+    )
     implausible: float = declared(
-        0.01, "1", "chance of a size of the model's errors below which a hypothesis that needs it is no answer", "convention"
+        0.01,
+        "1",
+        "chance of a size of the model's errors below which a hypothesis that needs it is no answer",
+        "convention",
+        most=0.99,
     )
     # The bench
     zero: float = declared(0.002, "1", "zero of a record, share of the largest force", "load cell, 0.2 % of full scale")
@@ -115,6 +128,7 @@ class Numbers:
         "1",
         "probability that the load cell was set to zero with the damper in it",
         "as often as a fill is misstated; judged",
+        most=0.99,
     )
     gain: float = declared(0.005, "1", "gain of a record", "load cell of class 0.5")
     late: float = declared(2e-4, "s", "delay of the force channel", "filters of a measuring amplifier at 1 to 2 kHz")
@@ -132,9 +146,15 @@ class Numbers:
     level_tolerance: float = declared(
         0.015, "1", "oil level read off the steps of the force", "dead length to 2 mm, oil filled to 1 %"
     )
-    full: float = declared(0.25, "1", "probability that a damper whose fill nobody knows has lost no oil", "judged")
+    full: float = declared(
+        0.25, "1", "probability that a damper whose fill nobody knows has lost no oil", "judged", most=0.99
+    )
     misstated: float = declared(
-        0.1, "1", "probability that a fill is not as the file says", "oil is lost unseen, labels are mixed up; judged"
+        0.1,
+        "1",
+        "probability that a fill is not as the file says",
+        "oil is lost unseen, labels are mixed up; judged",
+        most=0.99,
     )
     degraded: float = declared(
         0.003,
@@ -142,7 +162,7 @@ class Numbers:
         "white error where states are compared, share of the largest force",
         "with oil missing the paper's model is up to 10 % off its measurement (Fig. 33)",
     )
-    level_low: float = declared(0.2, "1", "least oil level sought", "below it no damper works")
+    level_low: float = declared(0.2, "1", "least oil level sought", "below it no damper works", most=0.99)
 
 
 NUMBERS = Numbers()
@@ -150,4 +170,11 @@ NUMBERS = Numbers()
 
 def listed() -> list[dict[str, Any]]:
     """Name, value, unit, meaning and source of all numbers."""
-    return [{"name": item.name, "value": getattr(NUMBERS, item.name), **item.metadata} for item in fields(NUMBERS)]
+    return [
+        {
+            "name": item.name,
+            "value": getattr(NUMBERS, item.name),
+            **{k: item.metadata[k] for k in ("unit", "meaning", "source")},
+        }
+        for item in fields(NUMBERS)
+    ]

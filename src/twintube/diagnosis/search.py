@@ -21,6 +21,7 @@ from twintube.diagnosis.sizes import USUAL, Sizes
 TRIED = (0.05, 0.3, 1.5, 5.0)  # coordinates of a strength from which the best is sought: beyond is a millionth of its prior
 SPREAD = (-2.0, -1.0, 0.0, 1.0, 2.0)  # the like of a place, or of a logarithm
 STARTS = 2  # from which the best is sought
+KEPT = 5  # places farther off that are looked at
 ROUNDS = 12  # of strengths, weights and sizes of the model's own errors in turn
 SIZED = (1, 4, 8)  # rounds in which the sizes are sought
 ROUGHLY = 5  # rounds where what is most likely is looked at again
@@ -44,6 +45,11 @@ class Fill:
     log_prior: float = 0.0
     name: str = "as_stated"
     other: bool = False  # than stated
+
+    @property
+    def start(self) -> Array:
+        """Coordinates (k,) from which the levels are sought."""
+        return np.array([0.5 if s.kind == "half" else 0.0 for s in self.levels])
 
 
 @dataclass(frozen=True)
@@ -76,12 +82,19 @@ class Found:
 class Search:
     """Mechanisms in the samples `acting` (n,) of a bench, in a fill; in the others nothing happens."""
 
-    def __init__(self, bench: Bench, frame: Frame, acting: Array, fill: Fill | None = None) -> None:
+    def __init__(
+        self, bench: Bench, frame: Frame, acting: Array, fill: Fill | None = None, near: Found | None = None
+    ) -> None:
+        """The fill without a mechanism is sought from the middle of what is open, or `near` what was found before."""
         self.bench, self.frame, self.acting, self.fill = bench, frame, acting, fill or Fill()
         self.every = bool(acting.all())
-        start, weights = np.zeros(len(self.fill.levels)), np.ones(len(bench.z))
-        self.none = self.climbed(NOTHING, start, USUAL, weights)
+        start = (self.fill.start, USUAL, np.ones(len(bench.z))) if near is None else (near.at, near.sizes, near.weights)
+        self.none = self.climbed(NOTHING, *start)
+
+    def with_optimum(self) -> "Search":
+        """The search, with the fill without a mechanism sought farther off, too."""
         self.none = self.refined(self.none)
+        return self
 
     def filled(self, u: Array) -> dict[str, float]:
         """The fill at the coordinates of the levels."""
@@ -133,12 +146,10 @@ class Search:
             columns.append((self.forces(m, b)[1] - self.forces(m, a)[1]) / (b[i] - a[i]))
         return np.column_stack(columns)
 
-    def quadratic(
-        self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes, slopes: Array | None = None
-    ) -> tuple[Array, Array]:
+    def quadratic(self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes) -> tuple[Array, Array]:
         """Curvature (k, k) and slope (k,) of the logarithm of the posterior, all contributions integrated out."""
         x = at.values.shape[1]
-        inner = frame.inner(np.hstack([at.values, self.slopes(m, at) if slopes is None else slopes]), sizes)
+        inner = frame.inner(np.hstack([at.values, self.slopes(m, at)]), sizes)
         if x > 1:
             own = np.eye(x - 1) + inner[1:x, 1:x]
             rest = np.r_[0, x : len(inner)]
@@ -160,14 +171,12 @@ class Search:
                 break
         return self.found_at(m, at, sizes, weights, exact=exact, rounds=rounds)
 
-    def stepped(
-        self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes, *, exact: bool, slopes: Array | None = None
-    ) -> tuple[Trial, float]:
+    def stepped(self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes, *, exact: bool) -> tuple[Trial, float]:
         """A step of Gauss and Newton, as far as it is better, and what it gains of the logarithm of the posterior."""
         if not len(at.u):
             return at, 0.0
         low, high = self.ends(m)
-        H, g = self.quadratic(frame, m, at, sizes, slopes)
+        H, g = self.quadratic(frame, m, at, sizes)
         L = np.linalg.cholesky(H)
         step = lsq_linear(L.T, np.linalg.solve(L, g), (low - at.u - 1e-12, high - at.u + 1e-12)).x
         if float(step @ g - 0.5 * step @ H @ step) < ENOUGH:
@@ -190,8 +199,9 @@ class Search:
             spread = np.sqrt(np.diag(np.linalg.inv(H)))
             log_z += -0.5 * float(u @ u) - 0.5 * float(np.linalg.slogdet(H)[1])
         # Of a strength that cannot be negative only the part of the volume above zero counts, and twice its density.
-        several = list(zip(m.strengths, u[:k], spread[:k], strict=True))
-        log_z += sum(float(np.log(2.0) + norm.logcdf(x / sd)) for s, x, sd in several if s.kind == "half")
+        every = list(zip((*m.strengths, *self.fill.levels), u, spread, strict=True))
+        log_z += sum(float(np.log(2.0) + norm.logcdf(x / sd)) for s, x, sd in every if s.kind == "half")
+        several = every[:k]
         sd = {s.name: abs(s.value(x + d) - s.value(x - d)) / 2.0 for s, x, d in several}
         return Found(
             m, float(log_z), exact, u, m.values(u[:k]), sd, self.filled(u[k:]), heavy.sizes, heavy.weights, at.base, at.force
@@ -239,21 +249,31 @@ class Search:
 
     def refined(self, found: Found) -> Found:
         """What is found where the samples count anew at places farther off: where forces step, slopes show no way there."""
-        m, k = found.mechanism, len(found.mechanism.strengths)
+        m = found.mechanism
         while True:
-            places = [found.at + (by - 1.0) * found.at * unit for unit in np.eye(len(found.at))[:k] for by in MOVED]
-            places += [
-                found.at + sign * by * unit for unit in np.eye(len(found.at))[k:] for by in OPENED for sign in (-1.0, 1.0)
-            ]
             now = self.weighed(m, found.at, found)
-            tried = [(self.weighed(m, u, found), u) for u in (np.clip(u, *self.ends(m)) for u in places)]
-            best = max(tried, key=lambda one: one[0], default=(now, found.at))
+            best = max(((self.weighed(m, u, found), u) for u in self.likely(found)), key=lambda one: one[0])
             if best[0] < now + BETTER:
                 return found
             other = self.inexact(self.climbed(m, best[1], found.sizes, found.weights))
             if other.log_z < found.log_z + BETTER:
                 return found
             found = other
+
+    def likely(self, found: Found) -> list[Array]:
+        """The likeliest coordinates (k,) farther off, by all samples and by those that count where something was found."""
+        m, k, unit = found.mechanism, len(found.mechanism.strengths), np.eye(len(found.at))
+        places = [found.at + (by - 1.0) * found.at * one for one in unit[:k] for by in MOVED]
+        places += [found.at + sign * by * one for one in unit[k:] for by in OPENED for sign in (-1.0, 1.0)]
+        places = [np.clip(u, *self.ends(m)) for u in places]
+        if not places:
+            return [found.at]
+        errors = self.bench.measured[:, None] - np.column_stack([self.forces(m, u)[1] for u in places])
+        best: dict[int, None] = {}
+        for frame in (self.frame, self.frame.weighted(found.weights)):
+            misfit = np.diag(frame.inner(errors, found.sizes)) + np.array([float(u @ u) for u in places])
+            best |= dict.fromkeys(np.argsort(misfit)[:KEPT].tolist())
+        return [places[i] for i in best]
 
     def weighed(self, m: Mechanism, u: Array, near: Found) -> float:
         """The logarithm of the posterior where the samples count anew, up to a constant."""
