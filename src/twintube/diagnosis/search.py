@@ -60,6 +60,7 @@ class Trial:
     base: Array  # (n,) [N] forces without the mechanism
     force: Array  # (n,) [N]
     values: Array  # (n, 1 + x) [N] errors, and what the mechanism may be off its law
+    slopes: list[Array] = field(default_factory=list, compare=False)  # once they are known
 
 
 @dataclass(frozen=True)
@@ -135,21 +136,26 @@ class Search:
         reduced = frame.reduced(frame.whitened(at.values, sizes.lasting_at), sizes)
         return 0.5 * float(at.u @ at.u) - frame.log_z(reduced, sizes)
 
-    def slopes(self, m: Mechanism, at: Trial) -> Array:
-        """Derivatives (n, k) [N] of the forces by the coordinates."""
-        low, high = self.ends(m)
-        columns = []
-        for i, x in enumerate(at.u):
-            step = SLOPE * max(abs(x), 0.1)
-            a, b = at.u.copy(), at.u.copy()
-            a[i], b[i] = max(low[i], x - step), min(high[i], x + step)
-            columns.append((self.forces(m, b)[1] - self.forces(m, a)[1]) / (b[i] - a[i]))
-        return np.column_stack(columns)
+    def slopes(self, m: Mechanism, at: Trial, rough: bool = False) -> Array:
+        """Derivatives (n, k) [N] of the forces by the coordinates; `rough` ones look to one side only."""
+        if not at.slopes:
+            low, high = self.ends(m)
+            columns = []
+            for i, x in enumerate(at.u):
+                step = SLOPE * max(abs(x), 0.1)
+                a, b = at.u.copy(), at.u.copy()
+                b[i] = min(high[i], x + step)
+                a[i] = x if rough and b[i] > x else max(low[i], x - step)
+                below = at.force if a[i] == x else self.forces(m, a)[1]
+                above = at.force if b[i] == x else self.forces(m, b)[1]
+                columns.append((above - below) / (b[i] - a[i]))
+            at.slopes.append(np.column_stack(columns))
+        return at.slopes[0]
 
-    def quadratic(self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes) -> tuple[Array, Array]:
+    def quadratic(self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes, rough: bool) -> tuple[Array, Array]:
         """Curvature (k, k) and slope (k,) of the logarithm of the posterior, all contributions integrated out."""
         x = at.values.shape[1]
-        inner = frame.inner(np.hstack([at.values, self.slopes(m, at)]), sizes)
+        inner = frame.inner(np.hstack([at.values, self.slopes(m, at, rough)]), sizes)
         if x > 1:
             own = np.eye(x - 1) + inner[1:x, 1:x]
             rest = np.r_[0, x : len(inner)]
@@ -165,18 +171,20 @@ class Search:
             frame, _, weights = settled(self.frame, at.values, sizes, weights, 2 if i == 0 else 1)
             if i in SIZED and moved:
                 sizes = frame.evidence(at.values, sizes).sizes
-            at, gained = self.stepped(frame, m, at, sizes, exact=exact)
+            at, gained = self.stepped(frame, m, at, sizes, exact=exact, rough=rounds < ROUNDS)
             moved |= gained > ENOUGH
             if gained <= ENOUGH and (not moved or i > SIZED[0]):
                 break
         return self.found_at(m, at, sizes, weights, exact=exact, rounds=rounds)
 
-    def stepped(self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes, *, exact: bool) -> tuple[Trial, float]:
+    def stepped(
+        self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes, *, exact: bool, rough: bool
+    ) -> tuple[Trial, float]:
         """A step of Gauss and Newton, as far as it is better, and what it gains of the logarithm of the posterior."""
         if not len(at.u):
             return at, 0.0
         low, high = self.ends(m)
-        H, g = self.quadratic(frame, m, at, sizes)
+        H, g = self.quadratic(frame, m, at, sizes, rough)
         L = np.linalg.cholesky(H)
         step = lsq_linear(L.T, np.linalg.solve(L, g), (low - at.u - 1e-12, high - at.u + 1e-12)).x
         if float(step @ g - 0.5 * step @ H @ step) < ENOUGH:
@@ -195,7 +203,7 @@ class Search:
         heavy = evidence(self.frame, at.values, sizes, weights, rounds if rounds == ROUNDS else 1)
         log_z, spread = heavy.log_z + self.fill.log_prior, np.zeros(len(u))
         if len(u):
-            H, _ = self.quadratic(heavy.frame, m, at, heavy.sizes)
+            H, _ = self.quadratic(heavy.frame, m, at, heavy.sizes, rounds < ROUNDS)
             spread = np.sqrt(np.diag(np.linalg.inv(H)))
             log_z += -0.5 * float(u @ u) - 0.5 * float(np.linalg.slogdet(H)[1])
         # Of a strength that cannot be negative only the part of the volume above zero counts, and twice its density.
