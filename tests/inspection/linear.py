@@ -22,8 +22,8 @@ def linear_damper(c: float) -> Damper:
 
 
 def linear_car(**changes: float) -> Car:
-    """The rear corner without the stops and without preload."""
-    return replace(load_car().corner(load("SA8"), **changes), travel=10.0, F_rest=0.0)
+    """The rear corner without friction, stops and preload."""
+    return replace(load_car().corner(load("SA8"), **changes), friction=0.0, travel=10.0, F_rest=0.0)
 
 
 def answer(car: Car, c: float, frequency: Array) -> Array:

@@ -80,7 +80,7 @@ def test_more_damping_is_better_on_every_bench_up_to_a_ratio_of_a_third():
 
 def test_without_damping_every_figure_says_so():
     """The wheel leaves the plate, and the body swings on; the stops hold the damper."""
-    car = replace(load_car().corner(load("SA8"), d_links=0.0, d_tyre=0.0), F_rest=0.0)
+    car = replace(load_car().corner(load("SA8"), d_links=0.0, friction=0.0, d_tyre=0.0), F_rest=0.0)
     found = read(linear_damper(0.01), car, ("eusama", "phase_shift", "push_down"), Setting())
     assert found["eusama"] == 0.0
     assert found["phase_shift"] < 10.0

@@ -26,6 +26,16 @@ def test_the_dead_length_is_varied_over_its_bounds(name: str) -> None:
     assert lengths == bounds(damper)
 
 
+def test_the_friction_of_the_suspension_is_varied_from_none_on(rides: Rides) -> None:
+    """It hides wear: the more of it, the less the wheel load rises."""
+    none, most = assumptions(rides.damper, rides.car)["friction of the suspension, 0 to 150 N"]
+    assert {none, most} <= set(everything(rides))
+    rides.drive_all([30.0, 50.0], (LOW,), [none, Setting(), most], "test")
+    for speed in (30.0, 50.0):
+        rise = [rises(rides, speed, LOW, [setting])[0] for setting in (none, Setting(), most)]
+        assert rise == sorted(rise, reverse=True)
+
+
 def test_what_matters_most_is_varied_together(rides: Rides) -> None:
     longest = dead_length(bounds(rides.damper)[1]).damper
     assert Setting("pushes_oil", car=(("d_links", 450.0),), damper=longest) in everything(rides)

@@ -114,16 +114,16 @@ def test_a_car_that_nothing_holds_on_the_road_is_a_line(tmp_path: Path) -> None:
     ("old", "new", "message"),
     [
         ('m_body = "405 kg"', 'm_body = "-5 kg"', r"line 6: front.m_body = -5 kg: must be a number from 20 to 5000 kg"),
-        ('c_bar = "16 N/mm"\n', "", r"line 38: front_axle.c_bar is missing: must be from 0 to 1e+06 N/m"),
+        ('c_bar = "16 N/mm"\n', "", r"line 40: front_axle.c_bar is missing: must be from 0 to 1e+06 N/m"),
         (
             "slip_release = 0.10",
             "slip_release = nan",
-            "line 117: brakes.slip_release = nan: must be a number from 0.01 to 1",
+            "line 119: brakes.slip_release = nan: must be a number from 0.01 to 1",
         ),
-        ("slip_build = 0.02", "slip_build = 0.5", "line 118: brakes.slip_build = 0.5: must be below slip_release = 0.1"),
-        ("s_slide_x = 0.95", "s_slide_x = 0.05", "line 68: front_tyre.s_slide_x = 0.05: must not be below s_most_x = 0.106"),
-        ("drive = 1.0", "drive = 0.5", "line 55: rear_axle.drive: the shares of both axles, 0.5 + 0, must add up to 1"),
-        ("steers = 1.0", "steers = 0.0", "line 44: front_axle.steers = 0: must be above 0 at one axle at least"),
+        ("slip_build = 0.02", "slip_build = 0.5", "line 120: brakes.slip_build = 0.5: must be below slip_release = 0.1"),
+        ("s_slide_x = 0.95", "s_slide_x = 0.05", "line 70: front_tyre.s_slide_x = 0.05: must not be below s_most_x = 0.106"),
+        ("drive = 1.0", "drive = 0.5", "line 57: rear_axle.drive: the shares of both axles, 0.5 + 0, must add up to 1"),
+        ("steers = 1.0", "steers = 0.0", "line 46: front_axle.steers = 0: must be above 0 at one axle at least"),
         ("[brakes]", "[breaks]", "unknown breaks, did you mean brakes?"),
     ],
 )

@@ -32,9 +32,9 @@ def linear_damper() -> Damper:
 
 
 def linear_car(**changes: float) -> FullCar:
-    """The car without roll centres, support and steer compliance, on linear dampers."""
+    """The car without friction, roll centres, support and steer compliance, on linear dampers."""
     car = full_car(load_car(), [linear_damper()] * 4)
-    bare = {"h_roll": 0.0, "support": 0.0, "steer_compliance": 0.0, "travel": 1.0} | changes
+    bare = {"friction": 0.0, "h_roll": 0.0, "support": 0.0, "steer_compliance": 0.0, "travel": 1.0} | changes
     return replace(car, wheels=tuple(replace(w, **bare) for w in car.wheels))
 
 
@@ -91,8 +91,9 @@ def test_free_oscillations_have_the_frequencies_of_linear_theory() -> None:
         assert 1 / period == pytest.approx(wanted, rel=0.01)
 
 
-def test_the_energy_balance_closes_with_the_time_step() -> None:
-    car = linear_car()
+@pytest.mark.parametrize("friction", [0.0, 150.0])
+def test_the_energy_balance_closes_with_the_time_step(friction: float) -> None:
+    car = linear_car(friction=friction)
     car = replace(car, wheels=tuple(replace(w, h_roll=0.1, support=0.1, F_rest=0.0) for w in car.wheels))
     gaps = []
     for dt in (2e-3, 1e-3):

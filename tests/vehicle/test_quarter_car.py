@@ -6,6 +6,7 @@ import fmpy
 import numpy as np
 import pytest
 
+from twintube.core.variables import blank
 from twintube.dampers import Damper, ParameterError, load
 from twintube.dampers.curve import continued
 from twintube.demo.ride import Ride, RideCase, ride
@@ -13,7 +14,7 @@ from twintube.fmu import build_fmu
 from twintube.vehicle import quarter_car
 from twintube.vehicle.cars import FOLDER, RUBBER, load_car
 from twintube.vehicle.drive import drive
-from twintube.vehicle.quarter_car import Car, static_load
+from twintube.vehicle.quarter_car import REACH, Car, Motion, leapfrog_step, rub, static_load
 from twintube.vehicle.ride import Track, measures, track
 from twintube.vehicle.ride import ride as ride_compiled
 
@@ -41,7 +42,7 @@ def linear_damper() -> Damper:
 
 def linear_car() -> Car:
     car = rear()
-    car.travel, car.F_rest = 10.0, 0.0
+    car.friction, car.travel, car.F_rest = 0.0, 10.0, 0.0
     return car
 
 
@@ -126,10 +127,56 @@ def test_car_at_rest_stays_at_rest(fmu_file: Path) -> None:
     assert result.wheel_load[-1] == pytest.approx(static_load(car), rel=0.01)
 
 
-def test_energy_of_the_road_is_dissipated_or_stored() -> None:
-    """Over a whole ride the tyre's work on the car equals the work of damper and links, within the discretisation."""
+def rubbed(most: float, strokes: np.ndarray) -> np.ndarray:
+    """Friction [N] at each stroke [m] of a wheel that begins at rest at the first one."""
+    forces = [0.0]
+    for way in np.diff(strokes).tolist():
+        forces.append(rub(most, forces[-1], way))
+    return np.array(forces)
+
+
+@pytest.mark.parametrize("amplitude", [0.5 * REACH, 2.0 * REACH, 5e-3])
+@pytest.mark.parametrize("steps", [20, 2000])
+def test_a_loop_of_friction_has_the_area_of_a_spring_with_a_slider(amplitude: float, steps: int) -> None:
+    """Four times force and slid way, whatever the step; nothing while the spring alone gives way."""
+    quarter = np.linspace(0.0, amplitude, steps + 1)
+    strokes = np.concatenate([quarter, np.tile(np.concatenate([quarter[::-1], -quarter, -quarter[::-1], quarter]), 2)])
+    forces = rubbed(100.0, strokes)
+    last = slice(-4 * steps - 4, None)  # a whole cycle after a first one
+    work = np.sum(0.5 * (forces[last][1:] + forces[last][:-1]) * np.diff(strokes[last]))
+    # With few steps the corner of the loop falls between two of them.
+    assert work == pytest.approx(400.0 * max(amplitude - REACH, 0.0), rel=0.01, abs=400.0 * amplitude / steps)
+    assert np.abs(forces).max() <= 100.0
+
+
+def test_a_body_that_only_friction_brakes_swings_out_in_a_straight_line() -> None:
+    """Coulomb's free vibration: each swing is smaller by 4 F / c, and friction has taken all the energy that is gone."""
+    car = linear_car()
+    car.d_links, car.d_tyre, car.c_tyre, car.friction = 0.0, 0.0, 5e6, 100.0
+    m, heights, strokes = blank(Motion), [0.05], [0.05]
+    m.z_body = 0.05
+    for _ in range(6000):
+        leapfrog_step(car, m, 0.0, 0.0, 0.0, 0.0, DT)
+        heights.append(m.z_body)
+        strokes.append(m.z_body - m.z_wheel)
+    z, stroke = np.array(heights), np.array(strokes)
+    slip = car.friction / car.c_body
+    peaks = z[1:-1][(z[1:-1] > z[:-2]) & (z[1:-1] >= z[2:]) & (z[1:-1] > 2.0 * slip)]
+    assert len(peaks) >= 2
+    assert -np.diff(np.array([0.05, *peaks])) == pytest.approx(4.0 * slip, rel=0.1), "REACH takes 2 %, the tyre gives way"
+    assert abs(z[-1000:].mean()) <= 1.01 * slip
+    forces = rubbed(car.friction, stroke)
+    slid = np.sum(0.5 * (forces[1:] + forces[:-1]) * np.diff(stroke))
+    body, wheel = m.v_body + 0.5 * m.dv_body, m.v_wheel + 0.5 * m.dv_wheel
+    left = car.m_body * body**2 + car.m_wheel * wheel**2 + car.c_body * stroke[-1] ** 2 + car.c_tyre * m.z_wheel**2
+    assert 0.5 * (car.c_body * 0.05**2 - left) == pytest.approx(slid, rel=1e-3)
+
+
+@pytest.mark.parametrize("friction", [0.0, 50.0, 150.0])
+def test_energy_of_the_road_is_dissipated_or_stored(friction: float) -> None:
+    """Over a whole ride the tyre's work on the car is that of damper, links and friction, within the discretisation."""
     damper = load("SA8")
-    car = rear(d_tyre=0.0)
+    car = rear(d_tyre=0.0, friction=friction)
     car.travel = 10.0
     height = track(50.0, 30.0, seed=3).heights * 0.4
     run = drive(damper, car, height, DT)
@@ -141,7 +188,9 @@ def test_energy_of_the_road_is_dissipated_or_stored() -> None:
     into_car = np.sum(0.5 * (spring[1:] + spring[:-1]) * np.diff(wheel))
     force = 0.5 * (run.force[1:] + run.force[:-1]) + damper.parameters.F_0
     links = car.d_links * np.sum((run.velocity / car.ratio) ** 2) * DT
-    dissipated = np.sum(force * np.diff(run.stroke)) + links
+    rubs = rubbed(friction, run.stroke / car.ratio)
+    slid = np.sum(0.5 * (rubs[1:] + rubs[:-1]) * np.diff(run.stroke / car.ratio))
+    dissipated = np.sum(force * np.diff(run.stroke)) + links + slid
     stored = 0.5 * car.c_body * (run.stroke[-1] / car.ratio) ** 2 + 0.5 * car.m_body * 1.0**2
     assert into_car == pytest.approx(dissipated, abs=0.02 * dissipated + stored)
 
@@ -187,13 +236,18 @@ def test_a_longer_ride_starts_with_the_bits_of_a_shorter_one() -> None:
 def test_every_defect_of_a_car_is_named_with_its_line(tmp_path: Path) -> None:
     text = (FOLDER / "passat_b8.toml").read_text(encoding="utf-8")
     path = tmp_path / "car.toml"
-    path.write_text(text.replace('m_body = "405 kg"', 'm_body = "405 mm"').replace("ratio = 0.9\n", "ratio = 9\nroof = 1\n"))
+    path.write_text(
+        text.replace('m_body = "405 kg"', 'm_body = "405 mm"')
+        .replace("ratio = 0.9\n", "ratio = 9\nroof = 1\n")
+        .replace('friction = "25 N"\n', "", 1)
+    )
     with pytest.raises(ParameterError) as caught:
         load_car(path)
     message = str(caught.value)
     assert "line 6: front.m_body" in message
     assert "rear.ratio = 9: must be a number from 0.2 to 1.5" in message
     assert "unknown rear.roof" in message
+    assert "front.friction is missing: must be from 0 to 1000 N" in message
     with pytest.raises(ParameterError, match="unknown car saab: neither a file nor one of escort, passat_b8"):
         load_car("saab")
 

@@ -23,6 +23,7 @@ FORCES = (0.75, 1.33)  # of the assumed F-v curve
 LOSSES = (0.05, 0.4)  # oil losses [1] from which cavitation has its full effect (assumed)
 NAMES = {  # of the car's values, and their units
     "d_links": ("damping of the links", "N s/m"),
+    "friction": ("friction of the suspension", "N"),
     "d_tyre": ("tyre damping", "N s/m"),
     "c_tyre": ("tyre stiffness", "N/m"),
     "ratio": ("motion ratio", ""),

@@ -54,7 +54,8 @@ def settings(damper: Damper, car: CarSet) -> dict[str, Setting]:
         rows["rear curve of the F-v source"] = Setting(damper=tuple(curve.items()))
     for name, ends in car.band.items():
         if name != "d_links":
-            rows |= {f"{NAMES.get(name, name)} {value:g}": Setting(car=((name, value),)) for value in ends}
+            text, unit = NAMES.get(name, (name, ""))
+            rows |= {f"{text} {value:g} {unit}".rstrip(): Setting(car=((name, value),)) for value in ends}
     return rows
 
 
@@ -131,13 +132,14 @@ def page(damper: str, car: str) -> str:
     rides.drive_all(SPEEDS, RISES, [seeded(s, seed) for s in several for seed in SEEDS], "together")
     mildest = mild(rides)
     rides.drive_all(SPEEDS, RISES, [seeded(mildest, seed) for seed in SEEDS], "mild ends")
-    links, p = vehicle.axles[axle(loaded)]["d_links"], loaded.parameters
+    corner, p = vehicle.axles[axle(loaded)], loaded.parameters
     return "\n".join([
         "# Sensitivity of the wheel load", "",
         "How far each assumption moves the dynamic load coefficient (DLC) of a quarter car: the standard deviation of",
         f"the wheel load over the static one. `python -m benchmarks sensitivity {damper}` makes this page.", "",
         f"- Vehicle: {vehicle.title}. Class D road, {SECONDS:.0f} s, DLC from 5 s on, mean of {len(SEEDS)} roads.",
-        f"- Gas preload lost. Default, all assumed: freed gas `{DEFAULT}`, links {links:g} N s/m, dead length",
+        f"- Gas preload lost. Default, all assumed: freed gas `{DEFAULT}`, links {corner['d_links']:g} N s/m and",
+        f"  {corner['friction']:g} N of friction, dead length",
         f"  {1e3 * p.dead_length:g} mm, full cavitation from {100 * p.cavitation_loss:g} % of oil loss.",
         f"- `limited` is at {P_GAS:g} bar.",
         f"- The chambers are full down to {100 * collapse_level(loaded):.1f} % of the oil.",

@@ -41,6 +41,8 @@ BENCHES: Final = (
           "pressure up to 20 % off; public data: 158 to 348 N/mm"),
     Range("load", "sprung mass of the corner over the car file's", 0.85, 1.25, "", "assumed",
           "from the driver alone to a full rear seat"),
+    Range("friction", "friction of the suspension over the car file's", 0.0, 6.0, "", "assumed",
+          "0 to 150 N in the default car"),
     Range("force", "F-v curve over the parameter set's", 0.9, 1.1, "", "assumed", "tolerance of new dampers"),
     Range("temperature_degC", "temperature of oil and gas", 0.0, 40.0, "degC", "assumed",
           "winter to summer; fluid force 0.3 % weaker per kelvin (assumed), ideal gas"),
@@ -97,8 +99,9 @@ class Sample:
     def corner(self, damper: Damper, vehicle: CarSet) -> Car:
         """The corner of this car."""
         nominal = vehicle.corner(damper)
+        shares = {"c_tyre": "tyre", "m_body": "load", "friction": "friction"}
         return vehicle.corner(
-            damper, c_tyre=nominal.c_tyre * self.values["tyre"], m_body=nominal.m_body * self.values["load"]
+            damper, **{name: getattr(nominal, name) * self.values[share] for name, share in shares.items()}
         )
 
     def made(self, damper: Damper) -> Damper:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from twintube.core.variables import var
 
 GRAVITY = 9.80665  # [m/s2]
+REACH = 0.2e-3  # [m] stroke of the wheel over which friction builds up, as in the front dampers: assumed
 
 
 @dataclass(slots=True)
@@ -19,6 +20,7 @@ class Car:
     m_wheel: float = var("car", "m_w", "kg", "unsprung mass of the corner", lower=5, upper=1000)
     c_body: float = var("car", "c_b", "N/m", "spring rate at the wheel", lower=1e3, upper=1e6)
     d_links: float = var("car", "d_b", "N.s/m", "damping of bushings and links at the wheel", lower=0, upper=5000)
+    friction: float = var("car", "F_b", "N", "friction of strut, bushings and links at the wheel", lower=0, upper=1000)
     c_tyre: float = var("car", "c_t", "N/m", "tyre stiffness", lower=1e4, upper=5e6)
     d_tyre: float = var("car", "d_t", "N.s/m", "tyre damping while the tyre touches the road", lower=0, upper=5000)
     ratio: float = var("car", "i", "1", "motion ratio, stroke of the damper per stroke of the wheel", lower=0.2, upper=1.5)
@@ -42,6 +44,7 @@ class Motion:
     v_wheel: float = var("motion", "v_w", "m/s", "vertical velocity of the wheel", default=0.0)
     dv_body: float = var("motion", "", "m/s", "last change of the body's velocity", default=0.0)
     dv_wheel: float = var("motion", "", "m/s", "last change of the wheel's velocity", default=0.0)
+    friction: float = var("motion", "", "N", "friction between body and wheel at these heights", default=0.0)
 
 
 def static_load(car: Car) -> float:
@@ -57,6 +60,14 @@ def stop_force(stiffness: float, damping: float, compression: float, velocity: f
     if compression <= 0.0:
         return 0.0
     return max(0.0, stiffness * compression * compression * compression * (1.0 + damping * velocity))
+
+
+def rub(most: float, force: float, way: float) -> float:
+    """Friction [N] after a `way` [m] of the stroke, from the `force` [N] before it; `most` [N] is that of sliding.
+
+    A spring of REACH in series with a slider: Dahl's friction with the exponent 0, exact over any way.
+    """
+    return max(-most, min(most, force + most * way / REACH))
 
 
 def leapfrog_step(car: Car, m: Motion, road: float, road_velocity: float, force: float, push: float, dt: float) -> float:
@@ -75,7 +86,7 @@ def leapfrog_step(car: Car, m: Motion, road: float, road_velocity: float, force:
     load = max(load, 0.0)
     stroke = m.z_body - m.z_wheel
     velocity = v_body - v_wheel
-    pull = car.c_body * stroke + car.d_links * velocity + car.ratio * (force - car.F_rest)
+    pull = car.c_body * stroke + car.d_links * velocity + m.friction + car.ratio * (force - car.F_rest)
     stiff, damped = car.c_stop, car.d_stop
     pull += stop_force(stiff, damped, stroke - car.travel, velocity) - stop_force(
         stiff, damped, -stroke - car.travel, -velocity
@@ -86,6 +97,7 @@ def leapfrog_step(car: Car, m: Motion, road: float, road_velocity: float, force:
     m.v_wheel += m.dv_wheel
     m.z_body += dt * m.v_body
     m.z_wheel += dt * m.v_wheel
+    m.friction = rub(car.friction, m.friction, dt * (m.v_body - m.v_wheel))
     return load
 
 

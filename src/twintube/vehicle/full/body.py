@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from twintube.common.arrays import Array
 from twintube.vehicle.full.car import Body, BodyMotion, Wheel, WheelMotion
 from twintube.vehicle.full.tyre import roll_tyre
-from twintube.vehicle.quarter_car import GRAVITY, stop_force
+from twintube.vehicle.quarter_car import GRAVITY, rub, stop_force
 
 
 def corner_stroke(b: BodyMotion, k: Wheel, w: WheelMotion) -> float:
@@ -49,6 +49,10 @@ def car_step(
     lift_wheel(k3, w3, w4, dt)
     lift_wheel(k4, w4, w3, dt)
     move_body(c, b, dt)
+    rub_wheel(b, k1, w1, dt)
+    rub_wheel(b, k2, w2, dt)
+    rub_wheel(b, k3, w3, dt)
+    rub_wheel(b, k4, w4, dt)
 
 
 def begin_sums(c: Body, b: BodyMotion) -> None:
@@ -79,7 +83,7 @@ def push_wheel(  # noqa: PLR0915 - the equations of a corner in their order
     across = b.z - k.y * b.roll - k.x * b.pitch - other.z
     velocity = v_corner - v_wheel
     elastic = k.c_body * stroke + k.c_bar * (stroke - across)
-    pull = elastic + k.d_links * velocity + k.ratio * (w.acting - k.F_rest)
+    pull = elastic + k.d_links * velocity + w.friction + k.ratio * (w.acting - k.F_rest)
     stiff, damped = k.c_stop, k.d_stop
     pull += stop_force(stiff, damped, stroke - k.travel, velocity) - stop_force(stiff, damped, -stroke - k.travel, -velocity)
     press = k.weight + k.c_tyre * (w.road - w.z)
@@ -170,6 +174,11 @@ def move_body(c: Body, b: BodyMotion, dt: float) -> None:
     b.z += dt * b.v_z
     b.pitch += dt * b.w_pitch
     b.roll += dt * b.w_roll
+
+
+def rub_wheel(b: BodyMotion, k: Wheel, w: WheelMotion, dt: float) -> None:
+    """Carry a wheel's friction on by the stroke of the step."""
+    w.friction = rub(k.friction, w.friction, dt * corner_velocity(b, k, w))
 
 
 def turn_wheel(k: Wheel, w: WheelMotion, drive: float, dt: float) -> float:

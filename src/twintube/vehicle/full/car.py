@@ -164,6 +164,7 @@ class WheelMotion:
     F_y: float = var("wheel", "F_y", "N", "tyre force aside", default=0.0)
     lifted: float = var("wheel", "", "N", "vertical force on the wheel but for its axle's", default=0.0)
     aside: float = var("wheel", "", "N", "what its lateral force does to it through the roll centre", default=0.0)
+    friction: float = var("wheel", "", "N", "friction between body and wheel at these heights", default=0.0)
     slip_x: float = var("wheel", "s_x", "1", "slip along, negative in braking", default=0.0)
     slip_y: float = var("wheel", "s_y", "1", "slip aside", default=0.0)
     stroke: float = var("wheel", "", "m", "stroke of the damper at the start of the step", default=0.0)

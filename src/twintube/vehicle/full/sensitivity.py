@@ -89,6 +89,7 @@ ASSUMED: Final = (
     ),
     times("tyre stiffness along and aside", 0.7, 1.3, "a rule for passenger cars", TYRES, "c_x", "c_y"),
     times("links' damping", 0.0, 6.4, "the car file's band, 0 to 450 N s/m", BOTH, "d_links"),
+    times("friction of the suspension", 0.0, 6.0, "the car file's band, 0 to 150 N", BOTH, "friction"),
     times("tyre's vertical damping", 0.5, 3.0, "the car file's band, 50 to 300 N s/m", BOTH, "d_tyre"),
     times("tyre's vertical stiffness", 0.87, 1.13, "the car file's band, 200 to 260 N/mm", BOTH, "c_tyre"),
     times("motion ratio, rear", 0.89, 1.11, "the car file's band, 0.8 to 1.0", ["rear"], "ratio"),
