@@ -143,6 +143,7 @@ static const struct variable VARIABLE[] = {
     {"reading.cavitation_foams", "", INTEGER, FIXED, 1, offsetof(struct memory, wanted.p.cavitation_foams), 0.0, 1.0},
     {"reading.venting", "", INTEGER, FIXED, 1, offsetof(struct memory, wanted.p.venting), 0.0, 1.0},
     {"reading.cavitation_loss", "", REAL, FIXED, 1, offsetof(struct memory, wanted.p.cavitation_loss), 0.0, 1.0},
+    {"reading.foot_valve", "", REAL, FIXED, 1, offsetof(struct memory, wanted.p.foot_valve), 0.0, 1.0},
     {"end_stop.F_stop_re", " N", REAL, FIXED, 1, offsetof(struct memory, wanted.p.F_stop_re), 0.0, 20000.0},
     {"end_stop.onset_re", " m", REAL, FIXED, 1, offsetof(struct memory, wanted.p.onset_re), 0.0, 0.4},
     {"end_stop.F_stop_co", " N", REAL, FIXED, 1, offsetof(struct memory, wanted.p.F_stop_co), 0.0, 20000.0},

@@ -5,6 +5,7 @@ import pytest
 
 from twintube.core.kernel import compression, fill, prepare
 from twintube.core.kernel.compression import vented_share
+from twintube.core.kernel.forces import UNREACHED
 from twintube.core.variables import Derived, Flow, Parameters, State, blank
 from twintube.dampers import load
 from twintube.engine.simulate import simulate
@@ -26,7 +27,7 @@ def full(venting: int, X_Co2: float, Y_Co: float) -> tuple[Parameters, Derived, 
 def test_step_by_step_is_what_naive_steps_do(X_Co2: float, Y_Co: float, length: float) -> None:
     """Each step goes by what V1 holds at its start, and gas is not below 0: k_degr and oil in the mean of many steps."""
     p, d, s, f = full(1, X_Co2, Y_Co)
-    compression(p, d, s, f, 0.0, 1.0)
+    compression(p, d, s, f, 0.0, 1.0, UNREACHED)
     gas, k, passed = 0.0, [], []
     for _ in range(12000):
         vents = gas > 0.0

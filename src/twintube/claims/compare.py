@@ -12,7 +12,10 @@ from twintube.rig.signals import STARTS
 
 POSITIONS = (-0.015, 0.015)  # [m]
 AMPLITUDES = (0.040,)  # [m] instead of 45 mm; 50 mm would be the whole assumed stroke
-LOSSES = (0.0, 0.05, 0.1, 0.28, 0.4)  # of cavitation_loss; 0.28: the highest state to which Y was fitted
+VALUES = {  # of readings that are no switch
+    "cavitation_loss": (0.0, 0.05, 0.1, 0.28, 0.4),  # 0.28: the highest state to which Y was fitted
+    "foot_valve": (0.0, 0.1),  # from the rod's share of the piston's area on, 0.19 at the rear, V1 is always filled
+}
 SHOWN = 0.005  # relative change [1] of a number that is shown
 
 
@@ -43,7 +46,7 @@ def alternatives(bench: Bench = BENCH) -> list[Alternative]:
     for item in fields(Parameters):
         if item.metadata["group"] == "reading":
             default = item.metadata["default"]
-            values = LOSSES if item.name == "cavitation_loss" else range(int(item.metadata["upper"]) + 1)
+            values = VALUES.get(item.name, range(int(item.metadata["upper"]) + 1))
             choices += [Alternative(item.name, f"{v:g}", {item.name: v}, bench) for v in values if v != default]
     choices += [Alternative("start", v, {}, replace(bench, start=v)) for v in STARTS if v != bench.start]
     choices += [Alternative("position", f"{v * 1e3:+g} mm", {}, replace(bench, position=v)) for v in POSITIONS]

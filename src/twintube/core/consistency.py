@@ -120,7 +120,7 @@ def possible(d: Derived, s: State) -> int:
     """1 where a restored state can be that of a damper: the piston in the tube, no phase below zero; else 0."""
     if abs(s.z) > stroke_limit(d) or s.k_degr < 0.0:
         return 0
-    if s.V1_oil < -TRACE or s.V1_gas < -TRACE or s.V1_foam < -TRACE or s.V1_foam_oil < -TRACE:
+    if s.V1_oil < -TRACE or s.V1_gas < -TRACE or s.V1_foam < -TRACE or s.V1_foam_oil < -TRACE or s.V1_void < -TRACE:
         return 0
     if s.V2_oil < -TRACE or s.V2_gas < -TRACE or s.V2_foam < -TRACE or s.V2_foam_oil < -TRACE:
         return 0

@@ -27,7 +27,7 @@ from twintube.core.effects import (
     effects_transition,
 )
 from twintube.core.kernel import fill, fluid_force, pour, prepare, step
-from twintube.core.kernel.forces import share_above
+from twintube.core.kernel.forces import filling_share, share_above
 from twintube.core.kernel.prepare import cavitate
 from twintube.core.kernel.step import MAX_SPLITS, arrive, carry, flows
 from twintube.core.variables import Derived, Flow
@@ -163,10 +163,11 @@ def changed_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: flo
     left = abs(dz)
     foaming = share_above(v0, v1, p.v_foam)
     cavitating = share_above(v0, v1, p.v_cav)
+    filling = filling_share(d, v0, v1)
     acting = 0.0
     splits = 0
     while left > 0.0 and splits < MAX_SPLITS:
-        flows(p, d, s, f, dz, foaming, cavitating)
+        flows(p, d, s, f, dz, foaming, cavitating, filling)
         effects_flows(p, d, s, f, dz, foaming)
         way = carry(s, f, left)
         acting += f.k_degr * way

@@ -170,6 +170,8 @@ class Parameters:
                        lower=0, upper=1, integer=True, source="equations 19 and 29", default=0)
     cavitation_loss: float = var("reading", "", "1", "oil loss from which cavitation acts in full",
                                  lower=0, upper=1, source="open choice 3", default=0.2)
+    foot_valve: float = var("reading", "", "1", "share of the compression force at the foot valve; 1: V1 always fills",
+                            lower=0, upper=1, source="beyond the paper, equation 19", default=1.0)
 
     def __post_init__(self) -> None:
         """Arrays given as lists become tuples."""
@@ -212,7 +214,7 @@ class Outputs(Generic[T]):
     V1_oil: T = var("", "V_1oil", "m3", "oil in the rebound chamber", lower=0, source="equation 5", fmi="V1.oil",
                     value="s.V1_oil")
     V1_gas: T = var("", "V_1gas", "m3", "gas in the rebound chamber", lower=0, source="equation 5", fmi="V1.gas",
-                    value="s.V1_gas")
+                    value="s.V1_gas + s.V1_void")
     V1_foam: T = var("", "V_1foam", "m3", "foam in the rebound chamber", lower=0, source="equation 5", fmi="V1.foam",
                      value="s.V1_foam")
     V2_oil: T = var("", "V_2oil", "m3", "oil in the compression chamber", lower=0, source="equation 5", fmi="V2.oil",
@@ -246,6 +248,7 @@ class Derived:
     W_kBV_1: float = var("derived", "W_kBV", "1", "bottom valve flow, V2 with gas", source="equation 27", default=0.0)
     W_kBV_2: float = var("derived", "W_kBV", "1", "bottom valve flow, V2 full", source="equation 28", default=0.0)
     k_Co2: float = var("derived", "k_degr", "1", "k_degr in compression, V2 full, V1 not", source="equation 29", default=0.0)
+    v_fill: float = var("derived", "", "m/s", "speed of compression up to which oil fills V1", default=0.0)
     Y_Co: float = var("derived", "Y_Co", "1", "cavitation share in compression in this condition", default=0.0)
     Y_Re: float = var("derived", "Y_Re", "1", "cavitation share in rebound in this condition", default=0.0)
     cavitation: float = var("derived", "", "1", "share of the cavitation that the oil loss brings", default=0.0)
@@ -261,6 +264,7 @@ class State:
     V1_gas: float = var("V1", "V_1gas", "m3", "gas in the rebound chamber", default=0.0)
     V1_foam: float = var("V1", "V_1foam", "m3", "foam in the rebound chamber", default=0.0)
     V1_foam_oil: float = var("V1", "", "m3", "oil held by the foam of the rebound chamber", default=0.0)
+    V1_void: float = var("V1", "", "m3", "void into which no oil has followed the piston", default=0.0)
     V2_oil: float = var("V2", "V_2oil", "m3", "oil in the compression chamber", default=0.0)
     V2_gas: float = var("V2", "V_2gas", "m3", "gas in the compression chamber", default=0.0)
     V2_foam: float = var("V2", "V_2foam", "m3", "foam in the compression chamber", default=0.0)
@@ -285,6 +289,7 @@ class Flow:
     V1_gas: float = var("flow", "", "m2", "gas of V1", default=0.0)
     V1_foam: float = var("flow", "", "m2", "foam of V1", default=0.0)
     V1_foam_oil: float = var("flow", "", "m2", "oil in the foam of V1", default=0.0)
+    V1_void: float = var("flow", "", "m2", "void of V1", default=0.0)
     V2_oil: float = var("flow", "", "m2", "oil of V2", default=0.0)
     V2_gas: float = var("flow", "", "m2", "gas of V2", default=0.0)
     V2_foam: float = var("flow", "", "m2", "foam of V2", default=0.0)

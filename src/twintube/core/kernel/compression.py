@@ -2,7 +2,7 @@
 
 import math
 
-from twintube.core.kernel.forces import foam_factor
+from twintube.core.kernel.forces import fluid_force, foam_factor
 from twintube.core.variables import Derived, Flow, Parameters, State
 
 # Steps of venting for one without beyond which they are all the time; an integer of C holds it.
@@ -10,16 +10,18 @@ ALWAYS = 1e9
 
 
 def compression(  # noqa: PLR0915 - the equations of the paper in their order
-    p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavitating: float
+    p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavitating: float, filling: float
 ) -> None:
     """Flows of all phases and k_degr while the phases present in `s` stay the same.
 
-    `foaming` and `cavitating` are the shares [1] of the step above the two threshold velocities.
+    `foaming` and `cavitating` are the shares [1] of the step above the two threshold velocities. `filling` is what can
+    follow into V1 through the piston valve over what V1 takes.
     """
     # The liquid that leaves V2 is foam where there is foam, but beside oil and gas the reading says which.
     as_foam = s.V2_foam > 0.0 and (s.V2_gas <= 0.0 or s.V2_oil <= 0.0 or p.foam_leaves_with_gas > 0)
     gas = 0.0
     piston = 0.0
+    f.V1_void = 0.0
     # Eq. 15: W_kBV gives the bottom valve's flow; as in Eq. 27-29 it is counted relative to the flow out of V2.
     if s.V2_gas > 0.0:
         bottom = 0.0
@@ -36,6 +38,15 @@ def compression(  # noqa: PLR0915 - the equations of the paper in their order
         bottom = d.A_rod + venting * (d.W_kBV_2 * d.A_2 - d.A_rod)
         piston = d.A_2 - bottom
         f.k_degr = 1.0 + venting * (d.k_Co2 - 1.0)
+        # Beyond the paper: above `v_fill` the pressure in V1 is zero, and what follows is what follows at that speed. The
+        # void that opens closes again as soon as more can follow.
+        if s.V1_gas <= 0.0 and (filling < 1.0 or s.V1_void > 0.0):
+            piston = min(filling * d.A_1, d.A_2)
+            bottom = d.A_2 - piston
+            f.V1_void = d.A_1 - piston
+            f.k_degr = 1.0
+            if filling < 1.0:
+                f.k_degr = fluid_force(p, -d.v_fill) / fluid_force(p, -d.v_fill / filling)
 
     f.V2_gas = -gas
     f.V2_oil = 0.0
@@ -67,7 +78,7 @@ def compression(  # noqa: PLR0915 - the equations of the paper in their order
         f.cavitated = freed
 
     # V1 takes A_1; what is more leaves it as gas through the rod guide (Eq. 8, 13).
-    kept = d.A_1 + freed - piston
+    kept = d.A_1 + freed - piston - f.V1_void
     if s.V1_gas <= 0.0 and kept < 0.0:
         if p.venting > 0:  # step by step: once the gas is out, oil follows it
             oil += kept

@@ -7,6 +7,7 @@ from twintube.core.variables import FV_POINTS, Derived, Parameters, State
 # Friction [N] that is none: the force of before over a smaller one has no room in a number.
 FRICTIONLESS = 1e-9
 P_AMBIENT = 1e5  # [Pa]
+UNREACHED = 1e9  # [m/s]: a speed that no damper reaches
 
 
 def branch(v: float, velocities: tuple[float, ...], forces: tuple[float, ...]) -> float:
@@ -72,6 +73,35 @@ def share_above(v0: float, v1: float, threshold: float) -> float:
     if a <= threshold and b <= threshold:
         return 0.0
     return (max(a, b) - threshold) / abs(a - b)
+
+
+def filling_speed(p: Parameters, d: Derived) -> float:
+    """Speed [m/s] of compression up to which oil follows the piston into V1; UNREACHED where it does at any speed.
+
+    Above the foot valve the oil has the pressure of the reserve and that of the foot valve, which acts on the rod and makes
+    the share `foot_valve` of the force. The piston valve takes the rest of the force, on A_1. V1 is full while something is
+    left.
+    """
+    taken = (1.0 - p.foot_valve) / d.A_1 - p.foot_valve / d.A_rod
+    if taken <= 0.0:
+        return UNREACHED
+    most = (P_AMBIENT + d.F_0 / d.A_rod) / taken
+    i = 0
+    while i < FV_POINTS - 1 and p.F_co[i] < most:
+        i += 1
+    below = 0.0
+    slower = 0.0
+    if i > 0:
+        below = p.F_co[i - 1]
+        slower = p.v_co[i - 1]
+    if p.F_co[i] <= below:
+        return UNREACHED
+    return slower + (most - below) * (p.v_co[i] - slower) / (p.F_co[i] - below)
+
+
+def filling_share(d: Derived, v0: float, v1: float) -> float:
+    """What can follow into V1 over what it takes [1], in a step whose speed goes from |v0| to |v1| evenly."""
+    return d.v_fill / max(0.5 * (abs(v0) + abs(v1)), 1.0 / UNREACHED)
 
 
 def gas_rise(p: Parameters, F_0: float, c_gas: float, z: float) -> float:

@@ -2,7 +2,7 @@
 
 import math
 
-from twintube.core.kernel.forces import gas_rise
+from twintube.core.kernel.forces import filling_speed, gas_rise
 from twintube.core.variables import Derived, Parameters, State
 
 
@@ -17,6 +17,7 @@ def prepare(p: Parameters, d: Derived) -> None:
     lost = 1.0 - p.gas_preload
     d.F_0 = p.gas_preload * p.F_0
     d.c_gas = p.gas_preload * p.c_gas + lost * p.c_gas_lost
+    d.v_fill = filling_speed(p, d)
     lose(p, d, p.oil_level)
 
     # Eq. 22: W_kPV reaches its target within one step. Reading B adds the leak to the flow; the force stays X_Re.
@@ -69,6 +70,7 @@ def pour(p: Parameters, d: Derived, s: State, z: float, oil: float) -> None:
     s.V2_gas = V2 - s.V2_oil
     s.V1_foam = 0.0
     s.V1_foam_oil = 0.0
+    s.V1_void = 0.0
     s.V2_foam = 0.0
     s.V2_foam_oil = 0.0
     s.V3_foam = 0.0

@@ -9,6 +9,10 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
 
     `foaming` and `cavitating` are the shares [1] of the step above the two threshold velocities.
     """
+    f.V1_void = 0.0
+    if s.V1_void > 0.0:
+        close(p, d, s, f, foaming)
+        return
     # Piston valve: what leaves V1 over the area A_1 (Eq. 6, 8, 11)
     oil = 0.0
     gas = 0.0
@@ -58,6 +62,18 @@ def rebound(p: Parameters, d: Derived, s: State, f: Flow, foaming: float, cavita
         foam_oil = 0.0
     # Eq. 10, 12: V3 gives the rod's volume
     refill(p, s, f, foaming, d.A_rod, oil, gas, foam, foam_oil)
+
+
+def close(p: Parameters, d: Derived, s: State, f: Flow, foaming: float) -> None:
+    """Beyond the paper: a void in V1 closes before anything passes the piston valve, and V3 alone refills V2."""
+    f.V1_oil = 0.0
+    f.V1_gas = 0.0
+    f.V1_foam = 0.0
+    f.V1_foam_oil = 0.0
+    f.V1_void = -d.A_1
+    f.cavitated = 0.0
+    f.k_degr = 0.0
+    refill(p, s, f, foaming, d.A_2, 0.0, 0.0, 0.0, 0.0)
 
 
 def refill(

@@ -1,7 +1,7 @@
 """One time step: split where a phase runs out, so that the result does not depend on the step size."""
 
 from twintube.core.kernel.compression import compression
-from twintube.core.kernel.forces import dahl, fluid_force, set_forces, share_above
+from twintube.core.kernel.forces import dahl, filling_share, fluid_force, set_forces, share_above
 from twintube.core.kernel.rebound import rebound
 from twintube.core.variables import Derived, Flow, Parameters, State
 
@@ -30,6 +30,7 @@ def split_length(s: State, f: Flow, way: float) -> float:
     way = before_empty(s.V1_oil, f.V1_oil, way)
     way = before_empty(s.V1_gas, f.V1_gas, way)
     way = before_empty(s.V1_foam, f.V1_foam, way)
+    way = before_empty(s.V1_void, f.V1_void, way)
     way = before_empty(s.V2_oil, f.V2_oil, way)
     way = before_empty(s.V2_gas, f.V2_gas, way)
     way = before_empty(s.V2_foam, f.V2_foam, way)
@@ -42,6 +43,7 @@ def move(s: State, f: Flow, way: float) -> None:
     s.V1_oil = moved(s.V1_oil, f.V1_oil, way)
     s.V1_gas = moved(s.V1_gas, f.V1_gas, way)
     s.V1_foam = moved(s.V1_foam, f.V1_foam, way)
+    s.V1_void = moved(s.V1_void, f.V1_void, way)
     s.V2_oil = moved(s.V2_oil, f.V2_oil, way)
     s.V2_gas = moved(s.V2_gas, f.V2_gas, way)
     s.V2_foam = moved(s.V2_foam, f.V2_foam, way)
@@ -72,10 +74,11 @@ def step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: 
     left = abs(dz)
     foaming = share_above(v0, v1, p.v_foam)
     cavitating = share_above(v0, v1, p.v_cav)
+    filling = filling_share(d, v0, v1)
     acting = 0.0
     splits = 0
     while left > 0.0 and splits < MAX_SPLITS:
-        flows(p, d, s, f, dz, foaming, cavitating)
+        flows(p, d, s, f, dz, foaming, cavitating, filling)
         way = carry(s, f, left)
         acting += f.k_degr * way
         left -= way
@@ -84,12 +87,17 @@ def step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: 
     return left <= 0.0
 
 
-def flows(p: Parameters, d: Derived, s: State, f: Flow, dz: float, foaming: float, cavitating: float) -> None:
-    """Flows and k_degr in the direction of `dz`; `foaming` and `cavitating` are the shares [1] of the step with either."""
+def flows(
+    p: Parameters, d: Derived, s: State, f: Flow, dz: float, foaming: float, cavitating: float, filling: float,
+) -> None:  # fmt: skip
+    """Flows and k_degr in the direction of `dz`; `foaming` and `cavitating` are the shares [1] of the step with either.
+
+    `filling` is what can follow into V1 in compression over what it takes [1].
+    """
     if dz > 0.0:
         rebound(p, d, s, f, foaming, cavitating)
     else:
-        compression(p, d, s, f, foaming, cavitating)
+        compression(p, d, s, f, foaming, cavitating, filling)
 
 
 def carry(s: State, f: Flow, left: float) -> float:
@@ -127,5 +135,6 @@ def arrive(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1
 def settle(p: Parameters, d: Derived, s: State, f: Flow, v: float) -> None:
     """k_degr for the direction of `v` [m/s] where the last stroke went the other way or nowhere."""
     if v != 0.0:
-        flows(p, d, s, f, v, share_above(v, v, p.v_foam), share_above(v, v, p.v_cav))
+        foaming = share_above(v, v, p.v_foam)
+        flows(p, d, s, f, v, foaming, share_above(v, v, p.v_cav), filling_share(d, v, v))
         s.k_degr = f.k_degr
