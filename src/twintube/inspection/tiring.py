@@ -43,7 +43,7 @@ HIGHEST: Final = 1.05  # [m/s] v_cav of Table 9, for a tester that does not know
 ENOUGH: Final = HIGHEST / math.sqrt(0.75)  # [m/s] of the first cycles: half of a sine's stroke is faster than HIGHEST
 REST: Final = 30.0  # [s]: freed gas has a half-life of 6 to 10 s, the heat of a damper one of minutes
 RETURNED: Final = 0.5  # of the growth: what has a half-life shorter than the rest has returned by more, heat by less
-# Of the growth. The heat of the run alone lets the answer of an intact damper grow up to 1.263-fold (SA7): the six that
+# Of the growth. The heat of the run alone lets the answer of an intact damper grow up to 1.25-fold (SA7): the six that
 # cavitate, 30 draws of the scatter, all plates, 700 J/K, a force that fades by 0.3 to 0.6 %/K (`python -m benchmarks
 # tiring_heat`). Above that it is not such heat, and every intact damper passes.
 LIMIT: Final = 1.27
