@@ -18,7 +18,7 @@ from twintube.common.showing import data_frame, picture
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, VARIED, has_own, values_of
 from twintube.data import LoadedDataset, Record, has_reference, load_dataset
-from twintube.diagnosis.bench import GAS, LEVEL, Bench
+from twintube.diagnosis.bench import BUILD_UP, GAS, LEVEL, Bench
 from twintube.diagnosis.budget import LASTING, LAW, Budget, budget
 from twintube.diagnosis.changes import NONE, STATE, UNKNOWN, Changes, Hypothesis, changes
 from twintube.diagnosis.channels import TARED
@@ -46,7 +46,6 @@ SAMPLED = {"sample_mean": 0.5}  # a sample is a point of the force, a mean over 
 
 JUDGED = 4  # the likeliest hypotheses, whose predictions of left-out records are compared
 LEAST_LEVEL = 0.05  # [1] numerics
-BUILD_UP = "tau_build"  # of the steps of the force
 MOST_DELAY = 0.02  # [s] numerics
 
 VERDICTS = {NONE: "none", STATE: "state", UNKNOWN: "unexplained", "effect": "cause", "fault": "measurement_fault"}

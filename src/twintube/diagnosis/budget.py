@@ -11,6 +11,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from twintube.common.arrays import Array
+from twintube.diagnosis.bench import BUILD_UP
 from twintube.diagnosis.frame import STILL, Frame, Part
 from twintube.diagnosis.heavy import without as without_columns
 from twintube.diagnosis.memory import lasting
@@ -28,6 +29,7 @@ SHARED = {
     "sampling": range(12, 17),
 }
 OWN = {"zero": (0, 9, 10, 11), "gain": (1,), "sampling": range(2, 7), "temperature": (7, 8)}
+SEEN = (DELAY, BUILD_UP)  # open in every hypothesis beside the levels
 LAW, LASTING, FILL, NOISE = "law", "lasting", "fill", "noise"
 ORDER = (FILL, LAW, "oil_loss", "friction", "gas", "zero", "gain", "sampling", "temperature", LASTING)
 
@@ -76,11 +78,11 @@ def budget(stated: Search, search: Search, found: Found) -> Budget:
     errors = without_columns(frame, values, found.sizes)
     of = contributions(frame, errors, found.sizes)
     begun = bench.forces(stated.filled(np.zeros(len(stated.fill.levels))))
-    filled = bench.forces({name: value for name, value in found.levels.items() if name != DELAY})
-    known = [s for s in stated.fill.levels if s.name in found.levels and s.name != DELAY]
+    filled = bench.forces({name: value for name, value in found.levels.items() if name not in SEEN})
+    known = [s for s in stated.fill.levels if s.name in found.levels and s.name not in SEEN]
     of[FILL] = filled - begun, np.array([s.coordinate(found.levels[s.name]) for s in known])
     delay, parts = of["sampling"]
-    late = [s.coordinate(found.levels[s.name]) for s in search.fill.levels if s.name == DELAY]
+    late = [s.coordinate(found.levels[s.name]) for s in search.fill.levels if s.name in SEEN]
     of["sampling"] = delay + found.base - filled, np.append(parts, late)
     lines = []
     for name in ORDER:
