@@ -3,7 +3,7 @@ model TwinTube "Twin-tube damper between two flanges, around the imported co-sim
   extends Modelica.Mechanics.Translational.Interfaces.PartialCompliant;
   parameter Modelica.Units.SI.Position s_rel0 = 0 "Distance of the flanges in the middle position of the damper (stroke 0)";
   parameter Real oil_level(min = 0, max = 1) = 1 "Oil in the damper, share of the intact volume";
-  parameter Integer gas_preload(min = 0, max = 1) = 1 "Gas preload: 1 present, 0 lost";
+  parameter Real gas_preload(min = 0, max = 1) = 1 "Gas pressure above ambient, share of the nominal";
   parameter Modelica.Units.SI.Time step = 1e-3 "Communication step of the FMU";
   Modelica.Units.SI.Velocity v_rel "Velocity, positive in rebound";
   twintube_SA8_fmu fmu(

@@ -2,7 +2,7 @@ within ;
 model TwinTubeCar "The four dampers of a car between body and wheels, around the imported co-simulation FMUs of SA7 and SA8"
   parameter Modelica.Units.SI.Position s_rel0[4] = zeros(4) "Distances of the flanges in the middle positions (stroke 0)";
   parameter Real oil_level[4](each min = 0, each max = 1) = ones(4) "Oil in the dampers, share of the intact volume";
-  parameter Integer gas_preload[4](each min = 0, each max = 1) = {1, 1, 1, 1} "Gas preload: 1 present, 0 lost";
+  parameter Real gas_preload[4](each min = 0, each max = 1) = ones(4) "Gas pressures above ambient, share of the nominal";
   parameter Modelica.Units.SI.Time step = 1e-3 "Communication step of the FMUs";
   Modelica.Mechanics.Translational.Interfaces.Flange_a wheel[4] "Wheel's ends: front left, front right, rear left, rear right";
   Modelica.Mechanics.Translational.Interfaces.Flange_b body[4] "Body's ends, in the same order";

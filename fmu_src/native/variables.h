@@ -22,7 +22,7 @@ static const struct variable VARIABLE[] = {
     {"V3.foam", " m3", REAL, OUTPUT, 1, offsetof(struct memory, now.out.V3_foam), 0.0, INFINITY},
     {"V_cav", " m3", REAL, OUTPUT, 1, offsetof(struct memory, now.out.V_cav), 0.0, INFINITY},
     {"oil_level", "", REAL, FIXED, 1, offsetof(struct memory, wanted.p.oil_level), 0.0, 1.0},
-    {"gas_preload", "", INTEGER, FIXED, 1, offsetof(struct memory, wanted.p.gas_preload), 0.0, 1.0},
+    {"gas_preload", "", REAL, FIXED, 1, offsetof(struct memory, wanted.p.gas_preload), 0.0, 1.0},
     {"geometry.D_a", " m", REAL, FIXED, 1, offsetof(struct memory, wanted.p.D_a), 0.02, 0.2},
     {"geometry.D_PR", " m", REAL, FIXED, 1, offsetof(struct memory, wanted.p.D_PR), 0.004, 0.08},
     {"geometry.D_li", " m", REAL, FIXED, 1, offsetof(struct memory, wanted.p.D_li), 0.01, 0.15},

@@ -86,7 +86,7 @@ def test_a_stated_pressure_holds_for_the_state(folder: Make) -> None:
         ([NOBODY + "oil_volume_mL = 150\n"], 3, "oil_level or oil_volume_mL both are given"),
         (["oil_volume_mL = 'unknown'\ngas_preload = true\n"], 6, "where nobody knows it, oil_level = 'unknown' instead"),
         (["oil_level = 'unkown'\ngas_preload = true\n"], 6, "oil_level = 'unkown': must be a number from 0 to 1, the share"),
-        (["oil_level = 1\ngas_preload = '?'\n"], 7, "gas_preload = '?': must be true (present), false (lost) or 'unknown'"),
+        (["oil_level = 1\ngas_preload = '?'\n"], 7, "gas_preload = '?': must be true (present), false (lost), a share from 0 to 1 or 'unknown'"),
         (["gas_preload = true\n"], 3, "must be one of the two; oil_level = 'unknown' where nobody knows it"),
         (["oil_level = 1\n"], 3, "gas_preload is missing; 'unknown' where nobody knows it"),
         ([NOBODY + "state = 1\n"], 8, "state = 1: must be a text like"),
@@ -120,6 +120,7 @@ def test_what_needs_a_fill_says_so_and_writes_nothing(folder: Make, tmp_path: Pa
         ([], "100 % oil (assumed, it is unknown there), gas kept (assumed, it is unknown there)"),
         (["--oil-level", "0.7"], "70 % oil, gas kept (assumed, it is unknown there)"),
         (["--oil-level", "0.7", "--gas-lost"], "70 % oil, gas lost\n"),
+        (["--gas", "0.4"], "100 % oil (assumed, it is unknown there), gas at 40 %\n"),
     ],
 )
 def test_a_simulation_says_what_it_assumed(folder: Make, options: list[str], said: str) -> None:
@@ -127,6 +128,21 @@ def test_a_simulation_says_what_it_assumed(folder: Make, options: list[str], sai
     run = RUNNER.invoke(app, ["simulate", "--record", str(path / "0.csv"), "--output", str(path / "o.csv"), *options])
     assert run.exit_code == 0, run.output
     assert f"as its dataset.toml says: SA8, {said}" in run.output
+
+
+def test_a_preload_may_be_a_share(folder: Make) -> None:
+    """A simulation takes it; a diagnosis knows a preload that is there or lost, and says so."""
+    path = written(folder, HALF.replace("false", "0.4"), HALF.replace("false", "0"))
+    run = RUNNER.invoke(app, ["simulate", "--record", str(path / "0.csv"), "--output", str(path / "o.csv")])
+    assert "SA8, 50 % oil, gas at 40 %\n" in run.output
+    run = RUNNER.invoke(app, ["simulate", "--record", str(path / "1.csv"), "--output", str(path / "o.csv")])
+    assert "SA8, 50 % oil, gas lost\n" in run.output
+    run = RUNNER.invoke(app, ["diagnose", str(path), "--output", str(path / "answer")])
+    assert run.exit_code == 2
+    assert "0.csv: gas_preload = 0.4: a diagnosis takes true, false or 'unknown'" in run.stderr
+    path = written(folder, HALF.replace("false", "1.4"))
+    run = RUNNER.invoke(app, ["check", str(path)])
+    assert "gas_preload = 1.4: must be true (present), false (lost), a share from 0 to 1 or 'unknown'" in run.output
 
 
 def test_a_simulation_takes_the_fill_that_another_record_of_the_state_states(folder: Make) -> None:

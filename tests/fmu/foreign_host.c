@@ -33,13 +33,12 @@ static void log3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3Str
     fprintf(stderr, "%d %s %s\n", (int)status, category, message);
 }
 
-static int run2(void *library, const char *guid, unsigned oil, double oil_level, unsigned gas, int gas_preload)
+static int run2(void *library, const char *guid, const unsigned state[], const double shares[])
 {
     const fmi2CallbackFunctions callbacks = {log2, calloc, free, NULL, NULL};
     double value[2], h, time = 0.0;
     LOADED(fmi2Instantiate);
     LOADED(fmi2SetReal);
-    LOADED(fmi2SetInteger);
     LOADED(fmi2SetupExperiment);
     LOADED(fmi2EnterInitializationMode);
     LOADED(fmi2ExitInitializationMode);
@@ -48,7 +47,7 @@ static int run2(void *library, const char *guid, unsigned oil, double oil_level,
     LOADED(fmi2Terminate);
     LOADED(fmi2FreeInstance);
     fmi2Component damper = fmi2Instantiate_("damper", fmi2CoSimulation, guid, "", &callbacks, fmi2False, fmi2False);
-    if (damper == NULL || fmi2SetReal_(damper, &oil, 1, &oil_level) || fmi2SetInteger_(damper, &gas, 1, &gas_preload)
+    if (damper == NULL || fmi2SetReal_(damper, state, 2, shares)
         || fmi2SetupExperiment_(damper, fmi2False, 0.0, 0.0, fmi2False, 0.0) || fmi2EnterInitializationMode_(damper)
         || fmi2ExitInitializationMode_(damper))
         return 2;
@@ -65,13 +64,12 @@ static int run2(void *library, const char *guid, unsigned oil, double oil_level,
     return 0;
 }
 
-static int run3(void *library, const char *token, unsigned oil, double oil_level, unsigned gas, int gas_preload)
+static int run3(void *library, const char *token, const unsigned state[], const double shares[])
 {
     double value[2], h, reached, time = 0.0;
     bool event, ended, early;
     LOADED(fmi3InstantiateCoSimulation);
     LOADED(fmi3SetFloat64);
-    LOADED(fmi3SetInt32);
     LOADED(fmi3EnterInitializationMode);
     LOADED(fmi3ExitInitializationMode);
     LOADED(fmi3DoStep);
@@ -80,7 +78,7 @@ static int run3(void *library, const char *token, unsigned oil, double oil_level
     LOADED(fmi3FreeInstance);
     fmi3Instance damper = fmi3InstantiateCoSimulation_("damper", token, NULL, fmi3False, fmi3False, fmi3False, fmi3False,
                                                        NULL, 0, NULL, log3, NULL);
-    if (damper == NULL || fmi3SetFloat64_(damper, &oil, 1, &oil_level, 1) || fmi3SetInt32_(damper, &gas, 1, &gas_preload, 1)
+    if (damper == NULL || fmi3SetFloat64_(damper, state, 2, shares, 2)
         || fmi3EnterInitializationMode_(damper, fmi3False, 0.0, 0.0, fmi3False, 0.0) || fmi3ExitInitializationMode_(damper))
         return 2;
     while (scanf("%lf %lf %lf", &value[0], &value[1], &h) == 3) {
@@ -104,6 +102,7 @@ int main(int count, char **argument)
         fprintf(stderr, "not loaded\n");
         return 1;
     }
-    return (atoi(argument[3]) == 3 ? run3 : run2)(library, argument[2], (unsigned)atoi(argument[4]), atof(argument[5]),
-                                                  (unsigned)atoi(argument[6]), atoi(argument[7]));
+    const unsigned state[] = {(unsigned)atoi(argument[4]), (unsigned)atoi(argument[6])};
+    const double shares[] = {atof(argument[5]), atof(argument[7])};
+    return (atoi(argument[3]) == 3 ? run3 : run2)(library, argument[2], state, shares);
 }

@@ -128,7 +128,11 @@ def test_values_are_refused_in_the_words_of_fmi_2(unit: Unit) -> None:
         ("time", 1.0, "time: cannot be set"),
         ("friction.F_FrS", -1.0, "friction.F_FrS = -1 N: must be a number from 0 to 2000 N"),
         ("velocity", float("nan"), "velocity = nan m/s: must be a number from -20 to 20 m/s"),
-        ("gas_preload", 1.0, messages.NO_VARIABLE % ("fmi3SetFloat64", "Float64", unit.refs["gas_preload"])),
+        (
+            "reading.venting",
+            1.0,
+            messages.NO_VARIABLE % ("fmi3SetFloat64", "Float64", unit.refs["reading.venting"]),
+        ),
         ("fv.v_re", 1.0, "fmi3SetFloat64: 1 values, the variables have 20"),
     ]
     for name, value, said in cases:

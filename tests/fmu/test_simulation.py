@@ -166,7 +166,7 @@ def test_tunable_parameters_change_and_fixed_ones_do_not(sa8_fmu: Path) -> None:
 def test_state_can_be_kept_restored_and_serialised(sa8_fmu: Path) -> None:
     slave, refs = instance(sa8_fmu)
     slave.setReal([refs["oil_level"]], [0.56])
-    slave.setInteger([refs["gas_preload"]], [0])
+    slave.setReal([refs["gas_preload"]], [0.0])
     slave.exitInitializationMode()
 
     def go(start: int, end: int) -> list[float]:

@@ -2,6 +2,7 @@
 
 import re
 import zipfile
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -41,6 +42,14 @@ def structure() -> str:
     return str(text)
 
 
+def former(text: str) -> str:
+    """An SSV text of before the gas preload became a share: a whole number."""
+    share, whole = (f'<ssv:{kind} value="{value}"' for kind, value in (("Real", "0.0"), ("Integer", "0")))
+    head, name, rest = text.partition('name="gas_preload"')
+    assert share in rest
+    return head + name + rest.replace(share, whole, 1)
+
+
 @pytest.fixture
 def system(sa8_native: Path, tmp_path: Path) -> Path:
     """The folder of an SSP of the SA8 with the parameters of WORN."""
@@ -61,7 +70,11 @@ def set_directly(fmu: Path, damper: Damper, steps: list[float]) -> list[float]:
     return forces
 
 
-def test_ecos_runs_the_fmu_with_the_parameters(system: Path, ecos: ModuleType, sa8_native: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("written", [str, former])
+def test_ecos_runs_the_fmu_with_the_parameters(
+    system: Path, ecos: ModuleType, sa8_native: Path, tmp_path: Path, written: Callable[[str], str]
+) -> None:
+    (system / "resources" / "worn.ssv").write_text(written(to_ssv(WORN)))
     with zipfile.ZipFile(tmp_path / "rig.ssp", "w") as archive:
         for file in system.rglob("*.*"):
             archive.write(file, file.relative_to(system))
@@ -69,7 +82,7 @@ def test_ecos_runs_the_fmu_with_the_parameters(system: Path, ecos: ModuleType, s
     with ecos.EcosSimulation(step_size=1e-3, ssp_path=str(tmp_path / "rig.ssp")) as run:
         assert run.init(parameter_set=WORN.name)
         assert run.get_real("damper::fv.F_re[3]") == WORN.parameters.F_re[2]
-        assert run.get_integer("damper::gas_preload") == 0
+        assert run.get_real("damper::gas_preload") == 0.0
         for z, v in zip(STROKES, VELOCITIES, strict=True):
             run.set_real("damper::stroke", z)
             run.set_real("damper::velocity", v)

@@ -81,10 +81,10 @@ def test_arithmetic_is_not_a_quantity(text: str) -> None:
 
 
 def test_damper_keeps_integers_and_takes_no_fraction_of_a_switch() -> None:
-    with pytest.raises(ParameterError, match=r"gas_preload = 1\.5: must be an integer"):
-        load("SA8").with_(gas_preload=1.5)
-    with pytest.raises(ParameterError, match="gas_preload = inf: must be an integer"):
-        load("SA8").with_(gas_preload=float("inf"))
+    with pytest.raises(ParameterError, match=r"venting = 0\.5: must be an integer"):
+        load("SA8").with_(venting=0.5)
+    with pytest.raises(ParameterError, match="venting = inf: must be an integer"):
+        load("SA8").with_(venting=float("inf"))
 
 
 def test_a_byte_order_mark_is_not_part_of_toml(tmp_path: Path) -> None:

@@ -89,7 +89,7 @@ def test_a_temperature_acts_as_the_measured_temperature_of_the_package_does():
 
 def test_the_study_sees_30_percent_oil_and_not_90():
     damper = load("SA8")
-    states = conditions((0.9, 0.3), gas_lost=True)
+    states = conditions((0.9, 0.3), gas_preload=0.0)
     found = study([damper], load_car(), states, ("eusama", "push_down"), count=20, processes=1)
     assert len(found) == 2 * 2 * 2, "methods, levels, model and factor"
     shares = {(d.method.name, d.condition): d.share for d in found}
@@ -103,7 +103,7 @@ def test_the_study_sees_30_percent_oil_and_not_90():
 
 def test_every_way_is_studied_and_the_scalar_factor_once():
     found = study(
-        [load("SA8")], load_car(), conditions((0.4,), gas_lost=True), ("push_down",), count=20, ways=VARIED, processes=1
+        [load("SA8")], load_car(), conditions((0.4,), gas_preload=0.0), ("push_down",), count=20, ways=VARIED, processes=1
     )
     assert [d.condition.freed_gas for d in found if not d.condition.scalar] == list(VARIED)
     assert sum(d.condition.scalar for d in found) == 1
@@ -114,4 +114,4 @@ def test_every_way_is_studied_and_the_scalar_factor_once():
 @pytest.mark.parametrize("count", [1, 19, 10_001])
 def test_a_number_of_samples_without_5_percent_is_refused(count):
     with pytest.raises(InputError, match=rf"^samples = {count}: must be from 20 to 10000$"):
-        study([load("SA8")], load_car(), conditions((0.5,), gas_lost=True), count=count)
+        study([load("SA8")], load_car(), conditions((0.5,), gas_preload=0.0), count=count)

@@ -128,7 +128,7 @@ def test_the_page_about_tiring_says_its_limit_and_what_the_command_prints() -> N
     page = (ROOT / "docs" / "inspection_tiring.md").read_text(encoding="utf-8")
     assert f"A damper fails above {LIMIT:g}." in " ".join(page.split())
     (row,) = [line for line in page.splitlines() if line.startswith("| SA8 | 1.00 |")]
-    entries = inspected(load("SA8"), load_car(), conditions((0.9, 0.6), gas_lost=True), ("tiring",), ways=VARIED)
+    entries = inspected(load("SA8"), load_car(), conditions((0.9, 0.6), gas_preload=0.0), ("tiring",), ways=VARIED)
     for entry in entries:
         texts = [f"{figure:.2f}" for figure in entry.readings.values()]
         assert f"| **{texts[0]}** / {' / '.join(texts[1:])} |" in row

@@ -35,7 +35,7 @@ def test_every_usual_method_finds_a_damper_with_30_percent_oil_worse_than_the_in
 
 def test_the_intact_dampers_pass_and_those_with_30_percent_oil_fail():
     for damper in ("SA1", "SA8"):
-        entries = inspected(load(damper), load_car(), conditions((1.0, 0.3), gas_lost=True))
+        entries = inspected(load(damper), load_car(), conditions((1.0, 0.3), gas_preload=0.0))
         assert all(entry.passed == (entry.condition.oil_level == 1.0) for entry in entries), damper
 
 
@@ -70,7 +70,7 @@ def test_a_softer_tyre_and_a_smaller_amplitude_give_more_adhesion():
 
 
 def test_the_window_of_the_phase_shift_matters_more_than_the_loss_of_40_percent_of_the_oil():
-    intact, worn = inspected(load("SA8"), load_car(), conditions((1.0, 0.6), gas_lost=True), ("phase_shift",))
+    intact, worn = inspected(load("SA8"), load_car(), conditions((1.0, 0.6), gas_preload=0.0), ("phase_shift",))
     assert set(intact.windows) == set(WINDOWS)
     assert intact.figure == intact.windows["2 Hz to the wheel"]
     change = abs(intact.figure - worn.figure)
@@ -98,8 +98,8 @@ def test_a_window_without_a_cycle_takes_the_next_one():
 
 
 def test_preload_is_lost_below_full_oil_unless_said_otherwise():
-    assert [s.gas_preload for s in conditions((1.0, 0.9), gas_lost=True)] == [1, 0]
-    assert [s.gas_preload for s in conditions((1.0, 0.9), gas_lost=False)] == [1, 1]
+    assert [s.gas_preload for s in conditions((1.0, 0.9), gas_preload=0.0)] == [1, 0]
+    assert [s.gas_preload for s in conditions((1.0, 0.9), gas_preload=1.0)] == [1, 1]
 
 
 def test_noise_only_adds_noise():

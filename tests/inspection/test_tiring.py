@@ -158,7 +158,7 @@ def test_a_plate_that_drifts_ends_at_another_frequency():
     ],
 )
 def test_what_has_collapsed_before_it_is_read_does_not_pass(name, levels, passed):
-    entries = inspected(load(name), load_car(), conditions(levels, gas_lost=True), ("tiring",))
+    entries = inspected(load(name), load_car(), conditions(levels, gas_preload=0.0), ("tiring",))
     assert [entry.passed for entry in entries] == passed
     said = entries[-1].as_json
     assert said["passed"] is None and said["not_judged"] == said["not_judged_ways"][DEFAULT] == COLLAPSED
@@ -186,7 +186,7 @@ def test_a_plate_that_takes_all_force_at_once_judges_nothing():
     """The SA8 with 80 % oil tires at 6 mm; 12 mm leave nothing to be read."""
     entries = [
         inspected(
-            load("SA8"), load_car(), conditions((0.8,), gas_lost=True), ("tiring",), setting=Setting(shaker=shaker([a]))
+            load("SA8"), load_car(), conditions((0.8,), gas_preload=0.0), ("tiring",), setting=Setting(shaker=shaker([a]))
         )[0]
         for a in (6e-3, 12e-3)
     ]
@@ -209,7 +209,7 @@ def test_what_other_benches_see_counts_though_tiring_does_not_judge_it():
     """The headline of several methods: tiring judges the SA8 where it has something to lose, the SA6 never."""
     lines = {}
     for name in ("SA8", "SA6"):
-        entries = inspected(load(name), load_car(), conditions((1.0, 0.4), gas_lost=True), ("eusama", "tiring"))
+        entries = inspected(load(name), load_car(), conditions((1.0, 0.4), gas_preload=0.0), ("eusama", "tiring"))
         lines[name] = sentence(Inspection([load(name)], load_car(), entries, [], [DEFAULT], 1), load(name))
     lost = "(below 100% its gas preload is lost)"
     assert lines["SA8"] == f"SA8 passes every method at all of these oil levels down to 100% {lost}."

@@ -37,7 +37,7 @@ def dampers(draw: st.DrawFn, cavitating: bool) -> Parameters:
         E=draw(st.floats(0, 100)),
         v_cav=draw(st.floats(0, 1.5)),
         oil_level=draw(st.one_of(UNIT, st.sampled_from([0.0, 0.4, 0.999]))),
-        gas_preload=draw(st.integers(0, 1)),
+        gas_preload=draw(st.one_of(UNIT, st.sampled_from([0.0, 1.0]))),
         cavitation_loss=draw(st.one_of(UNIT, st.sampled_from([0.0, 0.1]))),
         foot_valve=draw(st.sampled_from([0.0, 0.1, 1.0])),
     )

@@ -41,6 +41,38 @@ def test_linear_by_default(name: str) -> None:
     assert np.array_equal(gas_force(load(name, as_published=True).with_(gas_preload=0), z), p.c_gas_lost * z)
 
 
+@pytest.mark.parametrize("share", [0.1, 0.4, 0.99])
+def test_a_share_of_the_preload_is_that_share_of_its_pressure(share: float) -> None:
+    """The force at stroke 0 goes with the pressure above ambient, the stiffness with the absolute one."""
+    kept, low, lost = (load("SA8", as_published=True).with_(gas_preload=g) for g in (1, share, 0))
+    z = np.linspace(-0.04, 0.04, 9)
+    ends = share * gas_force(kept, z) + (1.0 - share) * gas_force(lost, z)
+    assert gas_force(low, z) == pytest.approx(ends, rel=1e-12, abs=1e-12)
+    d = blank(Derived)
+    prepare(low.parameters, d)
+    assert pytest.approx(d.F_0) == share * kept.parameters.F_0
+
+
+def test_what_is_missing_of_the_preload_lets_the_oil_cavitate() -> None:
+    """The freed gas goes with the missing pressure: with half of it half as much in the first strokes."""
+    block = harmonic_block(1.572)
+    freed = {}
+    for share in (0.0, 0.25, 0.5, 0.75, 1.0):
+        damper = load("SA8", as_published=True).with_(oil_level=0.9, gas_preload=share)
+        d = blank(Derived)
+        prepare(damper.parameters, d)
+        assert d.cavitation == pytest.approx((1.0 - share) * 0.5)
+        freed[share] = simulate(damper, block.stroke, block.velocity).V_cav[block.marks[1]]
+    assert freed[1.0] == 0.0
+    assert list(freed.values()) == sorted(freed.values(), reverse=True)
+    assert freed[0.75] / freed[0.0] == pytest.approx(0.25, rel=0.1)
+
+
+@pytest.mark.parametrize("given", [1, True, "100 %", 1.0])
+def test_whole_numbers_and_booleans_are_shares(given: object) -> None:
+    assert load("SA8").with_(gas_preload=given).parameters == load("SA8").parameters
+
+
 @pytest.mark.parametrize("n", [1.0, 1.2, 1.35, 1.4])
 @pytest.mark.parametrize("name", ["SA1", "SA5", "SA8"])
 def test_polytropic_gas_is_that_of_the_reserve(name: str, n: float) -> None:

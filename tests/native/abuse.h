@@ -144,7 +144,7 @@ static void orders_of_calls(void)
 
 static void arguments(int mode)
 {
-    const fmi2ValueReference force = reference("force"), oil = reference("oil_level"), preload = reference("gas_preload");
+    const fmi2ValueReference force = reference("force"), oil = reference("oil_level"), venting = reference("reading.venting");
     const fmi2ValueReference mixed[2] = {oil, VARIABLES}, wrong = 4294967295u;
     const double half = 0.5, none = 0.0, values[2] = {0.5, 0.5};
     const fmi2String category[2] = {"logStatusError", "%s%n#r0#"}, nothing = NULL;
@@ -159,16 +159,16 @@ static void arguments(int mode)
     REFUSED(fmi2Error, fmu.SetReal(i.c, &oil, 1, NULL));
     REFUSED(fmi2Error, fmu.SetReal(i.c, &wrong, 1, &half));
     REFUSED(fmi2Error, fmu.SetReal(i.c, mixed, 2, values)); /* nor is the first one set */
-    REFUSED(fmi2Error, fmu.SetReal(i.c, &preload, 1, &half));
+    REFUSED(fmi2Error, fmu.SetReal(i.c, &venting, 1, &half));
     REFUSED(fmi2Error, fmu.SetReal(i.c, &force, 1, &half));
     REFUSED(fmi2Error, fmu.SetInteger(i.c, NULL, 1, whole));
-    REFUSED(fmi2Error, fmu.SetInteger(i.c, &preload, 1, NULL));
+    REFUSED(fmi2Error, fmu.SetInteger(i.c, &venting, 1, NULL));
     REFUSED(fmi2Error, fmu.SetInteger(i.c, &oil, 1, whole));
     REFUSED(fmi2Error, fmu.SetInteger(i.c, &wrong, 1, whole));
     if (mode == STEPPING) {
         REFUSED(fmi2Error, fmu.DoStep(i.c, 0.0, 11.0, fmi2True)); /* it is to stop at 10 s */
         REFUSED(fmi2Error, fmu.SetReal(i.c, &oil, 1, &half));
-        REFUSED(fmi2Error, fmu.SetInteger(i.c, &preload, 1, whole));
+        REFUSED(fmi2Error, fmu.SetInteger(i.c, &venting, 1, whole));
     }
     REFUSED(fmi2Error, fmu.SetBoolean(i.c, &oil, 1, flags));
     REFUSED(fmi2Error, fmu.SetString(i.c, &oil, 1, strings));
@@ -176,10 +176,10 @@ static void arguments(int mode)
     REFUSED(fmi2Error, fmu.GetString(i.c, &oil, 1, strings));
     REFUSED(fmi2Error, fmu.GetReal(i.c, NULL, 1, reals));
     REFUSED(fmi2Error, fmu.GetReal(i.c, &oil, 1, NULL));
-    REFUSED(fmi2Error, fmu.GetReal(i.c, &preload, 1, reals));
+    REFUSED(fmi2Error, fmu.GetReal(i.c, &venting, 1, reals));
     REFUSED(fmi2Error, fmu.GetReal(i.c, &wrong, 1, reals));
     REFUSED(fmi2Error, fmu.GetInteger(i.c, NULL, 1, whole));
-    REFUSED(fmi2Error, fmu.GetInteger(i.c, &preload, 1, NULL));
+    REFUSED(fmi2Error, fmu.GetInteger(i.c, &venting, 1, NULL));
     REFUSED(fmi2Error, fmu.GetInteger(i.c, &oil, 1, whole));
     REFUSED(fmi2Error, fmu.GetInteger(i.c, &wrong, 1, whole));
     CHECK(fmu.SetReal(i.c, NULL, 0, NULL) == fmi2OK && fmu.GetReal(i.c, NULL, 0, NULL) == fmi2OK, "%s", i.text);

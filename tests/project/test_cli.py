@@ -26,6 +26,11 @@ COMMANDS = sorted([
 ])  # fmt: skip
 
 
+def has(command: Any, option: str) -> bool:
+    """Whether a command has an option."""
+    return any(option in parameter.opts for parameter in command.params)
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_is_for_a_person(command: str) -> None:
     run = RUNNER.invoke(app, [*command.split(), "-h"])
@@ -200,6 +205,37 @@ def test_simulate_a_block(tmp_path: Path) -> None:
     rows = list(csv.reader(out.open()))
     assert rows[0][:4] == ["time [s]", "stroke [m]", "velocity [m/s]", "force [N]"]
     assert len(rows) > 1000
+
+
+@pytest.mark.parametrize("command", [name for name, command in TOP.commands.items() if has(command, "--gas-lost")])
+def test_gas_may_be_a_share_wherever_it_may_be_lost(command: str) -> None:
+    assert has(TOP.commands[command], "--gas")
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--gas", "0.4", "--gas-lost"], "--gas 0.4 and --gas-lost: give one of them"),
+        (["--gas", "1", "--gas-kept"], "--gas 1 and --gas-kept: give one of them"),
+        (["--gas", "40"], "--gas 40: must be a number from 0 to 1"),
+        (["--gas", "nan"], "--gas nan: must be a number from 0 to 1"),
+    ],
+)
+@pytest.mark.parametrize("command", ["simulate SA8", "ride SA8", "inspect SA8 --scatter 0", "fmu SA8"])
+def test_a_share_of_the_gas_is_given_once_and_within_its_range(command: str, options: list[str], said: str) -> None:
+    run = RUNNER.invoke(app, [*command.split(), *options])
+    assert (run.exit_code, run.stderr) == (2, f"error: {said}\n")
+
+
+def test_a_share_of_the_gas_lies_between_kept_and_lost(tmp_path: Path) -> None:
+    dissipated = []
+    for options in (["--gas-kept"], ["--gas", "0.4"], ["--gas-lost"]):
+        arguments = ["simulate", "SA8", "--oil-level", "0.7", "--velocity", "1.572", "--output", str(tmp_path / "o.csv")]
+        run = RUNNER.invoke(app, [*arguments, *options])
+        assert run.exit_code == 0, run.output
+        dissipated.append(float(re.findall(r"([\d.]+) J dissipated", run.output)[0]))
+        (tmp_path / "o.csv").unlink()
+    assert dissipated == sorted(dissipated, reverse=True)
 
 
 def test_simulate_a_record(tmp_path: Path) -> None:

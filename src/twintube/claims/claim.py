@@ -135,7 +135,7 @@ def run(
     velocity: float,
     bench: Bench = BENCH,
     *,
-    preload: int | None = None,
+    preload: float | None = None,
     samples: int = 400,
 ) -> tuple[Signal, Simulation]:
     """The block and its simulation; `preload` overrides the preload of the paper's states (for C12)."""

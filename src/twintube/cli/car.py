@@ -10,7 +10,7 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FRONT, JSON_FILE, MANEUVERS, REAR, ROADS, WORN_AT, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
-from twintube.cli.states import LOST_BELOW_FULL
+from twintube.cli.states import GAS_SHARE, LOST_BELOW_FULL, worn_preload
 from twintube.common.files import write_bytes, write_text
 from twintube.common.words import counted
 from twintube.errors import InputError
@@ -51,7 +51,8 @@ def car(
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
     oil_level: OIL_LEVELS = None,
-    gas_lost: LOST_BELOW_FULL = False,
+    gas_lost: LOST_BELOW_FULL = None,
+    gas: GAS_SHARE = None,
     speed: SPEEDS = None,
     road_class: ROAD_CLASSES = None,
     grip: GRIP = "1",
@@ -66,6 +67,7 @@ def car(
     A car with a scalar factor in place of the worn dampers drives, too.
     """
     from twintube import dampers
+    from twintube.dampers.damper import gas_in_words
     from twintube.report.car.conclusion import read_inspection
     from twintube.report.car.courses import pictures
     from twintube.report.car.page import page, picture
@@ -80,7 +82,8 @@ def car(
     names, levels = maneuver or list(USUAL), oil_level or [0.7, 0.5, 0.3]
     roads, speeds = road_class or ["smooth", "C", "D"], speed or None
     check_drives(names, roads, speeds or ())
-    wanted = cases(names, speeds, roads, levels, seeds=seeds, grips=grips_of(grip), gas_lost=gas_lost)
+    preload = worn_preload(gas_lost, gas)
+    wanted = cases(names, speeds, roads, levels, seeds=seeds, grips=grips_of(grip), gas_preload=preload)
     for case in wanted[:2]:
         dampers_of(*both, worn, case)
     entries = drive_all(loaded, *both, worn, wanted)
@@ -89,7 +92,7 @@ def car(
     rows = compared(entries)
     conditions = {
         "car": loaded.name, "front": both[0].name, "rear": both[1].name, "worn": worn, "seeds": seeds, "grip": grip,
-        "gas_preload": f"{'lost' if gas_lost else 'kept'} in the worn dampers",
+        "gas_preload": f"{gas_in_words(preload)} in the worn dampers",
     }  # fmt: skip
     if json_file is not None:
         write_text(json_file, json.dumps({**conditions, "compared": rows, "drives": entries}, indent=1) + "\n")

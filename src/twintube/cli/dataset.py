@@ -8,7 +8,7 @@ import typer
 
 from twintube.cli.base import BENCH, app
 from twintube.cli.options import DAMPER_ARGUMENT
-from twintube.cli.states import GAS
+from twintube.cli.states import GAS, GAS_SHARE, gas_preload
 from twintube.errors import InputError
 
 EXAMPLE = "bench_SA8"
@@ -44,6 +44,7 @@ def new_dataset(
         ),
     ] = None,
     gas_lost: Annotated[bool | None, typer.Option(GAS, help="Gas preload in all files; unknown if left out.")] = None,
+    gas: GAS_SHARE = None,
 ) -> None:
     """Write the dataset.toml of measured files for you to confirm.
 
@@ -54,8 +55,10 @@ def new_dataset(
     from twintube.data.findings import UNCONFIRMED
     from twintube.data.sniff.template import Fill, new_dataset
 
-    preload = None if gas_lost is None else not gas_lost
-    remarks = new_dataset(folder, source or [], damper, Fill(oil_level, preload), reference or [])
+    preload = gas_preload(gas_lost, gas)
+    remarks = new_dataset(
+        folder, source or [], damper, Fill(oil_level, bool(preload) if preload in (0, 1) else preload), reference or []
+    )
     typer.echo(f"{folder / 'dataset.toml'} is written.")
     for doubt, records in remarks.items():
         typer.echo(f"not sure: {doubt} ({', '.join(records)})" if records else f"not sure: {doubt}")

@@ -7,7 +7,7 @@ import typer
 
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FRONT, REAR, ROADS, SEED, WORN_AT, one_of
-from twintube.cli.states import WORN_GAS_LOST, WORN_OIL_LEVEL, state_in_words
+from twintube.cli.states import GAS_SHARE, WORN_GAS_LOST, WORN_OIL_LEVEL, worn_preload
 from twintube.errors import InputError
 
 
@@ -24,7 +24,8 @@ def drive(
     minutes: Annotated[float, typer.Option(metavar="MIN", help="Length.", min=0.1, max=60.0)] = 5.0,
     worn: WORN_AT = "all",
     oil_level: WORN_OIL_LEVEL = 1.0,
-    gas_lost: WORN_GAS_LOST = False,
+    gas_lost: WORN_GAS_LOST = None,
+    gas: GAS_SHARE = None,
     temperature: Annotated[
         float, typer.Option(metavar="DEGC", help="Temperature of the dampers' oil and gas.", min=-40.0, max=120.0)
     ] = 23.0,
@@ -38,6 +39,7 @@ def drive(
     The file's labels hold the truth about its dampers. `twintube monitor` reads such files.
     """
     from twintube import dampers
+    from twintube.dampers.damper import in_words
     from twintube.driving.drives import driven
     from twintube.driving.scenes import Conditions, Vehicle, Wear, scene
     from twintube.driving.signals import check_suffix, write
@@ -51,15 +53,16 @@ def drive(
     if worn not in WORN:
         raise InputError(f"--worn {worn}: must be one of {', '.join(WORN)}")
     levels = [oil_level if i in WORN[worn] else 1.0 for i in range(4)]
-    gas = [0 if gas_lost and i in WORN[worn] else 1 for i in range(4)]
+    preload = worn_preload(gas_lost, gas)
+    shares = [preload if i in WORN[worn] else 1.0 for i in range(4)]
     vehicle = Vehicle(load_car(car_file), dampers.load(front), dampers.load(rear))
     conditions = Conditions(
         road_class, speed, 60.0 * minutes, seed, temperature=temperature, random=seed
     )  # fmt: skip
-    signals = driven(scene(vehicle, conditions, Wear(levels, gas)))
+    signals = driven(scene(vehicle, conditions, Wear(levels, shares)))
     write(signals, output)
     typer.echo(
         f"{output}: {minutes:g} min of {vehicle.car.name} at {speed:g} km/h on a road of class {road_class}, "
         f"{len(signals.values)} channels every {signals.interval * 1e3:g} ms; {worn}: "
-        f"{state_in_words(oil_level, gas_lost=gas_lost)}"
+        f"{in_words(oil_level, preload)}"
     )

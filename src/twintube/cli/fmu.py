@@ -8,7 +8,7 @@ import typer
 from twintube.cli.base import MODEL, app
 from twintube.cli.options import AS_PUBLISHED, DAMPER_ARGUMENT, PLATFORM
 from twintube.cli.outputs import keep_other, named, refuse_other, typed
-from twintube.cli.states import GAS_LOST, OIL_LEVEL, in_state, in_words
+from twintube.cli.states import GAS_LOST, GAS_SHARE, OIL_LEVEL, in_state
 from twintube.common.files import write_text
 from twintube.common.words import printable
 
@@ -60,6 +60,7 @@ def fmu(
     damper: Annotated[str | None, DAMPER_ARGUMENT] = None,
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = None,
+    gas: GAS_SHARE = None,
     kind: Annotated[
         Literal["native", "python"],
         typer.Option(metavar="native|python", help="Compiled, or Python source that the host's Python runs."),
@@ -98,7 +99,7 @@ def fmu(
         return
     if platform and kind == "python":
         raise BuildError(f"--platform {platform[0]}: only for the native kind; the Python kind runs on linux64 and win64")
-    chosen = in_state(load(damper or "SA8", as_published=published), oil_level, gas_lost)
+    chosen = in_state(load(damper or "SA8", as_published=published), oil_level, gas_lost, gas)
     if ssv:
         if others := [name for name in typed(ctx) if name in ("kind", "platform")]:
             raise BuildError(f"--ssv: holds parameters for every library, leave out {', '.join(others)}")
@@ -111,7 +112,7 @@ def fmu(
     typer.echo(
         f"{built}: {printable(chosen.name)}, {printable(chosen.title)}; valid {kind} FMI {fmi}.0 co-simulation FMU, "
         f"{built.stat().st_size // 1024} kB\n"
-        f"start values: {in_words(chosen)}; freed gas: {acting(chosen)}"
+        f"start values: {chosen.state}; freed gas: {acting(chosen)}"
     )
     if kind == "native" and platform is None:
         absent(chosen, fmi)
@@ -124,4 +125,4 @@ def write_ssv(damper: "Damper", output: Path, version: Literal[1, 2]) -> None:
     text = to_ssv(damper, ssp=version)
     keep_other(output, text.encode())
     write_text(output, text)
-    typer.echo(f"{output}: parameters of {printable(damper.name)}, {printable(damper.title)}; {in_words(damper)}")
+    typer.echo(f"{output}: parameters of {printable(damper.name)}, {printable(damper.title)}; {damper.state}")

@@ -11,7 +11,7 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FREED_GAS, INSPECTIONS, JSON_FILE, dampers, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
-from twintube.cli.states import LOST_BELOW_FULL
+from twintube.cli.states import GAS_SHARE, LOST_BELOW_FULL, worn_preload
 from twintube.common.files import write_text
 from twintube.errors import InputError
 
@@ -88,7 +88,8 @@ def inspect(
     names: NAMES = None,
     methods: METHODS = None,
     levels: LEVELS = None,
-    gas_lost: LOST_BELOW_FULL = False,
+    gas_lost: LOST_BELOW_FULL = None,
+    gas: GAS_SHARE = None,
     dead_lengths: DEAD_LENGTHS = None,
     car: CAR = "passat_b8",
     freed_gas: WAY = None,
@@ -123,7 +124,7 @@ def inspect(
     plates = shaker(sorted(x * 1e-3 for x in dict.fromkeys(plate)) if plate else AMPLITUDES)
     loaded, vehicle = wanted_dampers(names or ["SA8"], dead_lengths or []), load_car(car)
     steps = sorted(dict.fromkeys(levels or USUAL_LEVELS), reverse=True)
-    states = conditions(steps, gas_lost=gas_lost)
+    states = conditions(steps, worn_preload(gas_lost, gas))
     ways = VARIED if freed_gas is None else (known(freed_gas, "--freed-gas").name,)
     setting = Setting(shaker=plates)
     entries = [entry for d in loaded for entry in inspected(d, vehicle, states, wanted, ways=ways, setting=setting)]

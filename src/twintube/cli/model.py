@@ -10,7 +10,7 @@ from twintube.cli import simulated
 from twintube.cli.base import MODEL, app
 from twintube.cli.options import AS_PUBLISHED, DAMPER_ARGUMENT
 from twintube.cli.outputs import keep_other
-from twintube.cli.states import GAS_LOST, OIL_LEVEL
+from twintube.cli.states import GAS_LOST, GAS_SHARE, OIL_LEVEL
 from twintube.common.files import write_bytes, write_text
 from twintube.errors import InputError
 
@@ -90,6 +90,7 @@ def simulate(
     amplitude_mm: AMPLITUDE = 45.0,
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = None,
+    gas: GAS_SHARE = None,
     published: AS_PUBLISHED = False,
     for_fmu: FOR_FMU = False,
     output: CSV = Path("simulation.csv"),
@@ -104,7 +105,7 @@ def simulate(
     from twintube.data import Record
 
     entry = simulated.listed(record, block)
-    chosen, state = simulated.filled(simulated.named(damper, record, entry), entry, oil_level, gas_lost)
+    chosen, state = simulated.filled(simulated.named(damper, record, entry), entry, oil_level, gas_lost, gas)
     chosen = as_published(chosen) if published else chosen
     typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}" if entry else f"{chosen.name}, {state}")
     motion, findings = (

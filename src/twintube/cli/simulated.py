@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from twintube.cli.states import in_state, in_words
+from twintube.cli.states import gas_preload, in_state
 from twintube.errors import InputError, InputWarning
 
 if TYPE_CHECKING:
@@ -41,17 +41,21 @@ def named(damper: str | None, record: Path | None, entry: "tuple[Damper, Record]
 
 
 def filled(
-    damper: "Damper", entry: "tuple[Damper, Record] | None", oil_level: float | None, gas_lost: bool | None
+    damper: "Damper",
+    entry: "tuple[Damper, Record] | None",
+    oil_level: float | None,
+    gas_lost: bool | None,
+    gas: float | None,
 ) -> "tuple[Damper, str]":
     """The damper in the state that is given, or that the dataset says, else as its parameter set; and the state in words."""
     if entry is not None:
         level, preload = entry[1].oil_level, entry[1].gas_preload
-        unknown = [level is None and oil_level is None, preload is None and gas_lost is None]
-        damper = damper.with_(oil_level=1.0 if level is None else level, gas_preload=int(preload is not False))
+        unknown = [level is None and oil_level is None, preload is None and gas_preload(gas_lost, gas) is None]
+        damper = damper.with_(oil_level=1.0 if level is None else level, gas_preload=1.0 if preload is None else preload)
     else:
         unknown = [False, False]
-    state = in_state(damper, oil_level, gas_lost)
-    parts = zip(in_words(state).split(", "), unknown, strict=True)
+    state = in_state(damper, oil_level, gas_lost, gas)
+    parts = zip(state.state.split(", "), unknown, strict=True)
     return state, ", ".join(text + ASSUMED * assumed for text, assumed in parts)
 
 
@@ -70,7 +74,7 @@ def driven_by(
     """The motion or record in a file, of the damper's fill, and findings on how it was read."""
     from twintube.data.records.motion import read_moved
 
-    fill = damper.parameters.oil_level, bool(damper.parameters.gas_preload)
+    fill = damper.parameters.oil_level, damper.parameters.gas_preload
     if entry is None:
         return read_moved(record, fill, block)
     return replace(entry[1], oil_level=fill[0], gas_preload=fill[1]), entry[1].findings

@@ -9,7 +9,7 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import AS_PUBLISHED, CAR, FRONT, PLATFORM, REAR, SSP, WORN_AT
 from twintube.cli.outputs import named, refuse_other, typed
-from twintube.cli.states import WORN_GAS_LOST, WORN_OIL_LEVEL, state_in_words
+from twintube.cli.states import GAS_SHARE, WORN_GAS_LOST, WORN_OIL_LEVEL, worn_preload
 from twintube.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ OF_THE_CAR = {"speed": "--speed", "car_file": "--car", "version": "--ssp"}  # pa
 OF_THE_CONTAINER = {"step_ms": "--step-ms"}
 
 
-def four(front: str, rear: str, worn: str, oil_level: float, *, gas_lost: bool, published: bool) -> list["Damper"]:
+def four(front: str, rear: str, worn: str, oil_level: float, preload: float, *, published: bool) -> list["Damper"]:
     """The dampers in the order of the wheels; raises ParameterError and InputError."""
     from twintube.dampers import load
     from twintube.vehicle.full.catalogue import Case
@@ -28,7 +28,7 @@ def four(front: str, rear: str, worn: str, oil_level: float, *, gas_lost: bool, 
     from twintube.vehicle.full.study import dampers_of
 
     both = load(front, as_published=published), load(rear, as_published=published)
-    return list(dampers_of(*both, worn, Case("ride", 50.0, SMOOTH, 1, oil_level, gas_preload=int(not gas_lost))))
+    return list(dampers_of(*both, worn, Case("ride", 50.0, SMOOTH, 1, oil_level, gas_preload=preload)))
 
 
 @app.command(rich_help_panel=VEHICLE, epilog="Example: twintube ssp --worn rear_left --oil-level 0.5 --output car.ssp")
@@ -41,7 +41,8 @@ def ssp(
     rear: REAR = "SA8",
     worn: WORN_AT = "all",
     oil_level: WORN_OIL_LEVEL = 1.0,
-    gas_lost: WORN_GAS_LOST = False,
+    gas_lost: WORN_GAS_LOST = None,
+    gas: GAS_SHARE = None,
     speed: Annotated[float, typer.Option(metavar="KM/H", help="Speed at the start.")] = 50.0,
     car_file: CAR = "passat_b8",
     version: SSP = 1,
@@ -59,6 +60,7 @@ def ssp(
     The file holds the car's FMU, four damper FMUs, connections and parameters. A simulator that knows SSP runs it; road and
     driver are inputs of the car. The dampers are not preconditioned.
     """
+    from twintube.dampers.damper import in_words
     from twintube.fmu.ssp import build_ssp, described, members
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.maneuvers import checked_speed
@@ -67,8 +69,9 @@ def ssp(
     misplaced = OF_THE_CAR if container else OF_THE_CONTAINER
     if others := [misplaced[name] for name in typed(ctx) if name in misplaced]:
         raise InputError(f"{', '.join(others)}: {'not' if container else 'only'} with --container")
-    dampers = four(front, rear, worn, oil_level, gas_lost=gas_lost, published=published)
-    state = state_in_words(oil_level, gas_lost=gas_lost)
+    preload = worn_preload(gas_lost, gas)
+    dampers = four(front, rear, worn, oil_level, preload, published=published)
+    state = in_words(oil_level, preload)
     if container:
         write_container(dampers, output if named() else Path(), step_ms, platform, f"{front} and {rear}, {worn}: {state}")
         return

@@ -1,11 +1,13 @@
-"""The state that a command's options give a damper: one rule for all of them, and the words in which they say it.
+"""The state that a command's options give a damper: one rule for all of them.
 
-An option changes what it names: `--oil-level` leaves the gas preload as it is, `--gas-lost` takes it away.
+An option changes what it names: `--oil-level` leaves the gas preload as it is, `--gas-lost` takes it away, `--gas` a share.
 """
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from twintube.errors import InputError
 
 if TYPE_CHECKING:
     from twintube.dampers import Damper
@@ -24,24 +26,33 @@ WORN_OIL_LEVEL = Annotated[
         help="Oil of the worn dampers. Their gas preload stays unless --gas-lost.",
     ),
 ]
-WORN_GAS_LOST = Annotated[bool, typer.Option(GAS, help="Gas preload of the worn dampers.")]
-LOST_BELOW_FULL = Annotated[bool, typer.Option(GAS, help="Gas preload of dampers with less than 100 % oil.")]
+GAS_SHARE = Annotated[
+    float | None, typer.Option("--gas", metavar="0..1", help="Gas pressure above ambient, share of the nominal.")
+]
+WORN_GAS_LOST = Annotated[bool | None, typer.Option(GAS, help="Gas preload of the worn dampers; kept if left out.")]
+LOST_BELOW_FULL = Annotated[
+    bool | None, typer.Option(GAS, help="Gas preload of dampers with less than 100 % oil; kept if left out.")
+]
 
 
-def in_state(damper: "Damper", oil_level: float | None, gas_lost: bool | None) -> "Damper":
-    """The damper in the state that is given, else as its parameter set says; raises ParameterError."""
-    changes: dict[str, Any] = {} if oil_level is None else {"oil_level": oil_level}
+def gas_preload(gas_lost: bool | None, gas: float | None) -> float | None:
+    """The share of the gas preload [1] that is given, None where none is; raises InputError."""
+    if gas is None:
+        return None if gas_lost is None else float(not gas_lost)
     if gas_lost is not None:
-        changes["gas_preload"] = int(not gas_lost)
-    return damper.with_(**changes)
+        raise InputError(f"--gas {gas:g} and --gas-{'lost' if gas_lost else 'kept'}: give one of them")
+    if not 0.0 <= gas <= 1.0:
+        raise InputError(f"--gas {gas:g}: must be a number from 0 to 1")
+    return gas
 
 
-def in_words(damper: "Damper") -> str:
-    """`60 % oil, gas lost`."""
-    p = damper.parameters
-    return state_in_words(p.oil_level, gas_lost=not p.gas_preload)
+def worn_preload(gas_lost: bool | None, gas: float | None) -> float:
+    """The same of worn dampers, which keep it where none is given."""
+    share = gas_preload(gas_lost, gas)
+    return 1.0 if share is None else share
 
 
-def state_in_words(oil_level: float, *, gas_lost: bool) -> str:
-    """The same of an oil level [1] and the gas preload."""
-    return f"{100 * oil_level:.4g} % oil, gas {'lost' if gas_lost else 'kept'}"
+def in_state(damper: "Damper", oil_level: float | None, gas_lost: bool | None, gas: float | None) -> "Damper":
+    """The damper in the state that is given, else as its parameter set says; raises InputError and ParameterError."""
+    given = {"oil_level": oil_level, "gas_preload": gas_preload(gas_lost, gas)}
+    return damper.with_(**{name: value for name, value in given.items() if value is not None})

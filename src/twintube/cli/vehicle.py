@@ -8,7 +8,7 @@ import typer
 
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import AS_PUBLISHED, CAR, DAMPER, FREED_GAS, JSON_FILE, ROADS, SEED, one_of
-from twintube.cli.states import GAS_LOST, OIL_LEVEL, in_state, in_words
+from twintube.cli.states import GAS_LOST, GAS_SHARE, OIL_LEVEL, in_state
 from twintube.common.files import write_text
 from twintube.errors import ParameterError
 
@@ -20,6 +20,7 @@ def ride(
     damper: DAMPER,
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = None,
+    gas: GAS_SHARE = None,
     speed: Annotated[float, typer.Option(metavar="KM/H", help="Speed.", min=1.0, max=200.0)] = 50.0,
     road_class: Annotated[str, one_of(ROADS, help="Class of the road, ISO 8608.")] = "D",
     seconds: Annotated[float, typer.Option(metavar="S", help="Length.", min=20.0, max=3600.0)] = 120.0,
@@ -50,7 +51,7 @@ def ride(
     loaded, vehicle = dampers.load(damper, as_published=published), load_car(car)
     if freed_gas is not None:
         loaded = with_freed_gas(loaded, known(freed_gas, "--freed-gas").name)
-    state = in_state(loaded, oil_level, gas_lost)
+    state = in_state(loaded, oil_level, gas_lost, gas)
     corner, route = vehicle.corner(loaded), track(speed, seconds, road_class=road_class, seed=seed)
     intact = run(loaded.with_(oil_level=1.0, gas_preload=1), corner, route)
     figures = measures(run(state, corner, route), corner, intact)
@@ -68,7 +69,7 @@ def ride(
     figures |= {"intact": measures(intact, corner)}
     if json_file is not None:
         write_text(json_file, json.dumps(conditions | figures, indent=1) + "\n")
-    typer.echo(f"{loaded.name}, {in_words(state)}; freed gas: {acting(state)}")
+    typer.echo(f"{loaded.name}, {state.state}; freed gas: {acting(state)}")
     for line in lines(figures):
         typer.echo(line)
 

@@ -74,8 +74,8 @@ class Parameters:
 
     oil_level: float = var("", "", "1", "oil over the intact oil volume", lower=0, upper=1,
                            source="Table 2", default=1.0)
-    gas_preload: int = var("", "", "1", "gas preload: 1 present, 0 lost", lower=0, upper=1, integer=True,
-                           source="Section 2", default=1)
+    gas_preload: float = var("", "", "1", "gas pressure above ambient over the nominal: 1 present, 0 lost", lower=0, upper=1,
+                             source="Section 2", default=1.0)
 
     D_a: float = var("geometry", "D_a", "m", "diameter of the outer tube", lower=0.02, upper=0.2, source="Table 5")
     D_PR: float = var("geometry", "D_PR", "m", "diameter of the piston rod", lower=0.004, upper=0.08, source="Table 5")

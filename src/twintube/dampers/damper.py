@@ -44,21 +44,34 @@ class Damper:
             if known[name].metadata["size"] > 1:
                 continue
             try:
-                changes[name] = number = quantity(value, known[name].metadata["unit"]) if isinstance(value, str) else value
-                whole = float(number).is_integer()
+                number = float(quantity(value, known[name].metadata["unit"]) if isinstance(value, str) else value)
             except (TypeError, ValueError) as error:
                 reason = error if isinstance(value, str) else f"{shown(value)} is not a number"
                 raise ParameterError(f"{self.name}: {fmi_name(known[name])}: {reason}") from error
-            if known[name].metadata["integer"] and not whole:
+            if known[name].metadata["integer"] and not number.is_integer():
                 raise ParameterError(f"{self.name}: {fmi_name(known[name])} = {number:g}: must be an integer")
+            changes[name] = int(number) if known[name].metadata["integer"] else number
         changed = replace(self.parameters, **changes)
         refuse(self.name, explained(problems(changed), changed))
         return replace(self, parameters=changed)
 
     def __repr__(self) -> str:
-        p = self.parameters
-        gas = "present" if p.gas_preload else "lost"
-        return f"<Damper {self.name}: {self.title}, {100 * p.oil_level:.4g} % oil, gas {gas}>"
+        return f"<Damper {self.name}: {self.title}, {self.state}>"
+
+    @property
+    def state(self) -> str:
+        """Oil and gas in words: `60 % oil, gas lost`."""
+        return in_words(self.parameters.oil_level, self.parameters.gas_preload)
+
+
+def in_words(oil_level: float, gas_preload: float) -> str:
+    """A state: `60 % oil, gas lost`."""
+    return f"{100 * oil_level:.4g} % oil, gas {gas_in_words(gas_preload)}"
+
+
+def gas_in_words(gas_preload: float) -> str:
+    """A share of the gas preload: `kept`, `lost` or `at 40 %`."""
+    return {0.0: "lost", 1.0: "kept"}.get(gas_preload, f"at {100 * gas_preload:.4g} %")
 
 
 def elements(damper: Damper) -> Iterator[tuple[str, Field[Any], int, float]]:

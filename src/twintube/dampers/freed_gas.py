@@ -121,7 +121,7 @@ def acting(damper: Damper) -> str:
     return "its own: " + ", ".join(f"{key} = {value:g}" for key, value in values.items() if value != 0.0)
 
 
-def condition(damper: Damper, oil_level: float, gas_preload: int, name: str = DEFAULT) -> Damper:
+def condition(damper: Damper, oil_level: float, gas_preload: float, name: str = DEFAULT) -> Damper:
     """The damper at an oil level with a way, or with the oil level as a factor of the fluid force (SCALAR)."""
     if name == SCALAR:
         return as_published(damper.with_(gas_preload=gas_preload, **scalar_factor(oil_level)))

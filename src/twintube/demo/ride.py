@@ -27,7 +27,7 @@ class RideCase:
 
     speed_kmh: float
     oil_level: float
-    gas_preload: int
+    gas_preload: float
     off: tuple[str, ...] = ()
 
 

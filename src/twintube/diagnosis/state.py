@@ -42,7 +42,7 @@ class Stated:
     """What a file says of a state; None where it says that nobody knows."""
 
     oil_level: float | None = None
-    gas_preload: bool | None = None
+    gas_preload: float | None = None
 
     @property
     def anything(self) -> bool:

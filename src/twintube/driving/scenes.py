@@ -80,13 +80,16 @@ class Wear:
     """Oil level and gas preload (4,) of the dampers in the order of WHEELS; `model` is a way of the freed gas, or SCALAR."""
 
     oil_level: Sequence[float] = (1.0, 1.0, 1.0, 1.0)
-    gas_preload: Sequence[int] = (1, 1, 1, 1)
+    gas_preload: Sequence[float] = (1.0, 1.0, 1.0, 1.0)
     model: str = DEFAULT
 
     def __post_init__(self) -> None:
         """Raises InputError."""
         for place, level in zip(PLACES, self.oil_level, strict=True):
             if message := outside(f"oil_level ({place})", level, 0.0, 1.0, "1"):
+                raise InputError(message)
+        for place, share in zip(PLACES, self.gas_preload, strict=True):
+            if message := outside(f"gas_preload ({place})", share, 0.0, 1.0, "1"):
                 raise InputError(message)
 
 
@@ -140,7 +143,7 @@ def scene(vehicle: Vehicle, conditions: Conditions, wear: Wear, labels: Mapping[
 def truth(vehicle: Vehicle, conditions: Conditions, wear: Wear) -> dict[str, Any]:
     """The labels of a drive."""
     wheels = {
-        place: {"oil_level": float(level), "gas_preload": int(gas), "tyre_pressure_pa": float(pressure)}
+        place: {"oil_level": float(level), "gas_preload": float(gas), "tyre_pressure_pa": float(pressure)}
         for place, level, gas, pressure in zip(PLACES, wear.oil_level, wear.gas_preload, conditions.pressures, strict=True)
     }
     return {

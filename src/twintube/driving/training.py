@@ -30,7 +30,7 @@ class Drive:
     car: str
     minutes: Sequence[Mapping[str, float]]
     oil_levels: tuple[float, ...]
-    gas_preload: tuple[int, ...]
+    gas_preload: tuple[float, ...]
     reference: bool = False  # a drive of the car in its good state, to compare others with
     model: str = DEFAULT  # of worn dampers: a way of the freed gas, or the scalar factor
     group: str = "train"

@@ -118,7 +118,7 @@ def record_means(p: Parameters, d: Derived, s: State, f: Flow, records: Records,
     """The means of the record `r`; False if a step failed."""
     # In C; the interpreter's own parameters cannot be changed.
     p.oil_level = records.states[r, 0]  # type: ignore[misc]
-    p.gas_preload = int(records.states[r, 1])  # type: ignore[misc]
+    p.gas_preload = records.states[r, 1]  # type: ignore[misc]
     set_up(p, d)
     d.F_0 *= records.states[r, 2]
     d.c_gas *= records.states[r, 3]

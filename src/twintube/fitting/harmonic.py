@@ -16,7 +16,7 @@ class Harmonic:
     """A harmonic record: arrays (n,) in SI units, `marks` (c + 1,) where its oscillations begin and end."""
 
     oil_level: float
-    gas_preload: int
+    gas_preload: float
     time: Array
     stroke: Array
     velocity: Array

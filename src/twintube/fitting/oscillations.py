@@ -117,7 +117,7 @@ def harmonic(record: Record) -> Harmonic:
     end = int(block[-1]) + 1
     return Harmonic(
         oil_level=oil_level,
-        gas_preload=int(gas_preload),
+        gas_preload=float(gas_preload),
         time=time[:end],
         stroke=stroke[:end],
         velocity=velocity[:end],

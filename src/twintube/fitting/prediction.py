@@ -21,9 +21,9 @@ from twintube.fitting.simulation import tolerant
 from twintube.fitting.strokes import quiet
 
 
-def state(damper: Damper, level: float, preload: bool | int, pressure: float | None = None) -> Damper:
+def state(damper: Damper, level: float, preload: float, pressure: float | None = None) -> Damper:
     """The damper in the condition of a record, for a measured velocity; `pressure` [Pa] is that of present gas, gauge."""
-    filled = damper.with_(oil_level=level, gas_preload=int(preload))
+    filled = damper.with_(oil_level=level, gas_preload=preload)
     return tolerant(at_pressure(filled, pressure) if preload else filled)
 
 

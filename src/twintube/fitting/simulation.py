@@ -26,8 +26,8 @@ class Driven(Protocol):
         """Share of the intact oil volume [1]."""
 
     @property
-    def gas_preload(self) -> int:
-        """1 with gas preload, else 0."""
+    def gas_preload(self) -> float:
+        """Share of the gas preload [1]."""
 
     @property
     def time(self) -> Array:

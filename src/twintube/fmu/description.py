@@ -31,14 +31,14 @@ LONGEST = 48  # characters of an identifier: Simulink's names end at 63
 def model_name(damper: Damper) -> str:
     """The model's name and identifier; also a file name. It tells the states of a damper apart.
 
-    An oil level below 1, a lost preload and another way of the freed gas than the default follow the damper's name.
+    An oil level and a gas preload below 1 and another way of the freed gas than the default follow the damper's name.
     """
     p, way = damper.parameters, way_of(own_values(damper))
     state = [damper.name]
     if p.oil_level < 1.0:
         state.append(f"oil_{100.0 * p.oil_level:g}")
-    if not p.gas_preload:
-        state.append("no_gas")
+    if p.gas_preload < 1.0:
+        state.append(f"gas_{100.0 * p.gas_preload:g}" if p.gas_preload > 0.0 else "no_gas")
     if way not in (None, DEFAULT):
         state.append("as_published" if way == AS_PUBLISHED else f"gas_{way}")
     return identifier(PREFIX, "_".join(state))

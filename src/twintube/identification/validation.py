@@ -22,7 +22,7 @@ class Validated:
     name: str
     measurement: str
     oil_level: float
-    gas_preload: bool
+    gas_preload: float
     split: str
     top_speed: float  # [m/s]
     force_rmse: float  # [N], every sample of the measured part
@@ -54,7 +54,7 @@ def validate_harmonic(damper: Damper, record: Harmonic, split: str, offset: floa
     cycles = [slice(a, b + 1) for a, b in zip(record.marks[:-1], record.marks[1:], strict=True)]
     simulated = [float(np.trapezoid(force[c], record.stroke[c])) for c in cycles]
     return Validated(
-        record.name, "harmonic", record.oil_level, bool(record.gas_preload), split, record.top_speed,
+        record.name, "harmonic", record.oil_level, record.gas_preload, split, record.top_speed,
         rms((force - record.force)[span][usable]), rms(record.force[span][usable]),
         float(np.abs(record.force[span][usable]).max()), (float(measured[0]), float(measured[-1])),
         (simulated[0], simulated[-1]),

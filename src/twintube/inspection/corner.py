@@ -23,7 +23,7 @@ class Condition:
     """State of a damper; `scalar` puts the oil level as a factor on the fluid force of the full damper (variant 1)."""
 
     oil_level: float
-    gas_preload: int
+    gas_preload: float
     scalar: bool = False
     freed_gas: str = DEFAULT
 
@@ -95,9 +95,9 @@ class Entry:
         return entry
 
 
-def conditions(levels: Iterable[float], *, gas_lost: bool) -> list[Condition]:
-    """One state per oil level; below 100 % the gas preload may be lost, as in the paper's measurements, or kept."""
-    return [Condition(level, int(level >= 1.0 or not gas_lost)) for level in levels]
+def conditions(levels: Iterable[float], gas_preload: float) -> list[Condition]:
+    """One state per oil level; below 100 % the share of the gas preload [1], 0 as in the paper's measurements."""
+    return [Condition(level, 1.0 if level >= 1.0 else gas_preload) for level in levels]
 
 
 def under(ways: Iterable[str], states: Iterable[Condition]) -> list[Condition]:

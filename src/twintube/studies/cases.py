@@ -76,7 +76,7 @@ def state(study: Study, case: StudyCase) -> Damper:
     return study.dampers[case.damper].with_(**changes, oil_level=case.oil_level, gas_preload=case.gas_preload)
 
 
-def scaled(damper: Damper, factor: float, gas_preload: int) -> Damper:
+def scaled(damper: Damper, factor: float, gas_preload: float) -> Damper:
     """The intact damper with the F-v curve times `factor`, and friction and gas force of the degraded state."""
     degraded = damper.with_(oil_level=factor, gas_preload=gas_preload).parameters
     d = blank(Derived)

@@ -42,7 +42,7 @@ class StudyCase(NamedTuple):
     signal: int
     values: tuple[float, ...]  # of the study's parameters
     oil_level: float
-    gas_preload: int
+    gas_preload: float
     variant: int
 
 
@@ -55,7 +55,7 @@ class Study:
     signals: tuple[Signal, ...]
     parameters: dict[str, tuple[float, ...]]  # by FMI name
     oil_levels: tuple[float, ...]
-    gas_preload: tuple[int, ...]  # empty: 1 at 100 % oil, 0 below
+    gas_preload: tuple[float, ...]  # empty: 1 at 100 % oil, 0 below
     variants: tuple[int, ...]
     oscillations: tuple[int, ...]  # counted from 1
     time_step: float  # [s]
@@ -79,7 +79,7 @@ class Study:
         """The case `number`, counted from 0."""
         places = [int(i) for i in np.unravel_index(number, self.shape)]
         level = self.oil_levels[places[-3]]
-        full = 1 if level >= 1.0 else 0
+        full = 1.0 if level >= 1.0 else 0.0
         return StudyCase(
             damper=places[0],
             signal=places[1],

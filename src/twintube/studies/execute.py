@@ -187,7 +187,7 @@ def schema(study: Study) -> pa.Schema:
             for name in study.parameters
         ),
         column("oil_level", pa.float64(), "1"),
-        column("gas_preload", pa.int64(), "1"),
+        column("gas_preload", pa.float64(), "1"),
         column("variant", pa.int64(), "1"),
         column("oscillation", pa.int64(), "1"),
         *(column(name, pa.float64(), UNITS[name]) for name in RESULTS),

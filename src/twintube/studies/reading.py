@@ -50,14 +50,14 @@ VARIABLE = {name for name, item in FIELDS.items() if item.metadata["group"] and 
 # Lists of numbers: unit, lower and upper bound of each.
 AXES: dict[str, tuple[str, float, float]] = {
     "oil_level": ("1", 0.0, 1.0),
-    "gas_preload": ("1", 0, 1),
+    "gas_preload": ("1", 0.0, 1.0),
     "variant": ("1", 1, 4),
     "velocity": ("m/s", 0.001, VELOCITY["upper"]),
     "amplitude": ("m", 1e-4, 0.5),
     "oscillations": ("1", 1, OSCILLATIONS),
     "time_step": ("s", 1e-5, 1e-2),
 }
-INTEGER = ("gas_preload", "variant", "oscillations")
+INTEGER = ("variant", "oscillations")
 KEYS = {*AXES, "title", "dampers", "records", "parameters", "as_published"}
 
 

@@ -33,12 +33,9 @@ def column_of(p: "Parameters", side: float, z: float) -> tuple[float, float, flo
     """Of the column at the stroke `z` [m]: compliance [m/N], stroke of its air [m], force that halves it [N]."""
     rod = 0.25 * math.pi * p.D_PR * p.D_PR
     bore = 0.25 * math.pi * p.D_li * p.D_li
-    pressure = P_AMBIENT
+    pressure = P_AMBIENT + p.gas_preload * p.F_0 / rod
     length = column_length(p, side, z)
-    air = p.V_air * length
-    if p.gas_preload > 0:
-        pressure += p.F_0 / rod
-        air *= p.air_at_rest + (1.0 - p.air_at_rest) * P_AMBIENT / pressure
+    air = p.V_air * length * (p.air_at_rest + (1.0 - p.air_at_rest) * P_AMBIENT / pressure)
     if side >= 0.0:
         # The share of the air that is above the piston, on the annulus.
         return p.C_fluid * length, air / (2.0 * bore - rod), pressure * (bore - rod)

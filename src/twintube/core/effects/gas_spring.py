@@ -2,7 +2,8 @@
 
 With preload the gas is charged too much or too little: F_surplus at stroke 0, and stiffness with it, as that of enclosed
 gas goes with its absolute pressure. Where the preload is taken as lost some is left: a gas force c_residual z - F_residual.
-There a constant force alone (c_residual = 0) cannot be told from an offset of the force sensor.
+There a constant force alone (c_residual = 0) cannot be told from an offset of the force sensor. In between each acts by
+its share of the preload.
 """
 
 import math
@@ -38,7 +39,6 @@ class Parameters(variables.Parameters):
 
 def gas_spring_elastic(p: Parameters, s: Frame, z: float) -> float:
     """Force [N] at the stroke `z` [m]."""
-    if p.gas_preload > 0:
-        whole = p.F_0 + P_AMBIENT * 0.25 * math.pi * p.D_PR * p.D_PR
-        return p.F_surplus * (gas_rise(p, p.F_0, p.c_gas, z) / whole - 1.0)
-    return p.c_residual * z - p.F_residual
+    whole = p.F_0 + P_AMBIENT * 0.25 * math.pi * p.D_PR * p.D_PR
+    surplus = p.F_surplus * (gas_rise(p, p.F_0, p.c_gas, z) / whole - 1.0)
+    return p.gas_preload * surplus + (1.0 - p.gas_preload) * (p.c_residual * z - p.F_residual)

@@ -1,4 +1,4 @@
-"""The recorded fill is wrong: the damper starts with another oil level in its degraded states (preload lost).
+"""The recorded fill is wrong: the damper starts with another oil level in its degraded states, those without full preload.
 
 The level is oil_level + level_error within 0 to 1. Friction and cavitation go with the oil that is truly lost.
 """
@@ -30,7 +30,7 @@ class Parameters(variables.Parameters):
 
 def oil_level_error_level(p: Parameters, level: float) -> float:
     """The true level [1]."""
-    return max(0.0, min(1.0, level + p.level_error)) if p.gas_preload == 0 else level
+    return max(0.0, min(1.0, level + p.level_error)) if p.gas_preload < 1.0 else level
 
 
 def oil_level_error_derive(p: Parameters, d: Derived) -> None:

@@ -36,11 +36,10 @@ def lose(p: Parameters, d: Derived, oil_level: float) -> None:
     # Section 3.2: "In case of oil loss, the friction force of the SA increases".
     d.F_FrS = p.F_FrS * (1.0 + p.oil_loss_gain * (1.0 - oil_level))
     # Section 3.2: the force falls from oscillation to oscillation when the damper "contains less than 100 % oil". Beside the
-    # preload it takes gas in the place of oil: in proportion to the loss, in full from `cavitation_loss` on.
-    d.cavitation = 0.0
-    if p.gas_preload == 0:
-        loss = 1.0 - oil_level
-        d.cavitation = 1.0 if loss >= p.cavitation_loss else loss / p.cavitation_loss
+    # preload it takes gas in the place of oil: in proportion to the loss, in full from `cavitation_loss` on. The paper
+    # measured with the preload and without; in between it goes with the pressure that is missing.
+    loss = 1.0 - oil_level
+    d.cavitation = (1.0 - p.gas_preload) * (1.0 if loss >= p.cavitation_loss else loss / p.cavitation_loss)
     cavitate(p, d, 1.0)
 
 

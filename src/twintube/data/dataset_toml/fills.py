@@ -83,8 +83,8 @@ def named(entries: Sequence[Entry]) -> list[Entry]:
     """With a `state` of their own where dataset.toml names none."""
     taken = {entry.state for entry in entries}
     free = (str(number) for number in itertools.count(1) if str(number) not in taken)
-    made: dict[tuple[float | bool | None, ...], str] = {}
-    before: tuple[float | bool | None, ...] | None = None  # the fill of the record before it, if that names no state
+    made: dict[tuple[float | None, ...], str] = {}
+    before: tuple[float | None, ...] | None = None  # the fill of the record before it, if that names no state
     whole = []
     for entry in entries:
         if entry.state is not None:

@@ -126,7 +126,10 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
         lambda x: number(x) and 0 <= x <= LARGEST_VOLUME,
         f"a number from 0 to {LARGEST_VOLUME:g}; where nobody knows it, oil_level = '{UNKNOWN}' instead",
     ),
-    "gas_preload": (lambda x: x == UNKNOWN or isinstance(x, bool), f"true (present), false (lost) or '{UNKNOWN}'"),
+    "gas_preload": (
+        lambda x: x == UNKNOWN or isinstance(x, bool) or (number(x) and 0 <= x <= 1),
+        f"true (present), false (lost), a share from 0 to 1 or '{UNKNOWN}'",
+    ),
     "state": (label, f"a text like 'as delivered' of at most {LONGEST_LABEL} characters"),
     "reference": (lambda x: isinstance(x, bool), "true or false"),
     "reference_s": (good_window, "a list like [0, 10] of from and to in seconds"),

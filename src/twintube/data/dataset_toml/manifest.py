@@ -31,7 +31,7 @@ class Entry:
     measurement: str
     oil_level: float | None  # None: unknown, or stated as a volume
     oil_volume: float | None  # [m3]
-    gas_preload: bool | None  # None: unknown
+    gas_preload: float | None  # share [1], true and false where it is there or lost; None: unknown
     gas_pressure: float | None  # gauge [Pa]
     state: str | None  # label of the state of filling, None where it has none
     setting: str | None
@@ -171,8 +171,10 @@ def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[s
         notes.error(f"{where}start_s = {window[0]:g} must be before end_s = {window[1]:g}", "start_s", line("start_s"))
     pressure = quantity(good["gas_pressure"], "Pa") if "gas_pressure" in good else None
     level, preload = (None if good.get(key) == UNKNOWN else good.get(key) for key in ("oil_level", "gas_preload"))
+    if preload in (0, 1):
+        preload = bool(preload)
     if pressure and preload is not True and "gas_preload" in good:
-        stated = "false" if preload is False else f"'{UNKNOWN}'"
+        stated = f"'{UNKNOWN}'" if preload is None else str(preload).lower()
         message = f"{where}gas_pressure = {good['gas_pressure']}: must be left out where gas_preload = {stated}"
         notes.error(message, "gas_pressure", line("gas_pressure"))
     part = good.get("reference_s")

@@ -34,7 +34,7 @@ def read_motion(path: Path) -> tuple[Array, Array, Array]:
     return columns["time"], columns["stroke"], velocity_of(columns)[0]
 
 
-def read_moved(path: Path, fill: tuple[float, bool], block: int | None = None) -> tuple[Motion | Record, list[Finding]]:
+def read_moved(path: Path, fill: tuple[float, float], block: int | None = None) -> tuple[Motion | Record, list[Finding]]:
     """What is in a file, or in a block of it, and findings on how it was read: a record where it holds a force.
 
     The record is of a damper with the `fill`, oil level [1] and preload; its kind is judged by its motion. The signs are as

@@ -38,7 +38,7 @@ class Record:
     file: str  # as dataset.toml names it, with the same addition
     measurement: str  # quasi-static, harmonic or stochastic
     oil_level: float | None  # share of the intact oil volume; None: unknown
-    gas_preload: bool | None  # None: unknown
+    gas_preload: float | None  # share [1], true and false where it is there or lost; None: unknown
     start_temperature: float | None  # [degC]
     split: str | None  # fit, heldout or not said
     time: Array
@@ -67,8 +67,8 @@ class Record:
         return [key for key in FILL if getattr(self, key) is None]
 
     @property
-    def fill(self) -> tuple[float, bool]:
-        """Its oil level [1] and whether the gas preload is there; raises InputError where one is unknown."""
+    def fill(self) -> tuple[float, float]:
+        """Its oil level [1] and share of the gas preload [1]; raises InputError where one is unknown."""
         if self.oil_level is None or self.gas_preload is None:
             raise InputError(not_stated([self], "state the fill in dataset.toml"))
         return self.oil_level, self.gas_preload

@@ -114,7 +114,7 @@ def at_rest(time: Array, stroke: Array, force: Array, gas: float, friction: floa
 
 def check_signs(entries: Sequence[Entry], records: Sequence[Record], damper: Damper, notes: Notes) -> None:
     """A warning with the keys to set where records with gas preload are explained only with both channels turned."""
-    told = {r.file: told_by(damper, r) for r in records if r.gas_preload}
+    told = {r.file: told_by(damper, r) for r in records if r.gas_preload == 1.0}
     turned, pulled = ([entry for entry in entries if told.get(entry.file) == sign] for sign in (TURNED, PULLED))
     right = AS_STATED in told.values()
     wrong = turned if turned and right else turned + pulled

@@ -61,7 +61,7 @@ RECORD_HELP = """
 # measurement = "harmonic"    # quasi-static, harmonic or stochastic
 # oil_level = 0.6             # share of the intact oil volume, "unknown" where nobody knows it; or instead of it
 # oil_volume_mL = 164
-# gas_preload = false         # true: the gas is at its pressure; false: lost; or "unknown"
+# gas_preload = false         # true: the gas is at its pressure; false: lost; a share; or "unknown"
 # state = "after the run"     # optional: records with the same words are of one filling; one may state it for all
 # gas_pressure = "10 bar"     # optional, of present gas: gauge, cold; bar, psi, MPa
 # setting = "C3"              # optional: of an adjustable valve
@@ -86,7 +86,7 @@ class Fill:
     """What no file tells: the state of the damper in all records; None where nobody knows it."""
 
     oil_level: float | None = None
-    gas_preload: bool | None = None
+    gas_preload: float | None = None
 
 
 def new_dataset(

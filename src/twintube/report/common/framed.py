@@ -34,7 +34,7 @@ def worn(oil_level: float) -> str:
 
 def colour_of(gas_preload: float, oil_level: float) -> str:
     """The colour of a state."""
-    return INTACT if gas_preload and oil_level >= 1.0 else worn(oil_level)
+    return INTACT if gas_preload >= 1.0 and oil_level >= 1.0 else worn(oil_level)
 
 
 def oil(level: float) -> str:

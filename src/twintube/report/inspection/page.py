@@ -14,7 +14,7 @@ from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, method_rows, ran
 from twintube.report.common.html_page import Headline, Picture, Section, Table, html
 from twintube.report.inspection import tiring
 from twintube.report.inspection.pictures import figures_over_oil, roc_curves, shares, spanned, sweep, verdicts
-from twintube.report.inspection.summary import EVERY_WAY, Inspection, factor_seen, figure_rows, seen_in_words, sentence
+from twintube.report.inspection.summary import EVERY_WAY, Inspection, factor_seen, figure_rows, gas, seen_in_words, sentence
 
 MODEL, FACTOR = "model", "scalar factor"
 ONE_CORNER = (
@@ -112,8 +112,7 @@ def headline(result: Inspection) -> Headline:
     rule = f"{SEEN:.0%} of the cars at {FALSE_ALARMS:.0%} false alarms"
     remark = f"Oil levels of this study at which the loss of {first.name} is seen in {rule}. {levels}." if seen else ""
     step = NEXT if result.detections else "`--scatter 100` shows in how many of 100 cars the loss is seen."
-    lost = all(not entry.condition.gas_preload for entry in result.entries if entry.condition.oil_level < 1.0)
-    caption = f"Figure of each method at each oil level{', below 100 % without gas preload' if lost else ''}."
+    caption = f"Figure of each method at each oil level{gas(result)}."
     drawn = Picture.drawn(partial(verdicts, result.of, result.dampers, result.methods), caption)
     text = " ".join(sentence(result, damper) for damper in result.dampers)
     return Headline(text, remark=remark, next=step, picture=drawn)

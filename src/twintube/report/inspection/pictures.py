@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from twintube.dampers import Damper
+from twintube.dampers.damper import gas_in_words
 from twintube.inspection import Condition, Detection, Entry, Method, Setting
 from twintube.inspection.benches import DT, on_plate, plate_motion
 from twintube.inspection.detection import FALSE_ALARMS
@@ -108,7 +109,7 @@ def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition], narrow: 
     for i, (state, colour) in enumerate(zip(spread(states), PALETTE, strict=False)):
         lw = 0.8 + 0.8 * (MOST_CURVES - 1 - i)  # curves that lie on each other are all seen
         found = measured_cycles(run, on_plate(state.applied(damper), corner, run).wheel_load)
-        label = f"{state.oil_level:.0%} oil, {'with' if state.gas_preload else 'no'} preload"
+        label = f"{state.oil_level:.0%} oil, preload {gas_in_words(state.gas_preload)}"
         size.plot(found.frequency, np.abs(found.answer) / corner.c_tyre, lw=lw, color=colour, label=label)
         phase.plot(found.frequency, found.phase, lw=lw, color=colour)
         phase.axvline(found.wheel_frequency, color=colour, lw=0.8, ls=":")

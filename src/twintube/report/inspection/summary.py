@@ -6,6 +6,7 @@ from typing import Any
 
 from twintube.common.words import listed
 from twintube.dampers import Damper
+from twintube.dampers.damper import gas_in_words
 from twintube.inspection import METHODS, RANGES, Detection, Entry, Method, Setting, first_seen
 from twintube.inspection.detection import FALSE_ALARMS, SEEN
 from twintube.inspection.tiring import AMPLITUDES
@@ -170,9 +171,9 @@ def sentence(result: Inspection, damper: Damper) -> str:
 
 
 def gas(result: Inspection) -> str:
-    """Whether the preload is lost in the dampers that have lost oil; empty where none has."""
-    worn = [entry.condition.gas_preload for entry in result.entries if entry.condition.oil_level < 1.0]
-    return "" if not worn else f" (below 100% its gas preload is {'kept' if all(worn) else 'lost'})"
+    """What became of the preload in the dampers that have lost oil; empty where none has."""
+    worn = {entry.condition.gas_preload for entry in result.entries if entry.condition.oil_level < 1.0}
+    return "" if not worn else f" (below 100% its gas preload is {', '.join(map(gas_in_words, sorted(worn)))})"
 
 
 def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
@@ -180,7 +181,7 @@ def figure_rows(result: Inspection, damper: Damper) -> list[list[str]]:
     rows = []
     for entries in zip(*(result.of(damper, m) for m in result.methods), strict=True):
         state = entries[0].condition
-        row = [f"{state.oil_level:.0%}", "yes" if state.gas_preload else "no"]
+        row = [f"{state.oil_level:.0%}", gas_in_words(state.gas_preload)]
         for entry, m in zip(entries, result.methods, strict=True):
             row.append(
                 f"{digits(entry.figure, m)}{verdict(entry)}{other_ways(entry, m)} "

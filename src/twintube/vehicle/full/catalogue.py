@@ -29,12 +29,12 @@ class Case:
     oil_level: float = 1.0
     model: str = DEFAULT  # a way, or SCALAR
     grips: tuple[float, float] = (1.0, 1.0)  # of the left and the right track
-    gas_preload: int = 1  # of the worn dampers
+    gas_preload: float = 1.0  # share [1] of the worn dampers
 
     @property
     def intact(self) -> bool:
         """Whether nothing is worn."""
-        return self.oil_level == 1.0 and bool(self.gas_preload)
+        return self.oil_level == 1.0 and self.gas_preload == 1.0
 
     @property
     def ground(self) -> Road:

@@ -72,11 +72,11 @@ def cases(
     *,
     seeds: int,
     grips: tuple[float, float] = (1.0, 1.0),
-    gas_lost: bool = False,
+    gas_preload: float = 1.0,
 ) -> list[Case]:
     """All cases, the intact ones included; the drives of Table 3 have roads and speeds of their own, all others speeds.
 
-    Below 100 % oil the worn dampers keep their gas preload unless `gas_lost`.
+    Below 100 % oil the worn dampers have the share `gas_preload` [1] of their gas preload.
 
     On a smooth road seeds differ in the slip control alone; where neither differs there is one. Raises InputError where
     nothing is left to drive.
@@ -94,7 +94,7 @@ def cases(
                 if (maneuver.smooth if road == SMOOTH else maneuver.uneven)
             ]
         wanted += [
-            Case(name, speed, road, seed, level, model, grips, int(level == 1.0 or not gas_lost))
+            Case(name, speed, road, seed, level, model, grips, 1.0 if level == 1.0 else gas_preload)
             for speed, road, differs in places
             for seed in range(1, (seeds if differs else 1) + 1)
             for level in (1.0, *(x for x in levels if x != 1.0))
