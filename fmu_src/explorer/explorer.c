@@ -6,7 +6,7 @@
 
 #define EXPORTED(name) __attribute__((export_name(#name)))
 
-enum { STROKE, VELOCITY, FORCE }; /* value references, the first of the table of variables */
+enum { STROKE, VELOCITY, TEMPERATURE, FORCE }; /* value references, the first of the table of variables */
 
 static char message[512];
 

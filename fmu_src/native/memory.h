@@ -12,8 +12,9 @@ struct model {
     struct kernel_Flow f;
     struct kernel_Outputs out;
     struct kernel_Agreement a;
-    double stroke, velocity;
+    double stroke, velocity, temperature;
     double limit; /* [m] largest stroke to each side */
+    int64_t beyond_law; /* whether a temperature beyond the law of the damper was warned of */
 };
 
 /* The input whose derivative counts; that of the stroke is the velocity. */

@@ -12,6 +12,7 @@
 #define SAY_NO_START "the start could not be computed; please report this parameter set"
 #define SAY_NO_STEP "time %g s: the step could not be computed; please report this parameter set"
 #define SAY_PARTED "time %g s: %s went %g m, %s led %g m in the same time, and the two parted by %g m; check sign, unit and connection of %s"
+#define SAY_BEYOND_LAW "temperature = %g K: the law of this damper holds from %g to %g K; beyond it fluid force and friction are those of its end"
 #define SAY_LONG_STEP "time %g s: communication step = %g s: with a wheel in the loop at most %g s are safe; in longer steps the force comes late and an intact damper looks worn. A motion that does not answer to the force, as one from a record, may have them"
 #define SAY_NO_STATE "%s: the bytes are not an FMU state"
 #define SAY_OTHER_STATE "%s: the state belongs to another FMU"
@@ -35,6 +36,8 @@ static const char *const RULE[] = {
     "geometry.V_oil = %g m3: must be at most %g m3, the room at full compression",
     "gas_spring.c_gas = %g N/m: must be below %g N/m, or a polytropic gas has no room left at full compression",
     "gas_spring.c_gas_lost = %g N/m: must be below %g N/m, or a polytropic gas has no room left at full compression",
+    "temperature.T_cold = %g K: must be below temperature.T_curve = %g K",
+    "temperature.T_hot = %g K: must be above temperature.T_curve = %g K",
 };
 
 static const char *const MODE[] = {"before the initialization", "in the initialization mode", "between the steps", "after the end"};

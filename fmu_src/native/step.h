@@ -51,7 +51,8 @@ static int all_numbers(const struct memory *m)
 
 static int possible(struct memory *m)
 {
-    return kernel_possible(&m->now.d, &m->now.s) == 1 && kernel_followed(&m->now.a) == 1;
+    return kernel_possible(&m->now.d, &m->now.s) == 1 && kernel_followed(&m->now.a) == 1
+        && (m->now.beyond_law == 0 || m->now.beyond_law == 1);
 }
 
 /* The damper at rest at the stroke that is set. */
@@ -69,6 +70,7 @@ static int begin(struct unit *u)
     m->now.a.velocity = m->now.velocity;
     m->now.f.k_degr = m->now.f.k_mean = 1.0;
     kernel_start(&m->in_force.p, &m->now.d, &m->now.s, m->now.stroke);
+    m->now.s.temperature = m->now.temperature;
     kernel_advance(&m->in_force.p, &m->now.d, &m->now.s, &m->now.f, m->now.stroke, m->now.velocity, m->now.velocity, 0.0);
     if (!computed(m)) {
         refuse(u, SAY_NO_START);
@@ -88,6 +90,16 @@ static enum status timely(struct unit *u, double h)
     return warn(u, SAY_LONG_STEP, u->m.time, h, SAFE_STEP);
 }
 
+/* Say, once in a run, that the law of the damper does not hold at its temperature. */
+static enum status lawful(struct unit *u)
+{
+    const struct kernel_Parameters *p = &u->m.in_force.p;
+    if (u->m.now.beyond_law || kernel_within_law(p, u->m.now.s.T))
+        return DONE;
+    u->m.now.beyond_law = 1;
+    return warn(u, "time %g s: " SAY_BEYOND_LAW, u->m.time, u->m.now.s.T, p->T_cold, p->T_hot);
+}
+
 /* One step of `h` >= 0 [s] while the velocity changes by `rate` [m/s2]; a message, and the state as before, where it is
    refused. */
 static enum status move(struct unit *u, double h, double rate)
@@ -97,7 +109,7 @@ static enum status move(struct unit *u, double h, double rate)
     const double end = z + (v + 0.5 * rate * h) * h;
     struct kernel_State before;
     struct kernel_Flow flow;
-    enum status status;
+    int warned;
 
     if (m->changed && !take_over(u))
         return REFUSED;
@@ -107,14 +119,17 @@ static enum status move(struct unit *u, double h, double rate)
         return REFUSED;
     before = m->now.s;
     flow = m->now.f;
+    m->now.s.temperature = m->now.temperature;
     if (!kernel_advance(&m->in_force.p, &m->now.d, &m->now.s, &m->now.f, end, v, after, h) || !computed(m)) {
         m->now.s = before;
         m->now.f = flow;
         return refuse(u, SAY_NO_STEP, m->time);
     }
     publish(m);
-    status = timely(u, h);
-    return follow(u, &m->now.a, &m->now.stroke, &m->now.velocity, h) == DONE ? status : WARNED;
+    warned = timely(u, h) != DONE;
+    warned |= lawful(u) != DONE;
+    warned |= follow(u, &m->now.a, &m->now.stroke, &m->now.velocity, h) != DONE;
+    return warned ? WARNED : DONE;
 }
 
 #endif

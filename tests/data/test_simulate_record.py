@@ -109,3 +109,49 @@ def test_a_dataset_toml_beside_a_file_changes_nothing(tmp_path: Path, way: str, 
     assert listed.read_text() == alone.read_text()
     works = [float(x) for x in re.findall(r"(\d+\.\d+) J", without)]
     assert works[0] == pytest.approx(works[1], rel=0.02)
+
+
+def test_a_record_has_its_own_temperatures(tmp_path: Path) -> None:
+    """A column is taken where it is asked for, and each sample holds until the next."""
+    block = harmonic_block(0.524, dt=2e-3)
+    warm = np.linspace(0.0, 60.0, len(block.time))
+    damper = load("SA8")
+    force = simulate(damper, block, temperature=warm + 273.15).force
+    columns = {"time [s]": block.time, "stroke [mm]": 1e3 * block.stroke, "velocity [mm/s]": 1e3 * block.velocity}
+    files = {"motion": {}, "record": {"force [N]": force}}
+    for name, more in files.items():
+        (tmp_path / f"{name}.csv").write_text(as_csv({**columns, **more, "temperature [degC]": warm}))
+        arguments = ["simulate", "SA8", "--record", str(tmp_path / f"{name}.csv"), "--output", str(tmp_path / "o.csv")]
+        run = RUNNER.invoke(app, [*arguments, "--temperature", "column"])
+        assert run.exit_code == 0, run.output
+        assert "SA8, 100 % oil, gas kept, temperatures of the record" in run.output
+        table = np.genfromtxt(tmp_path / "o.csv", delimiter=",", names=True)
+        assert table["temperature_K"] == pytest.approx(warm + 273.15)
+        assert table["force_N"] == pytest.approx(force, abs=2.0)
+    error = re.search(r"measured against simulated: (\S+) N RMSE", run.output)
+    assert error is not None and float(error[1]) < 0.5
+    plain = RUNNER.invoke(app, arguments)
+    error = re.search(r"measured against simulated: (\S+) N RMSE", plain.output)
+    assert error is not None and float(error[1]) > 20.0  # as if it were at 23 degC all the time
+
+
+def test_a_temperature_is_a_number_or_the_column(tmp_path: Path) -> None:
+    (tmp_path / "motion.csv").write_text("time [s],stroke [mm]\n" + "".join(f"{i / 100},{i / 10}\n" for i in range(50)))
+    plain = ["simulate", "SA8", "--output", str(tmp_path / "o.csv")]
+    record = ["--record", str(tmp_path / "motion.csv")]
+    cases = [
+        ([*record, "--temperature", "column"], "is the column of temperatures of a record; .*motion.csv has none"),
+        (["--temperature", "column"], "is the column of temperatures of a record; a block has none, give --record"),
+        (["--temperature", "warm"], "--temperature warm: must be a number of degC, or column"),
+        (["--temperature", "nan"], "temperature = nan K: must be a number from 150 to 500 K"),
+        (["--temperature", "-300"], "temperature = -26.85 K: must be a number from 150 to 500 K"),
+    ]
+    for options, said in cases:
+        run = RUNNER.invoke(app, [*plain, *options])
+        assert run.exit_code == 2 and re.search(said, run.stderr), run.stderr
+    run = RUNNER.invoke(app, [*plain, *record, "--temperature", "-10", "--for-fmu"])
+    assert run.exit_code == 0, run.output
+    assert "SA8, 100 % oil, gas kept, -10 degC\n" in run.output
+    assert (tmp_path / "o.csv").read_text().startswith("time,stroke,velocity,temperature,force,")
+    run = RUNNER.invoke(app, [*plain, *record, "--temperature", "-40"])
+    assert run.exit_code == 0 and "warning: " in run.stderr and "holds from 243.15 to 353.15 K" in run.stderr

@@ -96,11 +96,16 @@ def test_neutral_is_the_kernel_to_the_bit(name: str) -> None:
         rows.append([0.0] * len(NAMES))
         publish_row(d, s, rows[-1])
     result = simulate(damper, block.stroke, block.velocity, block.time)
-    assert np.array_equal(np.array(rows), np.column_stack([result.columns[column] for column in NAMES]))
+    timeless = [i for i, column in enumerate(NAMES) if column != "heat_flow"]
+    columns = np.column_stack([result.columns[column] for column in NAMES])
+    assert np.array_equal(np.array(rows)[:, timeless], columns[:, timeless])
 
 
 def same(a: Any, b: Any) -> bool:
-    return all(np.array_equal(values, b.columns[column]) for column, values in a.columns.items())
+    """Whether two runs are equal; there is no heat flow without a time."""
+    timed = a.time is not None and b.time is not None
+    return all(np.array_equal(values, b.columns[column]) for column, values in a.columns.items()
+               if timed or column != "heat_flow")  # fmt: skip
 
 
 def test_parameters_of_an_inactive_effect_do_nothing(sa8: Damper, block: Signal) -> None:

@@ -12,6 +12,7 @@ from twintube.common.arrays import Array
 from twintube.core.agreement import Agreement
 from twintube.core.effects import EFFECTS
 from twintube.core.frame import stroke_limit
+from twintube.core.publishing import NAMES
 from twintube.core.variables import blank
 from twintube.dampers import Damper, load
 from twintube.diagnosis import memory_loops
@@ -88,7 +89,9 @@ def assert_same(run: Callable[..., Any], arguments: list[Any], name: str = "", p
 def test_records(case: str) -> None:
     t, z, v = short_block()
     records = at_rest(damper(case), float(z[0]))
-    assert assert_same(loops.run_record, [*records, t, z, v, np.zeros((len(z), 16))]) == len(z)
+    assert assert_same(
+        loops.run_record, [*records, t, z, v, np.linspace(250.0, 350.0, len(z)), np.zeros((len(z), len(NAMES)))]
+    ) == len(z)
     marks = np.arange(0, len(z), 50)
     assert assert_same(loops.run_work, [*records, t, z, v, marks, np.zeros(len(marks))]) == len(z)
     assert assert_same(loops.run_held, [*records, z, 4e-3]) == len(z) - 1

@@ -18,7 +18,7 @@
 
 #define LOADED(name) name##TYPE *const name##_ = (name##TYPE *)FIND(library, #name)
 
-static const unsigned inputs[] = {0, 1}, force = 2;
+static const unsigned inputs[] = {0, 1}, force = 3;
 
 static void log2(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category,
                  fmi2String message, ...)

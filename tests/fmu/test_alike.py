@@ -166,6 +166,8 @@ BROKEN: dict[int, dict[str, Any]] = {
     13: {"V_oil": 4e-3},
     14: {"polytropic": 1, "c_gas": 2e4},
     15: {"polytropic": 1, "c_gas_lost": 500.0},
+    16: {"T_cold": 300.0},
+    17: {"T_hot": 290.0},
 }
 
 
@@ -295,6 +297,9 @@ def changed(path: tuple[str, ...], value: Any) -> Callable[[dict[str, Any]], Any
         changed(("damper", "changed"), 1),
         changed(("damper", "warned"), None),
         changed(("damper", "long_step"), 0),
+        changed(("damper", "beyond_law"), 1),
+        changed(("damper", "inputs", "temperature"), 0.0),
+        changed(("damper", "state", "T"), float("nan")),
         changed(("damper", "agreement", "at_apart"), 0.003),
         changed(("damper", "agreement", "way_led"), -1e-9),
         changed(("damper", "agreement", "velocity"), 1e300),

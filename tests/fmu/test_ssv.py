@@ -31,7 +31,7 @@ SCHEMA = SCHEMAS / "SystemStructureParameterValues.xsd"
 GUIDE = Path(__file__).parents[2] / "docs" / "import_ssp.md"
 # Another damper than the FMU's, in another condition: hardly a parameter is that of SA8.
 WORN = load("SA7").with_(oil_level=0.56, gas_preload=0)
-STROKE, VELOCITY, FORCE = 0, 1, 2  # value references, in the order of the variables
+STROKE, VELOCITY, FORCE = 0, 1, 3  # value references, in the order of the variables
 VELOCITIES = [0.4] * 100 + [-0.3] * 200 + [0.05] * 100
 STROKES = [sum(VELOCITIES[:i]) * 1e-3 for i in range(len(VELOCITIES))]
 

@@ -18,4 +18,4 @@ def test_interpreted_and_compiled_agree_to_the_bit(name: str) -> None:
         fast = simulate(state, block.stroke, block.velocity)
         slow = simulate(state, block.stroke, block.velocity, interpreted=True)
         for column, values in fast.columns.items():
-            assert np.array_equal(values, slow.columns[column]), column
+            assert np.array_equal(values, slow.columns[column], equal_nan=True), column

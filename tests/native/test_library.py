@@ -8,6 +8,7 @@ from threading import Event
 import numpy as np
 import pytest
 
+from twintube.core.publishing import NAMES
 from twintube.dampers import load
 from twintube.engine import compiled
 from twintube.engine.simulate import rows, started
@@ -36,28 +37,28 @@ def test_arrays_are_refused_by_the_name_of_the_argument() -> None:
 def test_a_record_of_another_size_is_refused() -> None:
     records, t, z, v = started(load("SA8"), [0.0, 0.01], [0.1, 0.1], [0.0, 0.1])
     p, d, s, f = rows(records)
-    out = np.zeros((2, 16))
+    out = np.zeros((2, len(NAMES)))
     with pytest.raises(TypeError, match=rf"kernel_run_record: d: record of {s.nbytes} bytes, must have {d.nbytes}"):
-        compiled.module().run_record(p, s, d, f, t, z, v, out)
+        compiled.module().run_record(p, s, d, f, t, z, v, np.full(len(z), 296.15), out)
 
 
 def test_records_and_arrays_are_changed_in_place() -> None:
     records, t, z, v = started(load("SA8"), [0.0, 0.01], [0.1, 0.1], [0.0, 0.1])
     p, d, s, f = rows(records)
-    out = np.zeros((2, 16))
-    assert compiled.module().run_record(p, d, s, f, t, z, v, out) == 2
+    out = np.zeros((2, len(NAMES)))
+    assert compiled.module().run_record(p, d, s, f, t, z, v, np.full(len(z), 296.15), out) == 2
     assert s["z"] == 0.01 and out[1, 0] != 0.0
 
 
 def test_other_threads_run_during_a_call() -> None:
     block = harmonic_block(0.262, dt=1e-4)
     records, t, z, v = started(load("SA8"), block.stroke, block.velocity, block.time)
-    out, begun, done = np.empty((len(z), 16)), Event(), Event()
+    out, begun, done = np.empty((len(z), len(NAMES))), Event(), Event()
 
     def long_call() -> int:
         given = rows(records)
         begun.set()
-        steps: int = compiled.module().run_record(*given, t, z, v, out)
+        steps: int = compiled.module().run_record(*given, t, z, v, np.full(len(z), 296.15), out)
         done.set()
         return steps
 

@@ -91,6 +91,12 @@ def simulate(
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = None,
     gas: GAS_SHARE = None,
+    temperature: Annotated[
+        str | None,
+        typer.Option(
+            metavar="DEGC|column", help="Of oil, seals and gas; `column`: the record's. As the parameters if left out."
+        ),
+    ] = None,
     published: AS_PUBLISHED = False,
     for_fmu: FOR_FMU = False,
     output: CSV = Path("simulation.csv"),
@@ -107,6 +113,7 @@ def simulate(
     entry = simulated.listed(record, block)
     chosen, state = simulated.filled(simulated.named(damper, record, entry), entry, oil_level, gas_lost, gas)
     chosen = as_published(chosen) if published else chosen
+    state += simulated.in_words(temperature)
     typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}" if entry else f"{chosen.name}, {state}")
     motion, findings = (
         (simulated.block_motion(velocity, amplitude_mm), ())
@@ -115,9 +122,10 @@ def simulate(
     )
     for finding in findings:
         typer.echo(str(finding))
-    result = simulated.run(chosen, motion)
-    simulated.warn(motion, record)
-    text = simulated.as_csv(result, motion, for_fmu=for_fmu)
+    kelvins = simulated.kelvins(temperature, motion, record)
+    result = simulated.run(chosen, motion, kelvins)
+    simulated.warn(chosen, motion, result, record)
+    text = simulated.as_csv(result, motion, kelvins, for_fmu=for_fmu)
     keep_other(output, text.encode())
     write_text(output, text)
     typer.echo(
@@ -125,7 +133,7 @@ def simulate(
         f"force from {result.force.min():.0f} to {result.force.max():.0f} N; freed gas: {acting(chosen)}"
     )
     if isinstance(motion, Record):
-        typer.echo(simulated.against_measured(chosen, motion, result))
+        typer.echo(simulated.against_measured(chosen, motion, result, kelvins))
     if plot is not None:
         name = f"{chosen.name}, {record.name if record else 'harmonic block'}"
         write_bytes(plot, simulated.drawn(name, motion, result))

@@ -11,12 +11,15 @@ from twintube.errors import InputError, InputWarning
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from twintube.common.arrays import Array
     from twintube.dampers import Damper
     from twintube.data import Finding, Record
     from twintube.data.records.motion import Motion
     from twintube.engine.simulation import Simulation
 
 ASSUMED = " (assumed, it is unknown there)"
+COLUMN = "column"  # in place of a temperature: that of the record
+KELVIN = 273.15  # [K] at 0 degC
 
 
 def listed(record: Path | None, block: int | None) -> "tuple[Damper, Record] | None":
@@ -80,7 +83,31 @@ def driven_by(
     return replace(entry[1], oil_level=fill[0], gas_preload=fill[1]), entry[1].findings
 
 
-def run(damper: "Damper", motion: "Motion | Record") -> "Simulation":
+def in_words(temperature: str | None) -> str:
+    """What `--temperature` asks for, behind the state of a damper."""
+    if temperature is None:
+        return ""
+    return ", temperatures of the record" if temperature == COLUMN else f", {temperature} degC"
+
+
+def kelvins(given: str | None, motion: "Motion | Record", record: Path | None) -> "Array | None":
+    """The temperatures (n,) [K] that `--temperature` asks for, None where it does not; raises InputError."""
+    import numpy as np
+
+    if given is None:
+        return None
+    if given != COLUMN:
+        try:
+            return np.full(len(motion.time), KELVIN + float(given))
+        except ValueError:
+            raise InputError(f"--temperature {given}: must be a number of degC, or {COLUMN}") from None
+    if motion.temperature is None:
+        where = f"{record} has none" if record is not None else "a block has none, give --record"
+        raise InputError(f"--temperature {COLUMN}: is the column of temperatures of a record; {where}")
+    return KELVIN + motion.temperature
+
+
+def run(damper: "Damper", motion: "Motion | Record", temperature: "Array | None") -> "Simulation":
     """The simulation of a motion as it stands, or of a record as it is identified from."""
     from twintube.data import Record
     from twintube.engine.simulate import simulate_quietly
@@ -88,19 +115,20 @@ def run(damper: "Damper", motion: "Motion | Record") -> "Simulation":
     if isinstance(motion, Record):
         from twintube.fitting import prediction
 
-        return prediction.driven(damper, prediction.calm(motion))
-    return simulate_quietly(damper, motion.stroke, motion.velocity, motion.time)
+        return prediction.driven(damper, prediction.calm(motion), temperature)
+    return simulate_quietly(damper, motion.stroke, motion.velocity, motion.time, temperature=temperature)
 
 
-def warn(motion: "Motion | Record", record: Path | None) -> None:
-    """Warn where stroke and velocity of a motion do not agree."""
-    from twintube.engine.simulate import disagreement
+def warn(damper: "Damper", motion: "Motion | Record", result: "Simulation", record: Path | None) -> None:
+    """Warn where stroke and velocity of a motion do not agree, and where the law of a damper does not hold."""
+    from twintube.engine.simulate import beyond_law, disagreement
 
-    if doubtful := disagreement(motion.time, motion.stroke, motion.velocity):
-        warnings.warn(f"{'' if record is None else f'{record}: '}{doubtful}", InputWarning, stacklevel=1)
+    for doubtful in (disagreement(motion.time, motion.stroke, motion.velocity), beyond_law(damper, result)):
+        if doubtful:
+            warnings.warn(f"{'' if record is None else f'{record}: '}{doubtful}", InputWarning, stacklevel=1)
 
 
-def as_csv(result: "Simulation", motion: "Motion | Record", *, for_fmu: bool) -> str:
+def as_csv(result: "Simulation", motion: "Motion | Record", temperature: "Array | None", *, for_fmu: bool) -> str:
     """The columns of the result and the measured force as CSV, named as the FMU's variables; `for_fmu` without units."""
     from twintube.core.variables import Outputs, fmi_name
     from twintube.data import Record
@@ -108,6 +136,9 @@ def as_csv(result: "Simulation", motion: "Motion | Record", *, for_fmu: bool) ->
     names = {item.name: fmi_name(item) for item in fields(Outputs)}
     head = ["time [s]", "stroke [m]", "velocity [m/s]"]
     columns: list[Any] = [motion.time, result.stroke, result.velocity]
+    if temperature is not None:
+        head.append("temperature [K]")
+        columns.append(temperature)
     for name, values in result.columns.items():
         head.append(f"{names[name]} [{result.units[name]}]")
         columns.append(values)
@@ -120,12 +151,12 @@ def as_csv(result: "Simulation", motion: "Motion | Record", *, for_fmu: bool) ->
     return "\n".join(lines) + "\n"
 
 
-def against_measured(damper: "Damper", record: "Record", result: "Simulation") -> str:
+def against_measured(damper: "Damper", record: "Record", result: "Simulation", temperature: "Array | None") -> str:
     """How far the simulated force is from the measured one."""
     from twintube.fitting import prediction
     from twintube.report.simulated_record import deviation
 
-    return deviation(*prediction.compared(damper, record, result)).sentence
+    return deviation(*prediction.compared(damper, record, result, temperature)).sentence
 
 
 def drawn(name: str, motion: "Motion | Record", result: "Simulation") -> bytes:

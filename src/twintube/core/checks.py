@@ -18,7 +18,8 @@ from twintube.core.kernel import prepare
 from twintube.core.variables import Derived, Inputs, blank, fmi_name
 
 LARGEST = sys.float_info.max  # within it a number is finite
-VELOCITY = {item.name: item.metadata for item in fields(Inputs)}["velocity"]
+INPUTS = {item.name: item.metadata for item in fields(Inputs)}
+VELOCITY, TEMPERATURE = INPUTS["velocity"], INPUTS["temperature"]
 
 
 def outside(name: str, value: float, lower: float | None, upper: float | None, unit: str) -> str:

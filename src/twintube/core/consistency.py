@@ -55,13 +55,21 @@ def branch_rule(velocities: tuple[float, ...], forces: tuple[float, ...], after:
 
 
 def curve_rule(p: Parameters, after: int, violation: Violation) -> int:
-    """Number of the first rule beyond `after`, 1 to 6, that the F-v curve breaks, else 0."""
+    """Number of the first rule beyond `after`, 1 to 6, 16 or 17, that the F-v curve or its temperatures break, else 0."""
     if after < 3:
         rule = branch_rule(p.v_re, p.F_re, after, violation)
         if rule > 0:
             return rule
     rule = branch_rule(p.v_co, p.F_co, after - 3, violation)
-    return rule + 3 if rule > 0 else 0
+    if rule > 0:
+        return rule + 3
+    if after < 16 and p.T_cold >= p.T_curve:
+        note(violation, 0, p.T_cold, p.T_curve)
+        return 16
+    if after < 17 and p.T_hot <= p.T_curve:
+        note(violation, 0, p.T_hot, p.T_curve)
+        return 17
+    return 0
 
 
 def fit_rule(  # noqa: PLR0911 - a return for each rule

@@ -28,6 +28,7 @@ HOOKS = {
     "parts": Hook("p: Parameters, dt: float", "int", "most", "number of parts that a step is divided into"),
     "motion": Hook("p: Parameters, d: Derived, s: State, z: float, v0: float, v1: float, dt: float", "None", "call",
                    "sets `s.goal_z`, `s.goal_v0`, `s.goal_v1`: what the piston sees of the rod's motion"),
+    "warming": Hook("p: Parameters, s: State", "float", "sum", "temperature [K] beyond that which is given from outside"),
     "scale_cavitation": Hook("p: Parameters, s: State", "float", "product", "factor [1] of the gas that cavitation frees"),
     "phases": Hook("p: Parameters, s: State, way: float, dt: float", "None", "call",
                    "changes the phases before the step, which goes over `way` [m] in `dt` [s]"),

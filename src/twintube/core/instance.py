@@ -16,6 +16,7 @@ from twintube.core.checks import out_of_bounds, out_of_range, outside, problems
 from twintube.core.consistency import SAFE_STEP, possible, time_slack
 from twintube.core.effects import Parameters, State
 from twintube.core.frame import stroke_limit
+from twintube.core.kernel.temperature import within_law
 from twintube.core.model import advance, set_up, start
 from twintube.core.publishing import NAMES, publish
 from twintube.core.variables import Derived, Flow, Inputs, blank
@@ -49,10 +50,13 @@ def record_of(kind: type, values: Any) -> Any:
 class Instance:
     """A damper with the given parameters, at rest at stroke 0 until `begin` puts it to where its inputs are."""
 
+    RECORDS = ("parameters", "wanted", "inputs", "state", "flow", "agreement")
+
     def __init__(self, parameters: dict[str, Any]) -> None:
         self.p = Parameters(**parameters)  # in force
         self.wanted = asdict(self.p)  # with what was set since the last step
         self.inputs: Inputs = blank(Inputs)
+        self.inputs.temperature = self.p.T_curve
         self.d: Derived = blank(Derived)
         self.s: State = blank(State)
         self.f: Flow = blank(Flow)
@@ -63,6 +67,7 @@ class Instance:
         self.a: Agreement = blank(Agreement)
         self.warned = False  # that velocity and stroke have parted; then nobody looks any more
         self.long_step = False  # that a step longer than SAFE_STEP was warned of
+        self.beyond_law = False  # that a temperature beyond the law of the damper was warned of
         self.remarks: list[str] = []  # of the last step
 
     def set_parameter(self, name: str, index: int, value: float) -> None:
@@ -98,6 +103,7 @@ class Instance:
         self.a.stroke, self.a.velocity = z, v
         try:
             start(self.p, self.d, self.s, z)
+            self.s.temperature = self.inputs.temperature
             advance(self.p, self.d, self.s, self.f, z, v, v, 0.0)
             publish(self.d, self.s, self.o)
         except (ArithmeticError, ValueError):
@@ -126,6 +132,7 @@ class Instance:
             text = outside("stroke", z, -limit, limit, "m")
             return text or outside("stroke at the end of the step", end, -limit, limit, "m")
         flow = flow_of(self.f)
+        s.temperature = self.inputs.temperature
         try:
             done = advance(self.p, self.d, s, self.f, end, v, v, h)
             publish(self.d, s, self.o)
@@ -146,6 +153,9 @@ class Instance:
         if not self.long_step and h > SAFE_STEP + time_slack(time, h):
             self.long_step = True
             texts.append(messages.LONG_STEP % (time, h, SAFE_STEP))
+        if not self.beyond_law and not within_law(self.p, self.s.T):
+            self.beyond_law = True
+            texts.append(f"time {time:g} s: " + messages.BEYOND_LAW % (self.s.T, self.p.T_cold, self.p.T_hot))
         if not self.warned and parted(self.a, self.inputs.stroke, self.inputs.velocity, h):
             self.warned = True
             texts.append(messages.parted(time, *ways(self.a)))
@@ -157,6 +167,7 @@ class Instance:
             "changed": self.changed,
             "warned": self.warned,
             "long_step": self.long_step,
+            "beyond_law": self.beyond_law,
             "parameters": asdict(self.p),
             "wanted": dict(self.wanted),
             "inputs": asdict(self.inputs),
@@ -168,15 +179,16 @@ class Instance:
     @classmethod
     def restored(cls, state: Any, *, begun: bool) -> "Instance":
         """A damper in a state that was kept; raises StateError otherwise. `begun`: the start was computed."""
-        keys = {"changed", "warned", "long_step", "parameters", "wanted", "inputs", "state", "flow", "agreement"}
-        if not isinstance(state, dict) or set(state) != keys:
+        flags = ("changed", "warned", "long_step", "beyond_law")
+        if not isinstance(state, dict) or set(state) != {*flags, *cls.RECORDS}:
             raise StateError("fields")
-        if any(type(state[flag]) is not bool for flag in ("changed", "warned", "long_step")):
+        if any(type(state[flag]) is not bool for flag in flags):
             raise StateError("flags")
         p, wanted = record_of(Parameters, state["parameters"]), record_of(Parameters, state["wanted"])
         new = cls(asdict(p))
-        new.wanted, new.changed, new.warned = asdict(wanted), state["changed"], state["warned"]
-        new.long_step = state["long_step"]
+        new.wanted = asdict(wanted)
+        for flag in flags:
+            setattr(new, flag, state[flag])
         kinds = {"inputs": Inputs, "state": State, "flow": Flow, "agreement": Agreement}
         new.inputs, new.s, new.f, new.a = (record_of(kind, state[key]) for key, kind in kinds.items())
         beyond = [out_of_range(item, getattr(new.inputs, item.name)) for item in fields(Inputs)]

@@ -24,6 +24,8 @@ RULES = {
     13: "geometry.V_oil = %g m3: must be at most %g m3, the room at full compression",
     14: "gas_spring.c_gas = %g N/m: must be below %g N/m, or a polytropic gas has no room left at full compression",
     15: "gas_spring.c_gas_lost = %g N/m: must be below %g N/m, or a polytropic gas has no room left at full compression",
+    16: "temperature.T_cold = %g K: must be below temperature.T_curve = %g K",
+    17: "temperature.T_hot = %g K: must be above temperature.T_curve = %g K",
 }
 
 # What both kinds of FMU say.
@@ -39,6 +41,11 @@ NO_STEP = "time %g s: the step could not be computed; please report this paramet
 PARTED = (
     "time %g s: %s went %g m, %s led %g m in the same time, and the two parted by %g m; "
     "check sign, unit and connection of %s"
+)
+# Arguments: temperature, ends of the law; before it stands where.
+BEYOND_LAW = (
+    "temperature = %g K: the law of this damper holds from %g to %g K; "
+    "beyond it fluid force and friction are those of its end"
 )
 # Arguments: time, step, longest safe step.
 LONG_STEP = (

@@ -25,8 +25,9 @@ from twintube.core.effects import (
     effects_scale_friction,
     effects_scale_valve,
     effects_transition,
+    effects_warming,
 )
-from twintube.core.kernel import fill, fluid_force, pour, prepare, step
+from twintube.core.kernel import fill, fluid_force, pour, prepare, step, temper
 from twintube.core.kernel.forces import filling_share, share_above
 from twintube.core.kernel.prepare import cavitate
 from twintube.core.kernel.step import MAX_SPLITS, arrive, carry, flows
@@ -72,6 +73,13 @@ def rod_stroke(d: Derived, s: State) -> float:
     return s.z if d.extended == 0 else s.z_rod
 
 
+def warm_up(p: Parameters, d: Derived, s: State) -> None:
+    """Put the temperature of the coming step in force: that from outside, and what effects add."""
+    T = s.temperature if d.extended == 0 else s.temperature + effects_warming(p, s)
+    if T != s.T:
+        temper(p, s, T)
+
+
 def advance(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
     """Carry `s` to the stroke `z` [m] in the time `dt` [s] >= 0, the velocity going evenly from `v0` to `v1` [m/s].
 
@@ -79,9 +87,13 @@ def advance(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v
     need time and is else ignored.
     """
     goal = rod_goal(rod_stroke(d, s), z, v0, v1)
-    if d.extended == 0:
-        return step(p, d, s, f, goal, v0, v1)
-    return extended_step(p, d, s, f, goal, v0, v1, dt)
+    warm_up(p, d, s)
+    work = s.work
+    done = step(p, d, s, f, goal, v0, v1) if d.extended == 0 else extended_step(p, d, s, f, goal, v0, v1, dt)
+    if dt > SHORTEST:
+        s.work_begun = work
+        s.span = dt
+    return done
 
 
 def extended_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
@@ -103,6 +115,7 @@ def extended_step(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
 def advance_whole(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, dt: float) -> bool:
     """`advance` in one part, for a caller that has divided the step itself."""
     goal = rod_goal(rod_stroke(d, s), z, v0, v1)
+    warm_up(p, d, s)
     if d.extended == 0:
         return step(p, d, s, f, goal, v0, v1)
     s.z_rod = goal
@@ -129,7 +142,7 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     s.k_flow = s.k_degr
     v = s.goal_v1
     effects_transition(p, s, f, v, dz)
-    scale = effects_scale_fluid(p, s, v)
+    scale = s.k_T * effects_scale_fluid(p, s, v)
     bled = effects_scale_valve(p, v)
     s.k_degr *= scale * bled
     if v > 0.0 or (v == 0.0 and dz > 0.0):
@@ -144,7 +157,7 @@ def extended_part(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: fl
     s.F_gas += effects_elastic(p, s, s.z)
     # As in kernel.step: the mean over the stroke, whose direction need not be that of the velocity at its end.
     speed = abs(s.goal_v0 + v) / 2.0
-    s.k_mean = f.k_mean * effects_scale_fluid(p, s, speed if dz >= 0.0 else -speed)
+    s.k_mean = f.k_mean * s.k_T * effects_scale_fluid(p, s, speed if dz >= 0.0 else -speed)
     s.F_mean = 0.5 * (fluid_force(p, s.goal_v0) * effects_scale_valve(p, s.goal_v0) + F_1) * s.k_mean
     s.W_step = s.F_mean * dz
     s.F_valve = s.F_fluid

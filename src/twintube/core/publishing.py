@@ -23,7 +23,7 @@ def publishing_source() -> str:
     )
 
 
-made = {"total_force": outputs.total_force, "reserve_gas": outputs.reserve_gas}
+made = {name: getattr(outputs, name) for name in ("total_force", "degradation", "heat_flow", "reserve_gas")}
 exec(compile(publishing_source(), "<outputs>", "exec", flags=annotations.compiler_flag), made)
-publish: Callable[[Derived, State, Any], None] = made["publish"]  # type: ignore[assignment]
-publish_row: Callable[[Derived, State, Any], None] = made["publish_row"]  # type: ignore[assignment]
+publish: Callable[[Derived, State, Any], None] = made["publish"]
+publish_row: Callable[[Derived, State, Any], None] = made["publish_row"]

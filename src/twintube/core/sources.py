@@ -8,6 +8,7 @@ from twintube.core.publishing import publishing_source
 FOLDER = Path(__file__).parent
 BEFORE = (
     "variables.py",
+    "kernel/temperature.py",
     "kernel/forces.py",
     "kernel/prepare.py",
     "kernel/rebound.py",

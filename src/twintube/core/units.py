@@ -19,8 +19,9 @@ UNITS: dict[str, tuple[str, dict[str, str]]] = {
     "N.s/m": ("Damping", {"kg": "1", "s": "-1"}),
     "s/m": ("Slowness", {"m": "-1", "s": "1"}),
     "N/m3": ("StiffnessPerSquareLength", {"kg": "1", "m": "-2", "s": "-2"}),
-    "K": ("TemperatureDifference", {"K": "1"}),
+    "K": ("ThermodynamicTemperature", {"K": "1"}),
     "1/K": ("RelativeChangePerTemperature", {"K": "-1"}),
+    "K/J": ("TemperaturePerEnergy", {"K": "1", "kg": "-1", "m": "-2", "s": "2"}),
     "J": ("Energy", {"kg": "1", "m": "2", "s": "-2"}),
     "rad": ("Angle", {"rad": "1"}),
     "rad/s": ("AngularVelocity", {"rad": "1", "s": "-1"}),
@@ -56,4 +57,7 @@ NOMINAL: dict[str, float] = {
     "1/m2": 10.0,
     "1/J": 1e-5,
     "J": 100.0,
+    "W": 100.0,
+    "K": 300.0,
+    "K/J": 1e-3,
 }

@@ -125,6 +125,19 @@ class Parameters:
     n_gas: float = var("gas_spring", "n", "1", "exponent of the polytropic gas: 1 slow, 1.4 adiabatic",
                        lower=1, upper=1.4, source="assumed", tunable=True, default=1.35)
 
+    T_curve: float = var("temperature", "T_0", "K", "temperature at which F-v curve, friction and gas pressure hold",
+                         lower=200, upper=450, source="assumed: a room of 23 degC", default=296.15)
+    T_cold: float = var("temperature", "T_c", "K", "colder point of the law, and its lower end", lower=150, upper=450,
+                        source="Hryciow 2022", default=243.15)
+    k_cold: float = var("temperature", "k_c", "1", "fluid force at T_cold over that at T_curve", lower=1, upper=10,
+                        source="Hryciow 2022", default=2.5)
+    T_hot: float = var("temperature", "T_h", "K", "hotter point of the law, and its upper end", lower=200, upper=500,
+                       source="assumed, 0.2 to 0.4 %/K", default=353.15)
+    k_hot: float = var("temperature", "k_h", "1", "fluid force at T_hot over that at T_curve", lower=0.1, upper=1,
+                       source="assumed, 0.2 to 0.4 %/K", default=0.85)
+    friction_power: float = var("temperature", "", "1", "power of the fluid's factor with which friction goes", lower=0,
+                                upper=1, source="assumed: 0 dry, 1 viscous", default=0.5)
+
     X_Re: float = var("degradation", "X_Re", "1", "oil share of the piston valve's mixed flow, rebound",
                       lower=0, upper=1, source="Table 9, equation 22", tunable=True)
     L_PV: float = var("degradation", "L_PV", "1", "leakage of the piston valve", lower=0,
@@ -187,6 +200,9 @@ class Inputs:
     stroke: float = var("", "z", "m", "stroke, positive in rebound (rod out), 0 in the middle", lower=-0.5, upper=0.5,
                         default=0.0)
     velocity: float = var("", "z_dot", "m/s", "velocity, positive in rebound", lower=-20, upper=20, default=0.0)
+    # From far below the coldest place to far above what a seal stands: degrees Celsius taken for kelvins are refused.
+    temperature: float = var("", "T", "K", "temperature of oil, seals and gas, or around a damper that keeps its heat",
+                             lower=150, upper=500, default=296.15)
 
 
 T = TypeVar("T")
@@ -203,7 +219,7 @@ class Outputs(Generic[T]):
     force: T = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1",
                    value="total_force(s)")
     k_degr: T = var("", "k_degr", "1", "fluid force over that of the intact damper, mean of the step", lower=0, upper=15,
-                    source="equations 23-39", value="s.k_degr")
+                    source="equations 23-39", value="degradation(d, s)")
     F_fluid: T = var("", "F_Fl k_degr", "N", "fluid force, degraded", source="equation 1", fmi="force_fluid",
                      value="s.F_fluid")
     F_friction: T = var("", "F_Fr", "N", "friction force", source="equation 2", nominal=100.0, fmi="force_friction",
@@ -230,6 +246,10 @@ class Outputs(Generic[T]):
     V3_foam: T = var("", "V_3foam", "m3", "foam in the reserve chamber", lower=0, source="equation 5", fmi="V3.foam",
                      value="s.V3_foam")
     V_cav: T = var("", "", "m3", "oil lost to gas by cavitation so far", lower=0, source="equation 41", value="s.V_cav")
+    heat_flow: T = var("", "P", "W", "work dissipated in the last step over its length", source="the work's rate",
+                       value="heat_flow(s)")
+    T_oil: T = var("", "T", "K", "temperature of oil, seals and gas", source="the input, and heat of its own",
+                   fmi="temperature_oil", value="s.T")
 
 
 @dataclass(slots=True)
@@ -279,6 +299,13 @@ class State:
     F_friction: float = var("state", "F_Fr", "N", "friction force", default=0.0)
     F_gas: float = var("state", "F_S", "N", "gas force", default=0.0)
     work: float = var("state", "W", "J", "dissipated work", default=0.0)
+    work_begun: float = var("state", "W", "J", "dissipated work before the last step that took time", default=0.0)
+    span: float = var("state", "", "s", "length of that step, 0 before the first", default=0.0)
+    temperature: float = var("state", "T", "K", "temperature given from outside", default=0.0)
+    T: float = var("state", "T", "K", "temperature in force", default=0.0)
+    k_T: float = var("state", "k", "1", "fluid force over that at T_curve", default=1.0)
+    k_T_Fr: float = var("state", "", "1", "friction over that at T_curve", default=1.0)
+    k_T_gas: float = var("state", "", "1", "absolute gas pressure over that at T_curve", default=1.0)
 
 
 @dataclass(slots=True)

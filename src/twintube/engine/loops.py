@@ -10,7 +10,7 @@ from twintube.common.arrays import Counts, Table, Vector
 from twintube.core.agreement import Agreement, parted
 from twintube.core.effects import Parameters, State, effects_parts, effects_remember, effects_scale_valve
 from twintube.core.frame import stroke_limit
-from twintube.core.kernel.forces import gas_rise
+from twintube.core.kernel.forces import gas_force
 from twintube.core.model import advance, advance_whole, rod_stroke, set_up, start
 from twintube.core.outputs import total_force
 from twintube.core.publishing import publish_row
@@ -44,8 +44,12 @@ class Means(NamedTuple):
     work: Vector  # [J] since the start of the record
 
 
-def run_record(p: Parameters, d: Derived, s: State, f: Flow, t: Vector, z: Vector, v: Vector, out: Table) -> int:
-    """Drive the damper over times `t` [s], strokes `z` [m] and velocities `v` [m/s], all (n,).
+def run_record(
+    p: Parameters, d: Derived, s: State, f: Flow, t: Vector, z: Vector, v: Vector, temperature: Vector, out: Table
+) -> int:
+    """Drive the damper over times `t` [s], strokes `z` [m], velocities `v` [m/s] and temperatures [K], all (n,).
+
+    A temperature holds until the next sample, as the input of an FMU does.
 
     Writes the outputs to `out` (n, m) in the order of their table.
 
@@ -54,6 +58,7 @@ def run_record(p: Parameters, d: Derived, s: State, f: Flow, t: Vector, z: Vecto
     before = v[0]
     time = t[0]
     for i in range(len(z)):
+        s.temperature = temperature[max(0, i - 1)]
         if not advance(p, d, s, f, z[i], before, v[i], t[i] - time):
             return i
         before = v[i]
@@ -180,7 +185,7 @@ def interval_means(
             total += (s.impulse - from_impulse) / dt
         elif d.extended == 0 and abs(way) > NO_WAY:
             # The work over the stroke is the mean force, wherever in the step it jumped.
-            total += ((s.work - from_work) / way + gas_rise(p, d.F_0, d.c_gas, at + 0.5 * way) - d.F_0) / n
+            total += ((s.work - from_work) / way + gas_force(p, d, s, at + 0.5 * way)) / n
         else:
             total += total_force(s) / n
         before = speed

@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from twintube.common.arrays import Array
 from twintube.core import effects, messages, model
 from twintube.core.agreement import Agreement, ways
-from twintube.core.checks import VELOCITY, bad_input, problems
+from twintube.core.checks import TEMPERATURE, VELOCITY, bad_input, outside, problems
 from twintube.core.frame import stroke_limit
+from twintube.core.kernel.temperature import ROUNDING
 from twintube.core.publishing import NAMES
 from twintube.core.variables import Derived, Flow, blank
 from twintube.dampers import Damper, load
@@ -83,6 +84,28 @@ def checked_time(damper: Damper, time: ArrayLike | None, size: int) -> Array:
     return t
 
 
+def checked_temperature(damper: Damper, temperature: ArrayLike | None, size: int) -> Array:
+    """Temperatures [K] (n,), that of the parameters where none is given; raises InputError."""
+    if temperature is None:
+        return np.full(size, damper.parameters.T_curve)
+    given = np.asarray(temperature, dtype=float)
+    if given.shape not in ((), (size,)):
+        raise InputError(f"temperature {given.shape} must be one number or an array of the length of the stroke, ({size},)")
+    low, high = TEMPERATURE["lower"], TEMPERATURE["upper"]
+    kelvins = np.array(np.broadcast_to(given, (size,)), order="C")
+    for i in np.flatnonzero(~((kelvins >= low) & (kelvins <= high)))[:1]:
+        raise InputError(f"sample {i}: " + outside("temperature", float(kelvins[i]), low, high, "K"))
+    return kelvins
+
+
+def beyond_law(damper: Damper, result: Simulation) -> str:
+    """What to warn of where the law of a damper does not hold at its temperature; else empty."""
+    p, kelvins = damper.parameters, result.T_oil
+    for i in np.flatnonzero((kelvins < p.T_cold - ROUNDING) | (kelvins > p.T_hot + ROUNDING))[:1]:
+        return f"sample {i}: " + messages.BEYOND_LAW % (float(kelvins[i]), p.T_cold, p.T_hot)
+    return ""
+
+
 def started(
     damper: Damper, stroke: ArrayLike, velocity: ArrayLike, time: ArrayLike | None
 ) -> tuple[list[Any], Array, Array, Array]:
@@ -123,25 +146,29 @@ def simulate(
     velocity: ArrayLike | None = None,
     time: ArrayLike | None = None,
     *,
+    temperature: ArrayLike | None = None,
     interpreted: bool = False,
 ) -> Simulation:
     """Simulate a record from rest at its first sample.
 
-    Where a time is given, a velocity that does not belong to the stroke (sign, unit, connection) is warned of, once.
+    Where a time is given, a velocity that does not belong to the stroke (sign, unit, connection) is warned of, once. So is
+    a temperature beyond the law of the damper.
 
     Args:
         damper: parameters and condition (oil level, gas preload), or the name or file of a parameter set.
         stroke: (n,) [m], positive in rebound, 0 in the middle position; or a signal, which has velocity and time too.
         velocity: (n,) [m/s], positive in rebound; between two samples it changes evenly.
         time: (n,) [s], not falling; needed only where the damper has an effect that acts with time.
+        temperature: [K] one or (n,), of oil, seals and gas, or around a damper that keeps its heat; it holds until the next
+            sample. That of the parameters if left out.
         interpreted: run the kernel in plain Python instead of C; the result is the same to the last bit.
 
     Raises:
-        InputError: a sample is not finite, the piston would leave the tube, or a needed time is missing.
+        InputError: a sample is not finite or out of range, the piston would leave the tube, or a needed time is missing.
         ParameterError: the parameters are not admissible.
 
     Warns:
-        InputWarning: velocity and stroke do not belong together.
+        InputWarning: velocity and stroke do not belong together, or the law of the damper does not hold at a temperature.
 
     """
     damper = load(damper)
@@ -150,28 +177,38 @@ def simulate(
         stroke, velocity, time = signal.stroke, signal.velocity, signal.time
     elif velocity is None:
         raise InputError("velocity is missing: simulate takes stroke, velocity and time, or a signal that has all three")
-    result = simulate_quietly(damper, stroke, velocity, time, interpreted=interpreted)
+    result = simulate_quietly(damper, stroke, velocity, time, temperature=temperature, interpreted=interpreted)
+    texts = [beyond_law(damper, result)]
     if time is not None:
         t = np.asarray(time, dtype=float)
-        text = disagreement(t, result.stroke, result.velocity, interpreted=interpreted)
-        if text:
-            warnings.warn(text, InputWarning, stacklevel=2)
+        texts.append(disagreement(t, result.stroke, result.velocity, interpreted=interpreted))
+    for text in filter(None, texts):
+        warnings.warn(text, InputWarning, stacklevel=2)
     return result
 
 
 def simulate_quietly(
-    damper: Damper, stroke: ArrayLike, velocity: ArrayLike, time: ArrayLike | None = None, *, interpreted: bool = False
+    damper: Damper,
+    stroke: ArrayLike,
+    velocity: ArrayLike,
+    time: ArrayLike | None = None,
+    *,
+    temperature: ArrayLike | None = None,
+    interpreted: bool = False,
 ) -> Simulation:
     """As `simulate`, for motions that were looked at already: without a warning."""
     records, t, z, v = started(damper, stroke, velocity, time)
+    kelvins = checked_temperature(damper, temperature, len(z))
     out = np.empty((len(z), len(NAMES)))
     if interpreted:
         p, d, s, f = records
-        done = loops.run_record(p, d, s, f, t.tolist(), z.tolist(), v.tolist(), out)
+        done = loops.run_record(p, d, s, f, t.tolist(), z.tolist(), v.tolist(), kelvins.tolist(), out)
     else:
-        done = compiled.module().run_record(*rows(records), t, z, v, out)
+        done = compiled.module().run_record(*rows(records), t, z, v, kelvins, out)
     finished(done, z)
     columns: dict[str, Any] = {name: out[:, i] for i, name in enumerate(NAMES)}
+    if time is None:
+        columns["heat_flow"] = np.full(len(z), np.nan)  # no rate without a time
     return Simulation(stroke=z, velocity=v, time=None if time is None else t, **columns)
 
 

@@ -32,24 +32,26 @@ def calm(record: Record) -> Record:
     return replace(record, stroke=quiet(record.time, record.stroke))
 
 
-def driven(damper: Damper, record: Record) -> Simulation:
-    """The model over a record's stroke from end to end."""
+def driven(damper: Damper, record: Record, temperature: Array | None = None) -> Simulation:
+    """The model over a record's stroke from end to end, at temperatures (n,) [K]."""
     condition = state(damper, *record.fill, record.gas_pressure)
-    return simulate_quietly(condition, record.stroke, smooth_velocity(record), record.time)
+    return simulate_quietly(condition, record.stroke, smooth_velocity(record), record.time, temperature=temperature)
 
 
-def predicted(damper: Damper, record: Harmonic, offset: float) -> Array:
+def predicted(damper: Damper, record: Harmonic, offset: float, temperature: Array | None = None) -> Array:
     """What the force channel would show of the model (n,) [N]: with its zero and through its moving mean."""
     condition = state(damper, record.oil_level, record.gas_preload, record.gas_pressure)
-    force = simulate_quietly(condition, record.stroke, record.velocity, record.time).force
+    force = simulate_quietly(condition, record.stroke, record.velocity, record.time, temperature=temperature).force
     return averaged(record.time, force + offset, record.averaged)
 
 
-def compared(damper: Damper, record: Record, simulation: Simulation) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+def compared(
+    damper: Damper, record: Record, simulation: Simulation, temperature: Array | None = None
+) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
     """Stroke [m], measured and simulated force [N] and which samples count, all (m,), as `identify` compares them.
 
     Of a harmonic record these are the measured oscillations, without what leads to them; of others, and where there is no
-    full oscillation, the whole `simulation` of the record made `calm`.
+    full oscillation, the whole `simulation` of the record made `calm`. `temperature` (n,) [K] is that of the simulation.
     """
     if record.measurement == "harmonic":
         try:
@@ -57,5 +59,6 @@ def compared(damper: Damper, record: Record, simulation: Simulation) -> tuple[Ar
         except InputError:
             return record.stroke, record.force, simulation.force, record.usable
         span = slice(int(block.marks[0]), int(block.marks[-1]) + 1)
-        return block.stroke[span], block.force[span], predicted(damper, block, 0.0)[span], block.counts(span)
+        along = None if temperature is None else np.interp(block.time, record.time, temperature)
+        return block.stroke[span], block.force[span], predicted(damper, block, 0.0, along)[span], block.counts(span)
     return record.stroke, record.force, simulation.force, record.usable

@@ -28,6 +28,9 @@ where you know it. Outputs are those at the end of the step and change in doStep
 to the communication step. With a wheel in the loop 1 ms is usual and 2 ms the most: at 10 ms an intact damper already lets
 the wheel load fluctuate a quarter more, as a worn one would. Of a step above 2 ms a warning is logged, once in a run. A
 motion that does not answer to the force, as one from a record, may have longer steps.</p>
+<p><em>temperature</em> may stay unconnected: it then is that at which the parameters hold. <em>heat_flow</em> is for a
+thermal model: the work dissipated in the last step over its length. Beyond <em>temperature.T_cold</em> and
+<em>temperature.T_hot</em> fluid force and friction stay as there, and a warning is logged once in a run.</p>
 <p>A degraded damper must be preconditioned before its force means anything: the paper moves it six times at
 0.05 m/s. At rest the model holds still, however long,
 unless an effect that acts with time is switched on.</p>

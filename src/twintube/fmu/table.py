@@ -52,12 +52,14 @@ def bounds(item: Field[Any]) -> tuple[float | None, float | None]:
 def variables(damper: Damper) -> Iterator[Variable]:
     """Inputs, outputs and parameters, arrays element by element.
 
-    The bounds of the stroke are where the piston reaches the ends of this damper's tube.
+    The bounds of the stroke are where the piston reaches the ends of this damper's tube, the temperature starts where its
+    parameters hold.
     """
     limit = tube_limit(damper.parameters)
     for item in fields(Inputs):
         ends = (-limit, limit) if item.name == "stroke" else bounds(item)
-        yield Variable(fmi_name(item), "input", item, -1, item.metadata["default"], f"now.{item.name}", ends)
+        start = damper.parameters.T_curve if item.name == "temperature" else item.metadata["default"]
+        yield Variable(fmi_name(item), "input", item, -1, start, f"now.{item.name}", ends)
     for item in fields(Outputs):
         yield Variable(fmi_name(item), "output", item, -1, None, f"now.out.{item.name}", bounds(item))
     for name, item, i, value in elements(damper):

@@ -71,7 +71,7 @@ def damper() -> Equations:
     """The damper of an FMU."""
     entries = (
         "set_up", "start", "advance", "publish", "curve_rule", "fit_rule", "stroke_limit", "time_slack", "possible",
-        "parted", "followed",
+        "parted", "followed", "within_law",
     )  # fmt: skip
     return Equations(sources.damper_sources(), entries)
 

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     oil_displacement_flows: Callable[[oil_displacement.Parameters, Derived, Frame, Flow, float, float], None] = oil_displacement.oil_displacement_flows
     oil_level_error_derive: Callable[[oil_level_error.Parameters, Derived], None] = oil_level_error.oil_level_error_derive
     oil_level_error_level: Callable[[oil_level_error.Parameters, float], float] = oil_level_error.oil_level_error_level
+    oil_temperature_warming: Callable[[oil_temperature.Parameters, oil_temperature.State], float] = oil_temperature.oil_temperature_warming
     oil_temperature_phases: Callable[[oil_temperature.Parameters, oil_temperature.State, float, float], None] = oil_temperature.oil_temperature_phases
     oil_temperature_scale_fluid: Callable[[oil_temperature.Parameters, oil_temperature.State, float], float] = oil_temperature.oil_temperature_scale_fluid
     oil_temperature_scale_friction: Callable[[oil_temperature.Parameters, oil_temperature.State, float, float], float] = oil_temperature.oil_temperature_scale_friction

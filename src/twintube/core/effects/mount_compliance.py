@@ -69,7 +69,7 @@ class State(Frame):
     k_used_re: float = var("mount_compliance", "", "1", "k_degr in rebound before the step", default=1.0)
     k_used_co: float = var("mount_compliance", "", "1", "k_degr in compression before the step", default=1.0)
     F_middle: float = var("mount_compliance", "", "N", "gas force of the effects at stroke 0", default=0.0)
-    rubbing: float = var("mount_compliance", "", "1", "Stribeck factor", default=1.0)
+    rubbing: float = var("mount_compliance", "", "1", "friction over the Dahl state", default=1.0)
     end_share: float = var("mount_compliance", "", "1", "weight of the rate at the end", default=1.0)
     F_even: float = var("mount_compliance", "", "N", "mean of F_mount", default=0.0)
     moved: float = var("mount_compliance", "", "1", "latest rise of the piston's speed with the valves' speed", default=1.0)
@@ -98,7 +98,7 @@ def mount_compliance_excess(p: Parameters, d: Derived, s: State, v: float, dt: f
     x = s.x_begun + rate * s.end_share * dt
     goal = s.z_end - x
     friction = effects_scale_friction(p, s, goal, v) * s.rubbing * dahl(p, d, s.F_D_begun, goal - s.z_begun)
-    gas = gas_rise(p, d.F_0, d.c_gas, goal) + effects_elastic(p, s, goal) - s.F_middle
+    gas = s.k_T_gas * gas_rise(p, d.F_0, d.c_gas, goal) + effects_elastic(p, s, goal) - s.F_middle
     return (
         (x * (1.0 + p.hardening * x * x) + p.tau_mount * rate) / p.C_mount
         - s.F_mount
@@ -123,7 +123,7 @@ def mount_compliance_begin(p: Parameters, d: Derived, s: State, z: float, v: flo
     s.z_begun = s.z
     s.F_D_begun = s.F_D
     s.F_middle = effects_elastic(p, s, 0.0)
-    s.rubbing = stribeck(p, v)
+    s.rubbing = s.k_T_Fr * stribeck(p, v)
     settling = (p.tau_mount + p.C_mount * s.felt_slope / s.moved) / mount_compliance_harder(p, s)
     s.end_share = end_weight(dt / settling) if settling > 0.0 else 1.0
     s.x_begun = s.x_mount + (1.0 - s.end_share) * rate * dt

@@ -12,6 +12,9 @@ a record, of which H_start says how far it is from that of the F-v curve: H_star
 friction_kelvin in the same exponential way. The gas is enclosed: force and stiffness of the preload rise by
 gas_kelvin per kelvin, which is 1 / 296 K of the absolute pressure and more of the pressure above ambient. Where nothing is
 measured gas_heat makes the gas follow the retained heat.
+
+With `warm_heat` [K/J] the heat store has a temperature: that from outside plus warm_heat H. Fluid force, friction and gas
+then go as the law of the damper says (kernel/temperature.py), and nothing of the above is needed.
 """
 
 import math
@@ -57,6 +60,9 @@ class Parameters(variables.Parameters):
     thin_density: float = var("oil_temperature", "", "1", "relative loss of density over that of viscosity", lower=0,
                               upper=0.05, source="mineral oil; Dixon, Shock Absorber Handbook",
                               default=0.02, role="law")  # fmt: skip
+    warm_heat: float = var("oil_temperature", "", "K/J", "rise of the temperature per retained heat, 1 / heat capacity",
+                         lower=0, upper=0.01, source="lumped heat capacity, 700 J/K", default=0.0,
+                         role="strength")  # fmt: skip
     gas_heat: float = var("oil_temperature", "", "1/J", "relative rise of the preload per retained heat", lower=0,
                           upper=1e-3, source="ideal gas, lumped heat capacity", default=0.0, role="law")  # fmt: skip
 
@@ -71,6 +77,11 @@ class State(Frame):
 def oil_temperature_phases(p: Parameters, s: State, way: float, dt: float) -> None:
     """Cool down over `dt` [s]."""
     s.heat *= math.exp(-dt / p.cooling_time)
+
+
+def oil_temperature_warming(p: Parameters, s: State) -> float:
+    """What the retained heat adds [K] to the temperature given from outside, which then is that around the damper."""
+    return p.warm_heat * s.heat
 
 
 def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:

@@ -121,9 +121,17 @@ def gas_rise(p: Parameters, F_0: float, c_gas: float, z: float) -> float:
     return rise
 
 
+def gas_force(p: Parameters, d: Derived, s: State, z: float) -> float:
+    """Gas force [N] at the stroke `z` [m]; beyond the paper, the absolute pressure goes with the temperature."""
+    return s.k_T_gas * (gas_rise(p, d.F_0, d.c_gas, z) - d.F_0) - (s.k_T_gas - 1.0) * P_AMBIENT * d.A_rod
+
+
 def set_forces(p: Parameters, d: Derived, s: State, F_potential: float, v: float) -> None:
-    """The three forces of equation 1 at the state `s`; `F_potential` is the intact fluid force [N] at `v` [m/s]."""
+    """The three forces of equation 1 at the state `s`; `F_potential` is the intact fluid force [N] at `v` [m/s].
+
+    Each goes with the temperature (`temperature.py`); its factors are 1 where the parameters hold.
+    """
     # Eq. 1: F_SA = F_S + F_Fr + F_Fl k_degr; the paper's F_S is a slope; F_0 at stroke 0 is added here
-    s.F_gas = gas_rise(p, d.F_0, d.c_gas, s.z) - d.F_0
-    s.F_friction = stribeck(p, v) * s.F_D
+    s.F_gas = gas_force(p, d, s, s.z)
+    s.F_friction = s.k_T_Fr * stribeck(p, v) * s.F_D
     s.F_fluid = F_potential * s.k_degr

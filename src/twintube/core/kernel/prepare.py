@@ -2,7 +2,8 @@
 
 import math
 
-from twintube.core.kernel.forces import filling_speed, gas_rise
+from twintube.core.kernel.forces import filling_speed, gas_force
+from twintube.core.kernel.temperature import temper
 from twintube.core.variables import Derived, Parameters, State
 
 
@@ -79,5 +80,9 @@ def pour(p: Parameters, d: Derived, s: State, z: float, oil: float) -> None:
     s.k_degr = 1.0
     s.F_fluid = 0.0
     s.F_friction = 0.0
-    s.F_gas = gas_rise(p, d.F_0, d.c_gas, z) - d.F_0
+    s.temperature = p.T_curve
+    temper(p, s, p.T_curve)
+    s.F_gas = gas_force(p, d, s, z)
     s.work = 0.0
+    s.work_begun = 0.0
+    s.span = 0.0

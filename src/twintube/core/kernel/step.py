@@ -110,13 +110,13 @@ def carry(s: State, f: Flow, left: float) -> float:
 def arrive(p: Parameters, d: Derived, s: State, f: Flow, z: float, v0: float, v1: float, acting: float) -> None:
     """End a step at the stroke `z` [m], in which k_degr has the integral `acting` [m] over the stroke."""
     dz = z - s.z
-    F_1 = fluid_force(p, v1)
+    F_1 = s.k_T * fluid_force(p, v1)
     if dz == 0.0:
         settle(p, d, s, f, v1)
         f.k_mean = s.k_degr
         set_forces(p, d, s, F_1, v1)
         return
-    F_0 = F_1 if v0 == v1 else fluid_force(p, v0)
+    F_0 = F_1 if v0 == v1 else s.k_T * fluid_force(p, v0)
     rising = dz > 0.0
     if not rising:
         squeeze_reserve(d, s)

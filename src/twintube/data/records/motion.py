@@ -21,11 +21,12 @@ MOST_MESSAGES = 5
 
 @dataclass(frozen=True)
 class Motion:
-    """Arrays (n,), SI units; a missing velocity is the central difference of the stroke."""
+    """Arrays (n,), SI units but temperatures in degC; a missing velocity is the central difference of the stroke."""
 
     time: Array
     stroke: Array
     velocity: Array
+    temperature: Array | None = None
 
 
 def read_motion(path: Path) -> tuple[Array, Array, Array]:
@@ -45,7 +46,7 @@ def read_moved(path: Path, fill: tuple[float, float], block: int | None = None) 
     columns = table.columns
     time, stroke, (velocity, source) = columns["time"], columns["stroke"], velocity_of(columns)
     if "force" not in columns:
-        return Motion(time, stroke, velocity), notes.findings
+        return Motion(time, stroke, velocity, columns.get("temperature")), notes.findings
     kind = kind_of(time, stroke) or "stochastic"
     notes.remark(f"taken as {kind}, judged by the speed and the turning points of the stroke")
     usable = check_quality(table, np.zeros(len(time), dtype=bool), notes)
