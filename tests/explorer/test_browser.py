@@ -1,5 +1,6 @@
 """The page in a browser: it shows the package's numbers, every control works, nothing is said on the console."""
 
+import math
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.explorer.conftest import OWN
+from twintube.core.kernel.temperature import thickness
 from twintube.dampers import load
 from twintube.engine.simulate import simulate
 from twintube.rig.plan import amplitude
@@ -85,6 +87,22 @@ def test_a_block_shows_the_work_that_the_package_computes(view: View) -> None:
         assert [float(cell) for cell in row[1:3]] == pytest.approx(works, abs=0.03, rel=1e-4)
 
 
+def test_a_cold_damper_does_the_work_that_the_package_computes(view: View) -> None:
+    """The worn damper and the intact one are as cold; the slider ends where the law ends."""
+    view.open("#damper=SA8&oil=70&temperature=-20")
+    cells = view.page.eval_on_selector("#work-rows tr", "row => [...row.cells].map(c => c.textContent)")
+    worn, intact = map(float, cells[1:3])
+    damper = load("SA8")
+    k = math.exp(thickness(damper.parameters, 253.15))
+    for work, state in ((worn, {"oil_level": 0.7, "gas_preload": 0}), (intact, {})):
+        no_friction = block_work("SA8", 1.048, **state, F_FrS=0.0)[0]
+        rubbed = block_work("SA8", 1.048, **state)[0] - no_friction
+        assert work == pytest.approx(k * no_friction + k**0.5 * rubbed, rel=1e-3)
+    ends = [view.page.get_attribute("#temperature", end) for end in ("min", "max")]
+    assert ends == ["-30", "80"]
+    assert "-20 °C" in view.summary()
+
+
 def test_a_drive_shows_the_wheel_load_that_the_package_computes(view: View) -> None:
     view.open("#damper=SA8&oil=50&excitation=drive&speed=50&gas=return")
     match = re.search(r"coefficient ([\d.]+), intact ([\d.]+) .* work (\d+) %", view.summary())
@@ -108,6 +126,7 @@ def test_every_control_changes_the_result_and_the_address_restores_it(view: View
     actions = [
         lambda: page.select_option("#damper", "SA8"),
         lambda: page.focus("#oil") or page.keyboard.press("ArrowLeft"),
+        lambda: page.focus("#temperature") or page.keyboard.press("ArrowLeft"),
         lambda: page.focus("#velocity") or page.keyboard.press("End"),
         lambda: page.uncheck("[name=foam]"),
         lambda: page.uncheck("[name=cavitation]"),

@@ -25,6 +25,7 @@ from twintube.vehicle.drive import CONDITIONING_STEP
 
 ROAD_LENGTH = 300.0  # [m]; the drive ends where it ends
 ROAD_SEED = 1
+KELVIN = 273.15  # [K] at 0 degC
 RAMPS = (0.001, 0.01, 0.05, 0.1, 0.25, 0.5, 1.0)  # [m/s]
 # Of effects beyond the paper for a first look: a parameter file of one's own says better.
 STRENGTHS: Mapping[str, Mapping[str, float]] = tomllib.loads(
@@ -47,6 +48,7 @@ def damper_data(damper: Damper) -> dict[str, Any]:
         "values": [float(v.start or 0.0) for v in variables(damper) if v.causality == "parameter"],
         "amplitude": amplitude(damper),
         "limit": tube_limit(damper.parameters),
+        "temperatures": [x - KELVIN for x in (damper.parameters.T_cold, damper.parameters.T_curve, damper.parameters.T_hot)],
         "levels": damper.measured_levels,
         "corner": astuple(load_car().corner(damper)),
         "ownGas": has_own(damper),
@@ -78,6 +80,7 @@ def common() -> dict[str, Any]:
         "parameters": [v.name for v in table if v.causality == "parameter"],
         "ways": {name: {"says": item.says, "parameters": named(values_of(name))} for name, item in WAYS.items()},
         "freedGas": DEFAULT,
+        "kelvin": KELVIN,
         "noFoam": named(NO_FOAM),
         "noCavitation": named(NO_CAVITATION),
         "wear": [NAMES[name] for name in scalar_factor(1.0) if name != "oil_level"],

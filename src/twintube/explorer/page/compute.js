@@ -6,6 +6,7 @@ function valuesOf(state, damper, content) {
   if (!state.foam) Object.assign(values, content.noFoam);
   if (!state.cavitation) Object.assign(values, content.noCavitation);
   if (!damper.ownGas) Object.assign(values, content.ways[state.gas].parameters);
+  if (state.temperature !== null) values.temperature = state.temperature + content.kelvin;
   state.effects.forEach((name) => Object.assign(values, content.effects[name].parameters));
   return values;
 }

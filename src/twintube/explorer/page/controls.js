@@ -1,5 +1,7 @@
 // The form: every control named as its key of the state.
 
+const ROUNDING = 1e-6; // [K] of degrees Celsius
+
 class Controls {
   constructor(form, content, changed) {
     Object.assign(this, { form, content });
@@ -45,6 +47,7 @@ class Controls {
       damper: fields.damper.value,
       oil: Number(fields.oil.value),
       preload: fields.preload.checked,
+      temperature: this.temperature(),
       excitation: this.form.querySelector("[name=excitation]:checked").value,
       velocity: this.lists.velocity[fields.velocity.value],
       ramp: this.lists.ramp[fields.ramp.value],
@@ -59,10 +62,26 @@ class Controls {
     };
   }
 
+  // What the slider says [°C]; null where it stands as near as it can at the temperature of the parameters.
+  temperature() {
+    const fields = this.form.elements;
+    const [, own] = this.damper(fields.damper.value).temperatures;
+    const chosen = Number(fields.temperature.value);
+    return chosen === Math.round(own) ? null : chosen;
+  }
+
+  damper(name) {
+    return this.content.dampers.find((item) => item.name === name);
+  }
+
   // The controls as a state says, with what belongs to its damper and excitation.
   show(state) {
     const fields = this.form.elements;
-    const damper = this.content.dampers.find((item) => item.name === state.damper);
+    const damper = this.damper(state.damper);
+    const [cold, own, hot] = damper.temperatures;
+    fields.temperature.min = Math.ceil(cold - ROUNDING);
+    fields.temperature.max = Math.floor(hot + ROUNDING);
+    fields.temperature.value = state.temperature ?? Math.round(own);
     fields.amplitude.max = Math.floor(900 * damper.limit);
     for (const name of ["damper", "oil", "amplitude", "speed", "road", "gas"])
       fields[name].value = state[name];
@@ -85,6 +104,7 @@ class Controls {
     const reach = Math.min(state.amplitude, fields.amplitude.max);
     const said = {
       oil: `${state.oil} %`,
+      temperature: `${state.temperature ?? own.toFixed(0)} °C`,
       velocity: `${state.velocity} m/s`,
       ramp: `${state.ramp} m/s`,
       amplitude: `${reach} mm`,

@@ -58,8 +58,9 @@ function at(t, said = true) {
 // A sentence on the result, which screen readers announce.
 function summary() {
   const { damper, work, load, records, excitation } = result;
-  const { oil, preload } = state.values;
-  const head = `${damper.name}, ${oil} % oil, preload ${preload ? "present" : "lost"}`;
+  const { oil, preload, temperature } = state.values;
+  const warm = temperature === null ? "" : `, ${temperature} °C`;
+  const head = `${damper.name}, ${oil} % oil, preload ${preload ? "present" : "lost"}${warm}`;
   if (records.worn.refusal)
     return `${head}. The unit stopped at ${result.end.toFixed(2)} s: ${records.worn.refusal}`;
   if (excitation.drive) {

@@ -17,6 +17,7 @@ function stateRules(content) {
     damper: [content.shown, oneOf(names)],
     oil: [60, within(20, 100)],
     preload: [false, flag],
+    temperature: [null, within(-100, 200)], // [°C]; null: where the parameters hold
     excitation: ["block", oneOf(["block", "sine", "ramp", "drive"])],
     velocity: [1.048, oneOf(rig.velocities)],
     ramp: [0.1, oneOf(rig.ramps)],
