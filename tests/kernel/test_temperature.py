@@ -14,6 +14,7 @@ from twintube.core.kernel.forces import P_AMBIENT
 from twintube.core.kernel.temperature import thickness
 from twintube.dampers import Damper, load
 from twintube.dampers.damper import ParameterError
+from twintube.dampers.temperature import at_temperature
 from twintube.engine.simulate import InputError, simulate
 from twintube.engine.simulation import Simulation
 from twintube.errors import InputWarning
@@ -143,6 +144,26 @@ def test_interpreter_and_c_agree_to_the_bit(published: bool) -> None:
             for way in (False, True)
         )
     assert all(np.array_equal(values, slow.columns[name]) for name, values in fast.columns.items())
+
+
+@pytest.mark.parametrize("share", [1.0, 0.4])
+@pytest.mark.parametrize("kelvins", [250.0, 340.0])
+def test_parameters_at_a_temperature_are_the_damper_at_it(kelvins: float, share: float) -> None:
+    """But for the ambient pressure on the rod where the preload is lost."""
+    damper = SA8.with_(oil_level=0.6, gas_preload=share)
+    made, given = run(at_temperature(damper, kelvins)), run(damper, kelvins)
+    assert made.F_fluid == pytest.approx(given.F_fluid, rel=1e-9)
+    assert made.F_friction == pytest.approx(given.F_friction, rel=1e-9, abs=1e-9)
+    ambient = P_AMBIENT * math.pi / 4 * P.D_PR**2
+    lost = (1.0 - share) * (kelvins / P.T_curve - 1.0) * ambient
+    assert made.F_gas - lost == pytest.approx(given.F_gas, rel=1e-9)
+
+
+def test_parameters_at_no_temperature_are_refused_and_beyond_the_law_warned_of() -> None:
+    with pytest.raises(ParameterError, match="SA8: temperature = 0 K: must be a number from 150 to 500 K"):
+        at_temperature(SA8, 0.0)
+    with pytest.warns(InputWarning, match="SA8: temperature = 230 K: the law of this damper holds from 243.15 to 353.15 K"):
+        at_temperature(SA8, 230.0)
 
 
 # Heat

@@ -238,6 +238,25 @@ def test_a_share_of_the_gas_lies_between_kept_and_lost(tmp_path: Path) -> None:
     assert dissipated == sorted(dissipated, reverse=True)
 
 
+def test_a_ride_on_cold_dampers(tmp_path: Path) -> None:
+    """Both dampers are cold: stiffer, so that the intact one too lets the wheel load fluctuate in another way."""
+    found = []
+    for i, options in enumerate(([], ["--temperature", "23"], ["--temperature", "-20"])):
+        file = tmp_path / f"{i}.json"
+        run = RUNNER.invoke(app, ["ride", "SA8", "--oil-level", "0.7", "--seconds", "20", "--json", str(file), *options])
+        assert run.exit_code == 0, run.output
+        found.append(json.loads(file.read_text()))
+    assert "SA8, 70 % oil, gas kept, -20 degC; freed gas" in run.output
+    assert [each["temperature_degC"] for each in found] == [None, 23.0, -20.0]
+    assert found[0]["intact"]["dlc"] == pytest.approx(found[1]["intact"]["dlc"], rel=1e-9)
+    assert abs(found[2]["intact"]["dlc"] / found[0]["intact"]["dlc"] - 1.0) > 0.01
+    refused = RUNNER.invoke(app, ["ride", "SA8", "--temperature", "-300"])
+    assert (refused.exit_code, refused.stderr) == (
+        2,
+        "error: SA8: temperature = -26.85 K: must be a number from 150 to 500 K\n",
+    )
+
+
 def test_simulate_a_record(tmp_path: Path) -> None:
     record = tmp_path / "in.csv"
     record.write_text("time [ms],stroke [mm]\n" + "".join(f"{i},{i * 0.5}\n" for i in range(50)))

@@ -10,7 +10,7 @@ import typer
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FRONT, JSON_FILE, MANEUVERS, REAR, ROADS, WORN_AT, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
-from twintube.cli.states import GAS_SHARE, LOST_BELOW_FULL, worn_preload
+from twintube.cli.states import GAS_SHARE, LOST_BELOW_FULL, TEMPERATURE, tempered, worn_preload
 from twintube.common.files import write_bytes, write_text
 from twintube.common.words import counted
 from twintube.errors import InputError
@@ -53,6 +53,7 @@ def car(
     oil_level: OIL_LEVELS = None,
     gas_lost: LOST_BELOW_FULL = None,
     gas: GAS_SHARE = None,
+    temperature: TEMPERATURE = None,
     speed: SPEEDS = None,
     road_class: ROAD_CLASSES = None,
     grip: GRIP = "1",
@@ -78,7 +79,7 @@ def car(
         check_folder(output, ("car.html",), of_options())
     seen = read_inspection(inspection) if inspection is not None else None
     loaded = load_car(car_file)
-    both = dampers.load(front), dampers.load(rear)
+    both = tempered(dampers.load(front), temperature), tempered(dampers.load(rear), temperature)
     names, levels = maneuver or list(USUAL), oil_level or [0.7, 0.5, 0.3]
     roads, speeds = road_class or ["smooth", "C", "D"], speed or None
     check_drives(names, roads, speeds or ())
@@ -92,7 +93,7 @@ def car(
     rows = compared(entries)
     conditions = {
         "car": loaded.name, "front": both[0].name, "rear": both[1].name, "worn": worn, "seeds": seeds, "grip": grip,
-        "gas_preload": f"{gas_in_words(preload)} in the worn dampers",
+        "gas_preload": f"{gas_in_words(preload)} in the worn dampers", "temperature_degC": temperature,
     }  # fmt: skip
     if json_file is not None:
         write_text(json_file, json.dumps({**conditions, "compared": rows, "drives": entries}, indent=1) + "\n")
@@ -104,7 +105,8 @@ def car(
         if shown := picture(rows):
             write_bytes(output / "car.png", shown)
         typer.echo(f"{output / 'car.html'}")
-    typer.echo(f"worn: {worn}, gas preload {conditions['gas_preload']}")
+    warm = "" if temperature is None else f", all dampers at {temperature:g} degC"
+    typer.echo(f"worn: {worn}, gas preload {conditions['gas_preload']}{warm}")
     for line in lines(rows):
         typer.echo(line)
     for reason in dict.fromkeys(entry["failed"] for entry in entries if "failed" in entry):

@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from twintube.cli.states import gas_preload, in_state
+from twintube.cli.states import KELVIN, gas_preload, in_state
 from twintube.errors import InputError, InputWarning
 
 if TYPE_CHECKING:
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 ASSUMED = " (assumed, it is unknown there)"
 COLUMN = "column"  # in place of a temperature: that of the record
-KELVIN = 273.15  # [K] at 0 degC
 
 
 def listed(record: Path | None, block: int | None) -> "tuple[Damper, Record] | None":

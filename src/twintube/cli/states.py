@@ -12,6 +12,7 @@ from twintube.errors import InputError
 if TYPE_CHECKING:
     from twintube.dampers import Damper
 
+KELVIN = 273.15  # [K] at 0 degC
 GAS = "--gas-lost/--gas-kept"
 OIL_LEVEL = Annotated[
     float | None,
@@ -28,6 +29,10 @@ WORN_OIL_LEVEL = Annotated[
 ]
 GAS_SHARE = Annotated[
     float | None, typer.Option("--gas", metavar="0..1", help="Gas pressure above ambient, share of the nominal.")
+]
+TEMPERATURE = Annotated[
+    float | None,
+    typer.Option(metavar="DEGC", help="Temperature of oil, seals and gas; that of the parameters if left out."),
 ]
 WORN_GAS_LOST = Annotated[bool | None, typer.Option(GAS, help="Gas preload of the worn dampers; kept if left out.")]
 LOST_BELOW_FULL = Annotated[
@@ -50,6 +55,13 @@ def worn_preload(gas_lost: bool | None, gas: float | None) -> float:
     """The same of worn dampers, which keep it where none is given."""
     share = gas_preload(gas_lost, gas)
     return 1.0 if share is None else share
+
+
+def tempered(damper: "Damper", degC: float | None) -> "Damper":
+    """The damper at the temperature that is given, else as its parameter set says; raises ParameterError."""
+    from twintube.dampers.temperature import at_temperature
+
+    return damper if degC is None else at_temperature(damper, degC + KELVIN)
 
 
 def in_state(damper: "Damper", oil_level: float | None, gas_lost: bool | None, gas: float | None) -> "Damper":

@@ -8,7 +8,7 @@ import typer
 
 from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import AS_PUBLISHED, CAR, DAMPER, FREED_GAS, JSON_FILE, ROADS, SEED, one_of
-from twintube.cli.states import GAS_LOST, GAS_SHARE, OIL_LEVEL, in_state
+from twintube.cli.states import GAS_LOST, GAS_SHARE, OIL_LEVEL, TEMPERATURE, in_state, tempered
 from twintube.common.files import write_text
 from twintube.errors import ParameterError
 
@@ -21,6 +21,7 @@ def ride(
     oil_level: OIL_LEVEL = None,
     gas_lost: GAS_LOST = None,
     gas: GAS_SHARE = None,
+    temperature: TEMPERATURE = None,
     speed: Annotated[float, typer.Option(metavar="KM/H", help="Speed.", min=1.0, max=200.0)] = 50.0,
     road_class: Annotated[str, one_of(ROADS, help="Class of the road, ISO 8608.")] = "D",
     seconds: Annotated[float, typer.Option(metavar="S", help="Length.", min=20.0, max=3600.0)] = 120.0,
@@ -51,6 +52,7 @@ def ride(
     loaded, vehicle = dampers.load(damper, as_published=published), load_car(car)
     if freed_gas is not None:
         loaded = with_freed_gas(loaded, known(freed_gas, "--freed-gas").name)
+    loaded = tempered(loaded, temperature)
     state = in_state(loaded, oil_level, gas_lost, gas)
     corner, route = vehicle.corner(loaded), track(speed, seconds, road_class=road_class, seed=seed)
     intact = run(loaded.with_(oil_level=1.0, gas_preload=1), corner, route)
@@ -59,6 +61,7 @@ def ride(
         "damper": loaded.name,
         "oil_level": state.parameters.oil_level,
         "gas_preload": state.parameters.gas_preload,
+        "temperature_degC": temperature,
         "freed_gas": acting(state),
         "car": vehicle.name,
         "axle": axle(loaded),
@@ -69,7 +72,8 @@ def ride(
     figures |= {"intact": measures(intact, corner)}
     if json_file is not None:
         write_text(json_file, json.dumps(conditions | figures, indent=1) + "\n")
-    typer.echo(f"{loaded.name}, {state.state}; freed gas: {acting(state)}")
+    warm = "" if temperature is None else f", {temperature:g} degC"
+    typer.echo(f"{loaded.name}, {state.state}{warm}; freed gas: {acting(state)}")
     for line in lines(figures):
         typer.echo(line)
 

@@ -64,8 +64,8 @@ def page(
         f"Whole car: {car.title}",
         [
             f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
-            f"gas preload {conditions['gas_preload']}; grip {conditions['grip']} of a dry road's. Each figure is that "
-            "of the worn car over that of the intact car on the same road; the "
+            f"gas preload {conditions['gas_preload']}{warm(conditions)}; grip {conditions['grip']} of a dry road's. "
+            "Each figure is that of the worn car over that of the intact car on the same road; the "
             f"band is that of {counted(conditions['seeds'], 'seed')}: other roads of the class, and a slip control whose "
             "thresholds and rates scatter by a quarter; of the full model also that of four ways of the gas that "
             "cavitation frees. F-v curves are stand-ins (assumed)."
@@ -73,6 +73,12 @@ def page(
         sections,
         headline=headline(rows, seen, conditions["gas_preload"]),
     )
+
+
+def warm(conditions: Mapping[str, Any]) -> str:
+    """The temperature of all dampers, where it is not that of their parameters."""
+    degC = conditions.get("temperature_degC")
+    return "" if degC is None else f"; all dampers at {degC:g} °C"
 
 
 def felt(rows: Sequence[Mapping[str, Any]]) -> tuple[list[Mapping[str, Any]], list[str]]:
