@@ -3,6 +3,7 @@ model TwinTubeCar "The four dampers of a car between body and wheels, around the
   parameter Modelica.Units.SI.Position s_rel0[4] = zeros(4) "Distances of the flanges in the middle positions (stroke 0)";
   parameter Real oil_level[4](each min = 0, each max = 1) = ones(4) "Oil in the dampers, share of the intact volume";
   parameter Real gas_preload[4](each min = 0, each max = 1) = ones(4) "Gas pressures above ambient, share of the nominal";
+  parameter Modelica.Units.SI.Temperature T = 296.15 "Temperature of the dampers; at 296.15 K their parameters hold";
   parameter Modelica.Units.SI.Time step = 1e-3 "Communication step of the FMUs";
   Modelica.Mechanics.Translational.Interfaces.Flange_a wheel[4] "Wheel's ends: front left, front right, rear left, rear right";
   Modelica.Mechanics.Translational.Interfaces.Flange_b body[4] "Body's ends, in the same order";
@@ -25,8 +26,10 @@ equation
   for i in 1:2 loop
     front[i].stroke = s_rel[i] - s_rel0[i];
     front[i].velocity = v_rel[i];
+    front[i].temperature = T;
     rear[i].stroke = s_rel[i + 2] - s_rel0[i + 2];
     rear[i].velocity = v_rel[i + 2];
+    rear[i].temperature = T;
     // Positive where it pulls the flanges together, as the force of Modelica's Damper is.
     body[i].f = front[i].force;
     body[i + 2].f = rear[i].force;
