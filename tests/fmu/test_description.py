@@ -79,7 +79,7 @@ def test_the_modelica_text_uses_names_of_the_fmu(sa8_fmu: Path) -> None:
     used.remove("fmi_CommunicationStepSize")  # of the importing tool
     description = fmpy.read_model_description(str(sa8_fmu))
     assert description.coSimulation.modelIdentifier == model
-    assert set(used) == {"stroke", "velocity", "force", "oil_level", "gas_preload"}
+    assert set(used) == {"stroke", "velocity", "temperature", "force", "oil_level", "gas_preload"}
     assert set(used) <= {v.name for v in description.modelVariables}
 
 
@@ -88,4 +88,4 @@ def test_the_modelica_text_of_a_car_uses_names_of_the_fmus() -> None:
     assert re.findall(r"(\w+)_fmu (\w+)\[2\]", text) == [("twintube_SA7", "front"), ("twintube_SA8", "rear")]
     assert {model_name(load(name)) for name in ("SA7", "SA8")} == {"twintube_SA7", "twintube_SA8"}
     for axle in ("front", "rear"):
-        assert set(re.findall(rf"\b{axle}\[i\]\.(\w+)", text)) == {"stroke", "velocity", "force"}
+        assert set(re.findall(rf"\b{axle}\[i\]\.(\w+)", text)) == {"stroke", "velocity", "temperature", "force"}
