@@ -53,7 +53,12 @@ def test_all_keys(folder: Make, tmp_path: Path) -> None:
         ("oil_level = 0.56", "oil_volume_mL = -1", 6, "oil_volume_mL = -1: must be a number from 0 to"),
         ("oil_level = 0.56", "", 3, "oil_level or oil_volume_mL is missing"),
         ("oil_level = 0.56", "oil_level = 0.5\noil_volume_mL = 100", 3, "both are given"),
-        ("gas_preload = false", "gas_preload = 0", 7, "gas_preload = 0: must be true (present), false (lost) or 'unknown'"),
+        (
+            "gas_preload = false",
+            "gas_preload = 2",
+            7,
+            "gas_preload = 2: must be true (present), false (lost), a share from 0 to 1 or 'unknown'",
+        ),
         ("gas_preload = false", "", 3, "gas_preload is missing"),
         ("gas_preload = false", "gas_preload = false\nsplit = 'test'", 8, "split = 'test': must be one of fit, heldout"),
         ("gas_preload = false", "gas_preload = false\nstart_temperature_degC = 298", 8, "must be from -60 to 200 degC"),
