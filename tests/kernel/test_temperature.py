@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.eight import EIGHT
@@ -53,6 +53,7 @@ def test_the_defaults_are_within_what_is_published() -> None:
     assert -math.log(factor(SA8, 80.0) / factor(SA8, 28.0)) / 52.0 == pytest.approx(0.0025, abs=0.0005)
 
 
+@settings(deadline=None)
 @given(k_cold=st.floats(1.0, 10.0), k_hot=st.floats(0.1, 1.0), T=st.floats(150.0, 500.0))
 def test_a_warmer_oil_is_never_stiffer(k_cold: float, k_hot: float, T: float) -> None:
     p = SA8.with_(k_cold=k_cold, k_hot=k_hot).parameters
