@@ -5,6 +5,7 @@ import pytest
 from twintube.dampers import load
 from twintube.dampers.dead_length import bounds, collapse_level
 from twintube.dampers.freed_gas import P_GAS, P_GASES, acting, condition
+from twintube.dampers.temperature import at_temperature
 from twintube.dampers.variants import REAR_COMPRESSION, REAR_REBOUND, rear_curve
 from twintube.demo.bands import Rides, Setting, assumptions, changed, dead_length, everything, limited, rises
 from twintube.demo.sensitivity import combinations, mild
@@ -34,6 +35,17 @@ def test_the_friction_of_the_suspension_is_varied_from_none_on(rides: Rides) -> 
     for speed in (30.0, 50.0):
         rise = [rises(rides, speed, LOW, [setting])[0] for setting in (none, Setting(), most)]
         assert rise == sorted(rise, reverse=True)
+
+
+def test_a_kept_preload_and_a_temperature_reach_the_ride(rides: Rides) -> None:
+    kept, cold = Setting(gas=1.0), Setting(temperature=253.15)
+    rides.drive_all([50.0], (0.8,), [kept, cold, Setting()], "test")
+    full, none = rises(rides, 50.0, 0.8, [kept, Setting()])
+    assert abs(full - 1.0) < 0.1 * (none - 1.0)
+    itself = Rides(at_temperature(rides.damper, 253.15), rides.car, rides.seconds, rides.dt)
+    itself.drive_all([50.0], (0.8,), [Setting()], "test")
+    for level in (None, 0.8):
+        assert rides.get(50.0, level, cold, "dlc") == itself.get(50.0, level, Setting(), "dlc")
 
 
 def test_what_matters_most_is_varied_together(rides: Rides) -> None:

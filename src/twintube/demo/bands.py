@@ -12,6 +12,7 @@ from twintube.common.readable import unit_of
 from twintube.dampers import Damper, ParameterError, freed_gas
 from twintube.dampers.dead_length import bounds
 from twintube.dampers.freed_gas import DEFAULT, P_GASES, VARIED, WAYS, condition
+from twintube.dampers.temperature import at_temperature
 from twintube.dampers.variants import rear_curve
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.drive import Drive
@@ -33,13 +34,15 @@ NAMES = {  # of the car's values, and their units
 
 @dataclass(frozen=True)
 class Setting:
-    """One set of assumptions: factor of the F-v curve, changed values of car and damper."""
+    """One set of assumptions: factor of the F-v curve, changed values of car and damper, state beside the oil level."""
 
     freed_gas: str = DEFAULT
     seed: int = 1
     car: tuple[tuple[str, float], ...] = ()
     forces: float = 1.0
     damper: tuple[tuple[str, Any], ...] = ()
+    gas: float = 0.0  # share of the preload that a worn damper has
+    temperature: float | None = None  # [K] of the dampers, worn and intact
 
 
 POLYTROPIC = Setting(damper=(("polytropic", 1),))  # the gas spring is an enclosed gas
@@ -49,7 +52,8 @@ def changed(damper: Damper, setting: Setting) -> Damper:
     """The damper with the assumed values of a setting; raises ParameterError if they are not admissible."""
     damper = damper.with_(**dict(setting.damper))
     p, factor = damper.parameters, setting.forces
-    return damper.with_(**{name: [factor * F for F in getattr(p, name)] for name in ("F_re", "F_co")})
+    damper = damper.with_(**{name: [factor * F for F in getattr(p, name)] for name in ("F_re", "F_co")})
+    return damper if setting.temperature is None else at_temperature(damper, setting.temperature)
 
 
 @lru_cache(maxsize=64)
@@ -72,7 +76,8 @@ class Rides:
     def run(self, speed: float, level: float | None, setting: Setting) -> Drive:
         """One ride; `level` None is the intact damper."""
         damper = changed(self.damper, setting)
-        state = condition(damper, 1.0 if level is None else level, int(level is None), setting.freed_gas)
+        oil, gas = (1.0, 1.0) if level is None else (level, setting.gas)
+        state = condition(damper, oil, gas, setting.freed_gas)
         route = course(speed, self.seconds, self.seed + setting.seed - 1, self.dt)
         return ride(state, self.car.corner(damper, **dict(setting.car)), route)
 

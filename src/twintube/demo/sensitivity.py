@@ -1,6 +1,7 @@
 """Table of the dependence of the wheel load on every assumption: `python -m benchmarks sensitivity`."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -36,6 +37,8 @@ GENTLEST = "pushes_oil"  # the way of the freed gas with the least effect
 MILD_AT = 0.4  # level by which the mild ends are chosen
 SECONDS = 120.0
 LINKS = (0.0, 150.0, 450.0)  # [N.s/m]
+PRELOADS = (0.8, 0.4)  # shares of the gas preload
+TEMPERATURES = {"-20 °C": 253.15, "60 °C": 333.15}  # [K] of the dampers
 
 
 def settings(damper: Damper, car: CarSet) -> dict[str, Setting]:
@@ -56,7 +59,8 @@ def settings(damper: Damper, car: CarSet) -> dict[str, Setting]:
         if name != "d_links":
             text, unit = NAMES.get(name, (name, ""))
             rows |= {f"{text} {value:g} {unit}".rstrip(): Setting(car=((name, value),)) for value in ends}
-    return rows
+    rows |= {f"gas preload at {share:.0%}".replace("%", " %"): Setting(gas=share) for share in PRELOADS}
+    return rows | {f"dampers at {text}": Setting(temperature=kelvins) for text, kelvins in TEMPERATURES.items()}
 
 
 def table(rides: Rides, rows: dict[str, Setting]) -> str:
@@ -76,7 +80,7 @@ def table(rides: Rides, rows: dict[str, Setting]) -> str:
 
 def seeded(setting: Setting, seed: int) -> Setting:
     """The setting on another road."""
-    return Setting(setting.freed_gas, seed, setting.car, setting.forces, setting.damper)
+    return replace(setting, seed=seed)
 
 
 def mild(rides: Rides) -> Setting:
