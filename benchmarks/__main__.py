@@ -16,6 +16,7 @@ from benchmarks.dead_length import bench_dead_length
 from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.driving import bench_driving
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
+from benchmarks.gas_path_page import bench_gas_path
 from benchmarks.identify import SEEDS, bench_identify
 from benchmarks.importers import as_table, bench_importers
 from benchmarks.inspect import bench_inspect
@@ -59,7 +60,10 @@ SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
 }
 FEW = {"identify": SEEDS, "calibration": DRAWS}  # seeds by default, where not MANY
 MANY = 10
-OTHERS = ("oil_leak",)
+OTHERS: dict[str, Callable[[Path | None, Path | None, Path | None], dict[str, Any]]] = {
+    "oil_leak": bench_oil_leak,
+    "gas_path": bench_gas_path,
+}  # of a parameter file, with picture and tables
 OWN: dict[str, Callable[..., None]] = {
     "sensitivity": sensitivity,
     "car_sensitivity": car_sensitivity,
@@ -98,13 +102,15 @@ def main(
         Path | None,
         typer.Option(help="Folder that datasets, draws and answers stay in; those there count again."),
     ] = None,
-    plot: Annotated[Path | None, typer.Option(help="Picture of oil_leak.")] = None,
-    tables: Annotated[Path | None, typer.Option(help="Tables of oil_leak in Markdown.")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Picture of oil_leak or gas_path.")] = None,
+    tables: Annotated[Path | None, typer.Option(help="Their tables in Markdown.")] = None,
     page: Annotated[
         Path | None,
         typer.Option("--output", exists=True, dir_okay=False, help="Page to put the table into, between its marks."),
     ] = None,
-    damper: Annotated[Path | None, typer.Option(help="Parameter file for oil_leak; by default the paper's eight.")] = None,
+    damper: Annotated[
+        Path | None, typer.Option(help="Parameter file for them; by default the paper's eight, for gas_path SA8.")
+    ] = None,
 ) -> None:
     """Measure speed, or make a table of the documentation anew, and print it.
 
@@ -126,8 +132,8 @@ def main(
     try:
         if page is not None:
             with_table(page, name, "")  # before hours of work
-        if name == "oil_leak":
-            figures = bench_oil_leak(damper, plot, tables)
+        if name in OTHERS:
+            figures = OTHERS[name](damper, plot, tables)
         else:
             figures = BENCHMARKS[name]() if name in BENCHMARKS else SEEDED[name](seeds, keep)
     except UserError as error:

@@ -7,7 +7,9 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks import __main__ as command
+from benchmarks import gas_path
 from benchmarks.dead_length import rises, turning
+from benchmarks.gas_path_page import sign
 from benchmarks.importer_jobs import COLUMNS
 from benchmarks.importer_runs import NO_ERRORS
 from benchmarks.importers import REFERENCE, REFUSED, as_table
@@ -15,8 +17,11 @@ from benchmarks.marked_pages import parts
 from benchmarks.small_strokes import bench_small_strokes
 from benchmarks.tiring import row
 from twintube import load
-from twintube.dampers.freed_gas import condition
+from twintube.core.kernel.forces import P_AMBIENT
+from twintube.dampers.dead_length import prepared, reserve_gas
+from twintube.dampers.freed_gas import SOLUBILITY, condition
 from twintube.dampers.variants import scalar_factor
+from twintube.vehicle.cars import load_car
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -59,6 +64,34 @@ def test_the_plate_that_watches(head: str, changes: float, level: float | None) 
     found = row(damper, 6.0)
     figures = [f"{found[name]:.2f}" for name in ("first", "largest", "growth", "force growth")]
     assert [*figures, f"{100 * found['off the plate']:.0f} %"] in rows(re.escape(head), "inspection_tiring.md")
+
+
+@pytest.mark.parametrize("name", ["SA7", "SA8"])
+def test_the_gas_of_a_leak_is_in_balance(name: str) -> None:
+    """Gas is free or dissolved; only what is dissolved in the oil that leaks goes."""
+    damper, steps = load(name), 20000
+    p, d = damper.parameters, prepared(damper.parameters)
+    oil, room, solubility = p.V_oil, reserve_gas(p, d), sum(SOLUBILITY) / 2
+    filled = pressure = P_AMBIENT + d.F_0 / d.A_rod
+    leak = 0.6 * p.V_oil / steps
+    for _ in range(steps):
+        gas = pressure * (room + solubility * oil) - pressure * solubility * leak
+        oil, room = oil - leak, room + leak
+        pressure = gas / (room + solubility * oil)
+    share = (pressure - P_AMBIENT) / (filled - P_AMBIENT)
+    assert gas_path.in_service(damper, 0.4) == pytest.approx(share, rel=1e-3)  # Euler, first order
+    assert gas_path.in_service(damper, 1.0) == pytest.approx(1.0)
+
+
+def test_the_wheel_load_along_the_loss_of_oil_and_gas(monkeypatch: pytest.MonkeyPatch) -> None:
+    at = gas_path.LEVELS.index(0.6)
+    monkeypatch.setattr(gas_path, "LEVELS", (0.6,))
+    monkeypatch.setattr(gas_path, "SHARES", (1.0,))
+    found = gas_path.rises(load("SA8"), load_car(), 50.0)
+    for name in ("gas at 100%", "as in service"):
+        cell = found[f"50 km/h, {name}"]["60%"]
+        said = rows(name.replace("%", " %"), "open_choices.md")[1]  # after the table of 30 km/h
+        assert said[at] == f"{sign(cell['least'])} to {sign(cell['most'])}"
 
 
 def figures(table: str) -> dict[str, dict[str, str]]:
