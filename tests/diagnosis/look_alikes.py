@@ -12,6 +12,7 @@ ACTS_ON = {
     "volumes of oil, foam and gas": {"derive", "level", "scale_cavitation", "phases", "flows", "lost"},
     "fluid force": {
         "parts", "motion", "transition", "scale_fluid", "scale_valve", "bypass", "series", "felt", "rebalance", "force", "finish",
+        "warming",
     },
     "friction": {"scale_friction", "rub"},
     "gas force": {"elastic"},

@@ -99,7 +99,17 @@ def in_chunks(damper: Damper, t: Array, z: Array, v: Array, acts: Sequence[Act],
     for last in cuts:
         low = max(0, first - 1)
         block = np.empty((last - low, len(COLUMNS)))
-        done = run(p, d, s, f, t[low:last], z[low:last].copy(), v[low:last].copy(), block)
+        done = run(
+            p,
+            d,
+            s,
+            f,
+            t[low:last],
+            z[low:last].copy(),
+            v[low:last].copy(),
+            np.full(last - low, damper.parameters.T_curve),
+            block,
+        )
         out[first:last] = block[first - low :]
         if done < last - low:
             return int(low + done)

@@ -18,14 +18,14 @@ from twintube.common.showing import data_frame, picture
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, VARIED, has_own, values_of
 from twintube.data import LoadedDataset, Record, has_reference, load_dataset
-from twintube.diagnosis.bench import BUILD_UP, GAS, LEVEL, Bench
+from twintube.diagnosis.bench import GAS, LEVEL, Bench
 from twintube.diagnosis.budget import LASTING, LAW, Budget, budget
 from twintube.diagnosis.changes import NONE, STATE, UNKNOWN, Changes, Hypothesis, changes
 from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.heldout import HeldOut, asked, changed, held_out, predicted, weights
 from twintube.diagnosis.measurement.edges import with_edges
 from twintube.diagnosis.measurement.faults import Fault, read
-from twintube.diagnosis.mechanisms import Strength, check
+from twintube.diagnosis.mechanisms import OPEN, Strength, check
 from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.put_right import Measured, put_right
@@ -388,8 +388,7 @@ def as_filled(
             scale = (wide or {}).get(label, NUMBERS.level_tolerance)
             levels.append(Strength(f"{LEVEL}:{label}", "normal", scale, level, LEAST_LEVEL, 1.0))
     delay = Strength(DELAY, "normal", bench.delayed, 0.0, -MOST_DELAY, MOST_DELAY)
-    built = Strength(BUILD_UP, "half", NUMBERS.built, 0.0, 0.0, MOST_DELAY)
-    return Fill((*levels, delay, built), values, log_prior, name)
+    return Fill((*levels, delay, *OPEN), values, log_prior, name)
 
 
 def spread(known: StatePosterior) -> float:

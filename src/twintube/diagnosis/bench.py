@@ -16,7 +16,6 @@ from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.records.seen import BENDS, DELAY, REMEMBERED, SeenRecords
 
 LEVEL, GAS = "oil_level", "gas_preload"  # with the name of a state, what a hypothesis may have otherwise
-BUILD_UP = "tau_build"  # time over which steps of the force are seen to build up
 FLOOR = 0.3  # of the largest force: drawings allow some per cent and 20 to 30 N
 TURNED = 0.03  # of the largest force, above which the share of the fluid force that is left is read
 LATEST = [2, 5]  # columns of `degraded` in which a loss comes latest

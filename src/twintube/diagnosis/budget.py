@@ -11,9 +11,9 @@ import numpy as np
 from scipy.stats import chi2
 
 from twintube.common.arrays import Array
-from twintube.diagnosis.bench import BUILD_UP
 from twintube.diagnosis.frame import STILL, Frame, Part
 from twintube.diagnosis.heavy import without as without_columns
+from twintube.diagnosis.mechanisms import OPEN
 from twintube.diagnosis.memory import lasting
 from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.records.seen import DELAY
@@ -29,7 +29,7 @@ SHARED = {
     "sampling": range(12, 17),
 }
 OWN = {"zero": (0, 9, 10, 11), "gain": (1,), "sampling": range(2, 7), "temperature": (7, 8)}
-SEEN = (DELAY, BUILD_UP)  # open in every hypothesis beside the levels
+SEEN = (DELAY, *(s.name for s in OPEN))  # open in every hypothesis beside the levels
 LAW, LASTING, FILL, NOISE = "law", "lasting", "fill", "noise"
 ORDER = (FILL, LAW, "oil_loss", "friction", "gas", "zero", "gain", "sampling", "temperature", LASTING)
 

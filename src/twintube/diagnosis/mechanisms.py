@@ -94,10 +94,14 @@ class Mechanism:
 
 
 META = {i.name: i.metadata for e in EFFECTS.values() for i in e.parameters}
-# Effect, way, parameter: prior and scale, see there.
-STRENGTHS: dict[str, dict[str, dict[str, dict[str, Any]]]] = tomllib.loads(
-    files("twintube.diagnosis").joinpath("strengths.toml").read_text(encoding="utf-8")
+KNOWN: dict[str, Any] = tomllib.loads(files("twintube.diagnosis").joinpath("strengths.toml").read_text(encoding="utf-8"))
+# What every hypothesis leaves open beside fill and delay.
+OPEN = tuple(
+    Strength(name, known["prior"], known["scale"], META[name]["default"], META[name]["lower"], META[name]["upper"])
+    for name, known in KNOWN.pop("open").items()
 )
+# Effect, way, parameter: prior and scale, see there.
+STRENGTHS: dict[str, dict[str, dict[str, dict[str, Any]]]] = KNOWN
 
 
 UNITS_OF_FAULTS = {

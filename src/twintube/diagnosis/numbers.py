@@ -44,9 +44,6 @@ class Numbers:
     law_ways: tuple[float, ...] = declared(
         (1e-3, 5e-3), "m", "strokes over which its force builds up", "check valves close within millimetres, judged"
     )
-    built: float = declared(
-        2e-4, "s", "time over which a step of the force builds up", "valves, and steps of a simulation; judged"
-    )
     loss: float = declared(
         0.3,
         "1",
