@@ -450,11 +450,21 @@ def bench_of(measured: Measured, records: Sequence[Record]) -> Bench:
     return Bench(known.given, known.records, SAMPLED, fills=labels(records))
 
 
+def alone(measured: Measured, records: Sequence[Record], own: list[Record], progress: Progress) -> StateAnswer:
+    """The state of the records `own` of one filling by themselves: what is stated of the others may be wrong, too."""
+    known = measured.problem
+    some = [r for r, record in zip(known.records, records, strict=True) if record.state == own[0].state]
+    bench = Bench(known.given, some, SAMPLED, fills=labels(own))
+    found = state_of(bench, own, own, progress)
+    bench.threads.shutdown()
+    return found
+
+
 def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress, catalogue: Collection[str] | None) -> Answer:
     """What the model lacks, in records without the faults of their bench."""
     records = [record for record in dataset.records if record.name not in measured.odd]
     bench = bench_of(measured, records)
-    several = [state_of(bench, records, own, progress) for own in fillings(records)]
+    several = [alone(measured, records, own, progress) for own in fillings(records)]
     doubted = bench.states.copy()
     for one in several:
         if one.posterior.as_stated < NUMBERS.credible:
