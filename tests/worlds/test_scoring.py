@@ -80,6 +80,7 @@ def test_the_smallest_set_holds_nine_tenths() -> None:
         (HEAT, says("cause", {"end_stop": 0.95, "none": 0.05}, ["end_stop"]), (0, 0, 1, 0)),
         (HEAT, says("ambiguous", {"end_stop": 0.5, "oil_temperature": 0.5}), (1, 0, 0, 0)),
         (HEAT, says("none", {"none": 0.95, "oil_temperature": 0.05}), (0, 0, 0, 1)),
+        (HEAT, says("tolerance", {"none": 0.95, "oil_temperature": 0.05}), (0, 0, 0, 1)),
         (HEAT, says("unexplained", {"unknown": 1.0}), (0, 0, 0, 0)),
         (HEAT, says("recalibrate", {"recalibrate": 1.0}), (0, 0, 1, 0)),
         (HEAT, says("state", {"state": 1.0}), (0, 0, 1, 0)),

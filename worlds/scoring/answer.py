@@ -13,7 +13,13 @@ from worlds.scoring.truth import UNKNOWN
 
 CREDIBLE: Final = 0.9  # probability that the set must hold
 ASSERTING: Final = ("cause", "measurement_fault")
-ONE_NAME: Final = {"none": "none", "recalibrate": "recalibrate", "state": "state", "unexplained": UNKNOWN}
+ONE_NAME: Final = {
+    "none": "none",
+    "tolerance": "none",
+    "recalibrate": "recalibrate",
+    "state": "state",
+    "unexplained": UNKNOWN,
+}
 ROUNDING: Final = 1e-3  # thirty probabilities of four digits
 
 

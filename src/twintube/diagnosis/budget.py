@@ -11,6 +11,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from twintube.common.arrays import Array
+from twintube.diagnosis.changes import headline
 from twintube.diagnosis.frame import STILL, Frame, Part
 from twintube.diagnosis.heavy import without as without_columns
 from twintube.diagnosis.mechanisms import OPEN
@@ -94,7 +95,8 @@ def budget(stated: Search, search: Search, found: Found) -> Budget:
             ratio = grid[at] / scale
         lines.append(Line(name, rms(force[used]), float(ratio), bool(finding)))
     lines = [line for line in lines if line.force > 0.0]
-    lines += [Line(name, rms(force[used]), None, finding=True) for name, force in causes(search, found, errors)]
+    named = headline(stated, search, found).split("+")
+    lines += [Line(name, rms(force[used]), None, finding=name in named) for name, force in causes(search, found, errors)]
     total = rms((bench.measured - begun)[used])
     lines.sort(key=lambda line: -line.force)
     # As of records that were left out: steps of the force, which nobody can place, are not the noise.

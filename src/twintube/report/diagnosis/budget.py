@@ -41,7 +41,7 @@ def words(line: Line) -> tuple[str, str]:
 def rating(line: Line) -> str:
     """How large a line is beside what is usual."""
     if line.ratio is None:
-        return "the cause that is named"
+        return "the cause that is named" if line.finding else "too slight to be named"
     usual = "a finding" if line.finding else "within tolerance"
     return f"{line.ratio:.1f} times what is usual: {usual}"
 
