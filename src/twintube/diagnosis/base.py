@@ -31,7 +31,8 @@ class Base:
         )
         k = len(found.mechanism.strengths)
         start = np.concatenate([self.at, found.at[:k], alone.none.at])
-        self.at = alone.climbed(self.joint, start, found.sizes, found.weights).at[: len(self.at) + k]
+        frame = alone.frame.weighted(found.weights)
+        self.at = alone.climbed(self.joint, start, found.sizes, frame).at[: len(self.at) + k]
         self.bench.at_usual(self.joint.values(self.at))
 
     @property

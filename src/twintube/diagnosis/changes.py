@@ -113,7 +113,7 @@ def doubted(searches: Sequence[Search], stated: Search) -> list[Search]:
 def moved(search: Search, found: Found) -> Found:
     """A mechanism that was found in another fill."""
     at = np.concatenate([found.at[: len(found.mechanism.strengths)], search.none.at])
-    return search.inexact(search.climbed(found.mechanism, at, found.sizes, found.weights))
+    return search.inexact(search.climbed(found.mechanism, at, found.sizes, search.frame.weighted(found.weights)))
 
 
 def beside_a_base(
@@ -177,7 +177,7 @@ def refined(search: Search, found: Sequence[Found], progress: Callable[[str], No
         progress(f"two at once: {a.mechanism.effect}+{b.mechanism.effect}")
         k = len(a.mechanism.strengths)
         u = np.concatenate([a.at[:k], b.at[: len(b.mechanism.strengths)], a.at[k:]])
-        return search.inexact(search.climbed(both(a.mechanism, b.mechanism), u, a.sizes, a.weights))
+        return search.inexact(search.climbed(both(a.mechanism, b.mechanism), u, a.sizes, search.frame.weighted(a.weights)))
 
     together = list(search.bench.threads.map(two, pairs))
     return [*alone, *together]
@@ -260,8 +260,8 @@ def free(search: Search) -> float:
     found = []
     for size in NUMBERS.change_sizes:
         columns = shared * search.acting[:, None] * np.where(fixed, 1.0, size)
-        found.append(evidence(search.frame, np.column_stack([errors, columns]), none.sizes, none.weights).log_z)
-    alone = evidence(search.frame, errors[:, None], none.sizes, none.weights).log_z
+        found.append(evidence(search.weighted, np.column_stack([errors, columns]), none.sizes).log_z)
+    alone = evidence(search.weighted, errors[:, None], none.sizes).log_z
     return float(np.logaddexp.reduce(found) - np.log(len(found))) - alone
 
 

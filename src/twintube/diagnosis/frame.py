@@ -119,6 +119,7 @@ class Frame:
         self.k = self.still - STILL + several[0][0].shape[1]
         self.parts = [self.part(group, several, noise, more) for group in bench.motions()]
         self.noise = noise
+        self.weights = np.ones(len(bench.z))
         self.forget()
 
     def forget(self) -> None:
@@ -128,7 +129,10 @@ class Frame:
 
     def weighted(self, weights: Array) -> "Frame":
         """The same contributions, where each sample counts by its weight (n,)."""
+        if weights is self.weights:
+            return self
         other = copy(self)
+        other.weights = weights
         sigma = self.noise / np.sqrt(weights)
         other.parts = [replace(part, sigma=sigma[part.rows]) for part in self.parts]
         other.forget()

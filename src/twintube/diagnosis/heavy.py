@@ -29,8 +29,7 @@ class Heavy:
 
     log_z: float
     sizes: Sizes  # the best
-    weights: Array  # (n,)
-    frame: Frame  # with these weights
+    frame: Frame  # with its weights
 
 
 def weights_of(standardised: Array) -> Array:
@@ -54,28 +53,35 @@ def without(frame: Frame, values: Array, sizes: Sizes) -> Array:
     return np.asarray(values[:, 0] - values[:, 1:] @ expected)
 
 
-def settled(frame: Frame, values: Array, sizes: Sizes, weights: Array, rounds: int) -> tuple[Frame, Array, Array]:
-    """The frame with its weights after some rounds, the samples (n,) in standard deviations, and these weights."""
-    heavy = frame.weighted(weights)
-    for _ in range(rounds):
-        standardised = heavy.standardised(without(heavy, values, sizes), sizes)
-        weights = np.where(frame.used, weights_of(standardised), 1.0)
-        heavy = frame.weighted(weights)
-    standardised = heavy.standardised(without(heavy, values, sizes), sizes)
-    return heavy, standardised, weights
+def reweighted(frame: Frame, values: Array, sizes: Sizes) -> Frame:
+    """The frame with the weights of what samples are off under its own."""
+    weights = weights_of(standardised(frame, values, sizes))
+    return frame.weighted(np.where(frame.used, weights, 1.0))
 
 
-def evidence(frame: Frame, values: Array, start: Sizes = USUAL, weights: Array | None = None, rounds: int = ROUNDS) -> Heavy:
-    """Evidence of errors, the first column of values (n, 1 + c) [N]; the others are contributions of size one."""
-    weights = np.ones(len(values)) if weights is None else weights
-    best, sizes = Heavy(-np.inf, start, weights, frame), start
+def standardised(frame: Frame, values: Array, sizes: Sizes) -> Array:
+    """What samples (n,) are off, in standard deviations of the noise."""
+    return frame.standardised(without(frame, values, sizes), sizes)
+
+
+def beyond(frame: Frame, values: Array, sizes: Sizes) -> float:
+    """What Student's distribution has beyond the Gaussian of a frame with its weights."""
+    return tails(standardised(frame, values, sizes)[frame.used], frame.weights[frame.used])
+
+
+def evidence(frame: Frame, values: Array, sizes: Sizes = USUAL, rounds: int = ROUNDS) -> Heavy:
+    """Evidence of errors, the first column of values (n, 1 + c) [N]; the others are contributions of size one.
+
+    Weights are sought from those of the frame.
+    """
+    best = Heavy(-np.inf, sizes, frame)
     for _ in range(rounds):
-        heavy, standardised, weights = settled(frame, values, sizes, weights, 1)
-        found = heavy.evidence(values, sizes)
-        log_z = found.log_z + tails(standardised[frame.used], weights[frame.used])
+        frame = reweighted(frame, values, sizes)
+        found = frame.evidence(values, sizes)
+        log_z = found.log_z + beyond(frame, values, sizes)
         gained = log_z - best.log_z
         if gained > 0.0:
-            best = Heavy(log_z, found.sizes, weights, heavy)
+            best = Heavy(log_z, found.sizes, frame)
         if gained < SETTLED and found.sizes == sizes:
             break
         sizes = found.sizes

@@ -12,7 +12,7 @@ from twintube.common.arrays import Array
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.discrepancy import late
 from twintube.diagnosis.frame import Frame
-from twintube.diagnosis.heavy import evidence, settled, tails
+from twintube.diagnosis.heavy import beyond, evidence, reweighted
 from twintube.diagnosis.mechanisms import Mechanism, Strength
 from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.sizes import USUAL, Sizes
@@ -89,12 +89,18 @@ class Search:
         """The fill without a mechanism is sought from the middle of what is open, or `near` what was found before."""
         self.bench, self.frame, self.acting, self.fill = bench, frame, acting, fill or Fill()
         self.every = bool(acting.all())
-        start = (self.fill.start, USUAL, np.ones(len(bench.z))) if near is None else (near.at, near.sizes, near.weights)
-        self.none = self.climbed(NOTHING, *start)
+        self.filling = np.zeros((len(bench.z), 0))  # derivatives of the forces by the coordinates of the fill
+        start = (self.fill.start, USUAL, frame) if near is None else (near.at, near.sizes, frame.weighted(near.weights))
+        self.begin(self.climbed(NOTHING, *start))
+
+    def begin(self, none: Found) -> None:
+        """Compare with `none`, in a frame with its weights."""
+        self.none, self.weighted = none, self.frame.weighted(none.weights)
+        self.filling = self.slopes(NOTHING, self.trial(NOTHING, none.at, exact=True))
 
     def with_optimum(self) -> "Search":
         """The search, with the fill without a mechanism sought farther off, too."""
-        self.none = self.refined(self.none)
+        self.begin(self.refined(self.none))
         return self
 
     def filled(self, u: Array) -> dict[str, float]:
@@ -137,11 +143,15 @@ class Search:
         return 0.5 * float(at.u @ at.u) - frame.log_z(reduced, sizes)
 
     def slopes(self, m: Mechanism, at: Trial, rough: bool = False) -> Array:
-        """Derivatives (n, k) [N] of the forces by the coordinates; `rough` ones look to one side only."""
+        """Derivatives (n, k) [N] of the forces by the coordinates.
+
+        `rough` ones look to one side only, and take those of the fill from where nothing has happened.
+        """
         if not at.slopes:
             low, high = self.ends(m)
             columns = []
-            for i, x in enumerate(at.u):
+            known = len(m.strengths) if rough else len(at.u)
+            for i, x in enumerate(at.u[:known]):
                 step = SLOPE * max(abs(x), 0.1)
                 a, b = at.u.copy(), at.u.copy()
                 b[i] = min(high[i], x + step)
@@ -149,7 +159,7 @@ class Search:
                 below = at.force if a[i] == x else self.forces(m, a)[1]
                 above = at.force if b[i] == x else self.forces(m, b)[1]
                 columns.append((above - below) / (b[i] - a[i]))
-            at.slopes.append(np.column_stack(columns))
+            at.slopes.append(np.column_stack([*columns, self.filling[:, : len(at.u) - known]]))
         return at.slopes[0]
 
     def quadratic(self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes, rough: bool) -> tuple[Array, Array]:
@@ -163,19 +173,20 @@ class Search:
         return np.eye(len(at.u)) + inner[1:, 1:], inner[1:, 0] - at.u
 
     def climbed(
-        self, m: Mechanism, u: Array, sizes: Sizes, weights: Array, *, exact: bool = True, rounds: int = ROUNDS
+        self, m: Mechanism, u: Array, sizes: Sizes, frame: Frame, *, exact: bool = True, rounds: int = ROUNDS
     ) -> Found:
-        """The best strengths near some coordinates, and the evidence of the mechanism there."""
+        """The best strengths near some coordinates, and the evidence of the mechanism there; weights are sought, too."""
         at, moved = self.trial(m, u, exact), False
+        frame = reweighted(frame, at.values, sizes)
         for i in range(rounds):
-            frame, _, weights = settled(self.frame, at.values, sizes, weights, 2 if i == 0 else 1)
+            frame = reweighted(frame, at.values, sizes)
             if i in SIZED and moved:
                 sizes = frame.evidence(at.values, sizes).sizes
             at, gained = self.stepped(frame, m, at, sizes, exact=exact, rough=rounds < ROUNDS)
             moved |= gained > ENOUGH
             if gained <= ENOUGH and (not moved or i > SIZED[0]):
                 break
-        return self.found_at(m, at, sizes, weights, exact=exact, rounds=rounds)
+        return self.found_at(m, at, sizes, frame, exact=exact, rounds=rounds)
 
     def stepped(
         self, frame: Frame, m: Mechanism, at: Trial, sizes: Sizes, *, exact: bool, rough: bool
@@ -197,10 +208,10 @@ class Search:
                 return other, now - cost
         return at, 0.0
 
-    def found_at(self, m: Mechanism, at: Trial, sizes: Sizes, weights: Array, *, exact: bool, rounds: int) -> Found:
+    def found_at(self, m: Mechanism, at: Trial, sizes: Sizes, frame: Frame, *, exact: bool, rounds: int) -> Found:
         """The evidence about some coordinates."""
         k, u = len(m.strengths), at.u
-        heavy = evidence(self.frame, at.values, sizes, weights, rounds if rounds == ROUNDS else 1)
+        heavy = evidence(frame, at.values, sizes, rounds if rounds == ROUNDS else 1)
         log_z, spread = heavy.log_z + self.fill.log_prior, np.zeros(len(u))
         if len(u):
             H, _ = self.quadratic(heavy.frame, m, at, heavy.sizes, rounds < ROUNDS)
@@ -211,19 +222,18 @@ class Search:
         log_z += sum(float(np.log(2.0) + norm.logcdf(x / sd)) for s, x, sd in every if s.kind == "half")
         several = every[:k]
         sd = {s.name: abs(s.value(x + d) - s.value(x - d)) / 2.0 for s, x, d in several}
-        return Found(
-            m, float(log_z), exact, u, m.values(u[:k]), sd, self.filled(u[k:]), heavy.sizes, heavy.weights, at.base, at.force
-        )
+        weights, filled = heavy.frame.weights, self.filled(u[k:])
+        return Found(m, float(log_z), exact, u, m.values(u[:k]), sd, filled, heavy.sizes, weights, at.base, at.force)
 
     def found(self, m: Mechanism) -> Found:
         """The best strengths of a mechanism, sought from several places, and roughly its evidence."""
         m = m.about(self.bench.usual)
-        several = [self.climbed(m, u, sizes, weights, rounds=ROUGHLY) for u, sizes, weights in self.begun(m)]
+        several = [self.climbed(m, *place, rounds=ROUGHLY) for place in self.begun(m)]
         return max(several, key=lambda f: f.log_z)
 
     def again(self, found: Found) -> Found:
         """What was found roughly."""
-        return self.inexact(self.climbed(found.mechanism, found.at, found.sizes, found.weights))
+        return self.inexact(self.climbed(found.mechanism, found.at, found.sizes, self.frame.weighted(found.weights)))
 
     def inexact(self, exact: Found) -> Found:
         """The evidence of a mechanism whose law is exact, or off, each as likely; the likelier of both.
@@ -233,11 +243,11 @@ class Search:
         m = exact.mechanism
         if m.kind != "effect":
             return exact
-        off = self.climbed(m, exact.at, exact.sizes, exact.weights, exact=False)
+        off = self.climbed(m, exact.at, exact.sizes, self.frame.weighted(exact.weights), exact=False)
         log_z = float(np.logaddexp(off.log_z, exact.log_z) - np.log(2.0))
         return replace(max(exact, off, key=lambda f: f.log_z), log_z=log_z)
 
-    def begun(self, m: Mechanism) -> Iterator[tuple[Array, Sizes, Array]]:
+    def begun(self, m: Mechanism) -> Iterator[tuple[Array, Sizes, Frame]]:
         """Coordinates near the best, as errors of usual size have it and those without a cause, and as all samples do.
 
         What a cause explains has little weight without it, and may lie within the errors of a model without it.
@@ -245,30 +255,29 @@ class Search:
         tried = [np.concatenate([np.zeros(len(m.strengths)), self.none.at])]
         tried += [np.concatenate([x, self.none.at]) for x in grid(m)]
         errors = self.bench.measured[:, None] - np.column_stack([self.forces(m, u)[1] for u in tried])
-        ones = np.ones(len(self.bench.z))
         seen: set[int] = set()
-        for weights, sizes in itertools.product((ones, self.none.weights), (USUAL, self.none.sizes)):
-            frame = self.frame if weights is ones else self.frame.weighted(weights)
+        for frame, sizes in itertools.product((self.frame, self.weighted), (USUAL, self.none.sizes)):
             misfit = np.diag(frame.inner(errors, sizes)) + np.array([float(u @ u) for u in tried])
             best = int(np.argmin(misfit))
             if best not in seen and len(seen) < STARTS:
                 seen.add(best)
-                yield (tried[best], sizes, weights) if best else (tried[0], self.none.sizes, self.none.weights)
+                yield (tried[best], sizes, frame) if best else (tried[0], self.none.sizes, self.weighted)
 
     def refined(self, found: Found) -> Found:
         """What is found where the samples count anew at places farther off: where forces step, slopes show no way there."""
         m = found.mechanism
         while True:
-            now = self.weighed(m, found.at, found)
-            best = max(((self.weighed(m, u, found), u) for u in self.likely(found)), key=lambda one: one[0])
+            frame = self.frame.weighted(found.weights)
+            now = self.weighed(m, found.at, found, frame)
+            best = max(((self.weighed(m, u, found, frame), u) for u in self.likely(found, frame)), key=lambda one: one[0])
             if best[0] < now + BETTER:
                 return found
-            other = self.inexact(self.climbed(m, best[1], found.sizes, found.weights))
+            other = self.inexact(self.climbed(m, best[1], found.sizes, frame))
             if other.log_z < found.log_z + BETTER:
                 return found
             found = other
 
-    def likely(self, found: Found) -> list[Array]:
+    def likely(self, found: Found, weighted: Frame) -> list[Array]:
         """The likeliest coordinates (k,) farther off, by all samples and by those that count where something was found."""
         m, k, unit = found.mechanism, len(found.mechanism.strengths), np.eye(len(found.at))
         places = [found.at + (by - 1.0) * found.at * one for one in unit[:k] for by in MOVED]
@@ -278,16 +287,16 @@ class Search:
             return [found.at]
         errors = self.bench.measured[:, None] - np.column_stack([self.forces(m, u)[1] for u in places])
         best: dict[int, None] = {}
-        for frame in (self.frame, self.frame.weighted(found.weights)):
+        for frame in (self.frame, weighted):
             misfit = np.diag(frame.inner(errors, found.sizes)) + np.array([float(u @ u) for u in places])
             best |= dict.fromkeys(np.argsort(misfit)[:KEPT].tolist())
         return [places[i] for i in best]
 
-    def weighed(self, m: Mechanism, u: Array, near: Found) -> float:
-        """The logarithm of the posterior where the samples count anew, up to a constant."""
+    def weighed(self, m: Mechanism, u: Array, near: Found, frame: Frame) -> float:
+        """The logarithm of the posterior where the samples of a frame count anew, up to a constant."""
         at = self.trial(m, u, near.exact)
-        heavy, r, w = settled(self.frame, at.values, near.sizes, near.weights, 1)
-        return tails(r[self.frame.used], w[self.frame.used]) - self.cost(heavy, at, near.sizes)
+        heavy = reweighted(frame, at.values, near.sizes)
+        return beyond(heavy, at.values, near.sizes) - self.cost(heavy, at, near.sizes)
 
 
 def grid(m: Mechanism) -> list[Array]:
