@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tests.diagnosis import small
 from twintube.common.arrays import Array
 from twintube.data import Record
-from twintube.diagnosis.measurement.edges import alone, with_edges, with_noise, without_outliers
+from twintube.diagnosis.measurement.edges import alone, with_edges, with_noise
 from twintube.diagnosis.records.noise import averaging_noise, correlation, neighbour_noise, noise
 from twintube.diagnosis.records.prepare import kicks, prepared
 from twintube.diagnosis.records.record import PreparedRecord
@@ -100,33 +100,6 @@ def test_what_another_moment_changes_is_open_at_a_step_and_not_on_a_slope() -> N
     jumped[200:202] += 800.0  # a step lies in two intervals
     assert alone(jumped)[200:202] == pytest.approx(jumped[200:202] - slope[198], abs=15.0)
     assert np.array_equal(np.flatnonzero(alone(jumped) > 100.0), [200, 201])
-
-
-def test_a_spike_is_left_out_and_a_model_that_is_wrong_everywhere_is_not(runs: list[small.Run]) -> None:
-    records = [small.record(r, seed=i) for i, r in enumerate(runs)]
-    force = records[0].force.copy()
-    force[700] += 2000.0
-    problem = small.problem([replace(records[0], force=force), records[1]])
-    cleaned = without_outliers(problem)
-    out = problem.records[0].judged & ~cleaned.records[0].judged
-    assert 1 <= out.sum() <= 3
-    assert problem.records[0].time[out] == pytest.approx(records[0].time[700], abs=0.03)
-    assert np.array_equal(problem.records[1].judged, cleaned.records[1].judged)
-    wrong = small.problem([replace(r, force=1.5 * r.force) for r in records])
-    assert sum(wrong.counts) == sum(without_outliers(wrong).counts)
-
-
-def test_what_comes_again_in_every_oscillation_is_no_outlier(runs: list[small.Run]) -> None:
-    records = [small.record(r, seed=i) for i, r in enumerate(runs)]
-    ready = small.problem(records).records[0]
-    ends = [int(np.flatnonzero(ready.cycle == i)[8]) for i in np.unique(ready.cycle[ready.cycle >= 0])]
-    times = ready.time[[end for end in ends if ready.judged[end]]]
-    assert len(times) >= RULES.repeats
-    force = records[0].force.copy()
-    force[np.searchsorted(records[0].time, times)] += 2000.0
-    problem = small.problem([replace(records[0], force=force), records[1]])
-    cleaned = without_outliers(problem)
-    assert np.array_equal(problem.records[0].judged, cleaned.records[0].judged)
 
 
 def test_samples_that_are_not_usable_are_not_compared(runs: list[small.Run]) -> None:

@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from twintube.common.arrays import Array
 from twintube.common.showing import data_frame, picture
+from twintube.common.words import listed
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, VARIED, has_own, values_of
 from twintube.data import LoadedDataset, Record, has_reference, load_dataset
@@ -24,9 +25,10 @@ from twintube.diagnosis.changes import NONE, STATE, UNKNOWN, Changes, Hypothesis
 from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.heldout import HeldOut, asked, changed, held_out, predicted, weights
 from twintube.diagnosis.measurement.edges import with_edges
-from twintube.diagnosis.measurement.faults import Fault, read
+from twintube.diagnosis.measurement.faults import DROPOUTS, Fault, read
 from twintube.diagnosis.mechanisms import OPEN, Strength, check
 from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.predictive import Unlike, unlike
 from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.put_right import Measured, put_right
 from twintube.diagnosis.records.prepare import prepare
@@ -102,6 +104,7 @@ class Answer:
     seconds: float
     weights: Mapping[str, float] = field(default_factory=dict)  # of hypotheses, by records that were left out
     tared: tuple[str, ...] = ()  # records of the reference whose load cell was set to zero with the damper in it
+    unlike: tuple[Unlike, ...] = ()  # records that the likeliest hypothesis does not explain
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -137,8 +140,10 @@ class Answer:
 
     @property
     def faults(self) -> tuple[Fault, ...]:
-        """Faults of the bench that were put right before anything was judged."""
-        return () if self.measured is None else self.measured.faults
+        """Faults of the bench that are no hypothesis: put right before anything was judged, and what counts for nothing."""
+        known = () if self.measured is None else self.measured.faults
+        few = [one for one in self.unlike if not one.whole]
+        return (*known, dropouts(few)) if few else known
 
     @property
     def named(self) -> tuple[Hypothesis, ...]:
@@ -182,7 +187,11 @@ class Answer:
     @property
     def unexplained(self) -> str:
         """Why even the most probable hypothesis is no answer, in a sentence; empty where it is one."""
-        if self.changes is None or self.compared:
+        if self.changes is None:
+            return ""
+        if names := [one.record for one in self.unlike if one.whole]:
+            return f"{listed(names, len(names))}: the force goes otherwise than under any hypothesis"
+        if self.compared:
             return ""
         first = self.changes.hypotheses[0]
         if first.found is None or first.search is None:
@@ -235,6 +244,15 @@ def beyond(known: Budget | None, sizes: Sizes, damper: str) -> str:
     if largest.name == LASTING:
         return "what is left comes and goes in a way that no cause of the catalogue has"
     return ""
+
+
+def dropouts(few: Sequence[Unlike]) -> Fault:
+    """The fault of a channel that is off for single intervals."""
+    where = "; ".join(f"{one.record} at {listed([f'{x:.3f}' for x in one.times], 5)} s" for one in few)
+    text = f"The force drops out or spikes in single intervals, which count for next to nothing: {where}."
+    count = sum(len(one.times) for one in few)
+    names = tuple(one.record for one in few)
+    return Fault(DROPOUTS, "Drop-outs or spikes of the force channel", text, count, "intervals", records=names)
 
 
 def seen_outside(measured: Measured, bench: Bench, force: Array) -> str:
@@ -500,6 +518,7 @@ def concluded(
     first = result.hypotheses[0]
     cause = several_predicted.get(first.name) if first.name != NONE else None
     left_out = held_out(several_predicted[NONE], cause, result.search, places)
+    off = tuple(unlike(first.search, first.found)) if first.search is not None and first.found is not None else ()
     threads.shutdown()
     return Answer(
         dataset.title,
@@ -512,6 +531,7 @@ def concluded(
         measured,
         0.0,
         weights=weights(several_predicted),
+        unlike=off,
     )
 
 

@@ -119,7 +119,7 @@ class Frame:
         self.k = self.still - STILL + several[0][0].shape[1]
         self.parts = [self.part(group, several, noise, more) for group in bench.motions()]
         self.noise = noise
-        self.weights = np.ones(len(bench.z))
+        self.weights: Array = np.ones(len(bench.z))
         self.forget()
 
     def forget(self) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from twintube.data import LoadedDataset
-from twintube.diagnosis.measurement.edges import with_motion, without_outliers
+from twintube.diagnosis.measurement.edges import with_motion
 from twintube.diagnosis.measurement.faults import Fault, force_averaging, right_signs, unit_error
 from twintube.diagnosis.measurement.history import settled, with_history
 from twintube.diagnosis.measurement.jitter import with_uncertainty
@@ -49,7 +49,7 @@ def put_right(dataset: LoadedDataset, turned: Fault | None, progress: Callable[[
     problem, bare = with_history(problem)
     if bare:  # what was wrong before looked like another sampling
         problem = with_uncertainty(with_sampling(problem))
-    cut, problem = saturated(without_outliers(problem))
+    cut, problem = saturated(problem)
     faults = [fault for fault in (turned, unit, smoothed, moved) if fault is not None]
     seen = signatures(dataset.records)
     seen += [cut] if cut is not None and all(signature.name != cut.name for signature in seen) else []

@@ -89,7 +89,7 @@ class Search:
         """The fill without a mechanism is sought from the middle of what is open, or `near` what was found before."""
         self.bench, self.frame, self.acting, self.fill = bench, frame, acting, fill or Fill()
         self.every = bool(acting.all())
-        self.filling = np.zeros((len(bench.z), 0))  # derivatives of the forces by the coordinates of the fill
+        self.filling: Array = np.zeros((len(bench.z), 0))  # derivatives of the forces by the coordinates of the fill
         start = (self.fill.start, USUAL, frame) if near is None else (near.at, near.sizes, frame.weighted(near.weights))
         self.begin(self.climbed(NOTHING, *start))
 

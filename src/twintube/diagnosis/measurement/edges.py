@@ -8,14 +8,13 @@ from copy import copy
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from twintube.common.arrays import Array
 from twintube.diagnosis.channels import period
-from twintube.diagnosis.measurement.history import logs, sudden
+from twintube.diagnosis.measurement.history import logs
 from twintube.diagnosis.measurement.motion import along, between_samples, measured_again, straight_sided
 from twintube.diagnosis.problem import Problem
-from twintube.diagnosis.records.noise import SCATTER, colour, noise
+from twintube.diagnosis.records.noise import colour, noise
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.records.seen import BENDS, DELAY, SAMPLING, STROKE_GAIN
 from twintube.diagnosis.rules import RULES
@@ -95,38 +94,6 @@ def with_noise(problem: Problem) -> Problem:
     alike = colour(problem.records, errors)
     records = [replace(record, colour=alike) for record in problem.records]
     return problem.with_records([replace(r, noise=noise(r, error)) for r, error in zip(records, errors, strict=True)])
-
-
-def without_outliers(problem: Problem) -> Problem:
-    """The problem without the few intervals of each record that contradict the model far beyond all its others.
-
-    They are left out for every model alike. What happened there - a spike, a stop of the rig - is not in the records. What
-    comes again at the same phase of other oscillations did not happen once: it stays, where the record's start is known.
-    """
-    residual = problem.residual({})
-    records = []
-    for record, a, b in zip(problem.records, problem.starts[:-1], problem.starts[1:], strict=True):
-        size = np.abs(residual[a:b])
-        usual = max(1.0, SCATTER * float(np.median(size[record.judged]))) if record.judged.any() else 1.0
-        far = record.judged & (size > RULES.outlier * usual)
-        few = far.sum() <= RULES.outliers * record.judged.sum()
-        known = not sudden(record)
-        out = far & ~again(record, np.where(far, np.sign(residual[a:b]), 0.0)) if known else far
-        records.append(replace(record, judged=record.judged & ~out) if few else record)
-    return problem.with_records(records)
-
-
-def again(record: PreparedRecord, sign: Array) -> NDArray[np.bool_]:
-    """Whether an interval (n,) has the sign [1] of others at its phase of several oscillations; 0 is none."""
-    at = np.flatnonzero((sign != 0.0) & (record.cycle >= 0))
-    _, first, every, count = np.unique(record.cycle, return_index=True, return_inverse=True, return_counts=True)
-    phase = (at - first[every[at]]) / count[every[at]]
-    repeats = np.zeros(len(sign), dtype=bool)
-    for i, own in zip(at, phase, strict=True):
-        apart = np.abs(phase - own)
-        near = (sign[at] == sign[i]) & (np.minimum(apart, 1.0 - apart) < RULES.outlier_phase)
-        repeats[i] = len(np.unique(record.cycle[at[near]])) >= RULES.repeats
-    return repeats
 
 
 def passed_on(record: PreparedRecord, force: Array, edges: Array, filtered: float) -> Array:

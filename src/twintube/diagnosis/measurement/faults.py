@@ -35,6 +35,7 @@ STROKE_UNITS = {
 
 BOTH_SIGNS = "Signs of stroke and force"
 STRANGER = "odd_record"  # a record of something else
+DROPOUTS = "dropouts"  # single intervals
 
 
 @dataclass(frozen=True)

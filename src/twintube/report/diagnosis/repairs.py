@@ -18,6 +18,7 @@ REPAIRS = {
     "unit_error": "correct the unit of this channel in dataset.toml",
     "force_averaging": "record the force without this mean; here the model was seen through an equal mean",
     "odd_record": "look up damper, setting and fill of what is named, and correct dataset.toml or repeat the measurement",
+    "dropouts": "look at cable and plug of the load cell, and at the records where it happens",
     "force_offset": "read the load cell with the damper taken out, and set its zero",
     TARED: "read the load cell with the damper taken out, and take what it reads then off every force",
     "force_gain": "check the load cell with a known weight, and correct its scale",
