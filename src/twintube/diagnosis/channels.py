@@ -1,39 +1,52 @@
-"""The measuring channels: what every measurement has, and what may be wrong with one."""
+"""The measuring channels: what every measurement has, and what may be wrong with one, see faults.toml."""
 
+import tomllib
 from dataclasses import dataclass
+from importlib.resources import files
 
 import numpy as np
 
 from twintube.diagnosis.problem import Free, Problem
-from twintube.diagnosis.records.seen import BENDS, CLOCK, INERTIA, STROKE_GAIN, TIME_BASE
+from twintube.diagnosis.records.seen import BENDS, INERTIA, STROKE_GAIN, TIME_BASE
 from twintube.diagnosis.rules import RULES
 
 TARED = "tared_cell"  # set to zero with the damper in it
 
-FAULT_TITLES = {
-    TARED: "Load cell set to zero with the damper in it",
-    "force_offset": "Zero of the load cell",
-    "force_gain": "Calibration of the force channel",
-    "channel_delay": "Delay between the channels",
-    STROKE_GAIN: "Calibration of the stroke channel",
-    TIME_BASE: "Time base of the recorder",
-    "zero_drift": "Drifting zero of the load cell",
-    CLOCK: "Clock of the force channel",
-    INERTIA: "Inertia of the clamp",
-}
+
+@dataclass(frozen=True)
+class BenchFault:
+    """What may be wrong with the bench: an entry of faults.toml."""
+
+    title: str
+    repair: str
+    unit: str = "1"
+    neutral: float = 0.0
+    prior: float = 0.0  # 0 of one that is not sought among the hypotheses
+    low: float = 0.0
+    high: float = 0.0
+    of: str = "1"
+    means: str = ""
+    acts: str = ""
+
+    def times(self, peak: float, longest: float) -> float:
+        """What prior and range are multiples of, for records of a largest force [N] and duration [s]."""
+        return {"1": 1.0, "peak": peak, "peak_over_time": peak / longest}[self.of]
+
+
+KNOWN = tomllib.loads(files("twintube.diagnosis").joinpath("faults.toml").read_text(encoding="utf-8"))
+FAULTS: dict[str, BenchFault] = {name: BenchFault(**entry) for name, entry in KNOWN.items()}
+SOUGHT = {name: fault for name, fault in FAULTS.items() if fault.prior > 0.0}
 
 
 @dataclass(frozen=True)
 class ChannelFault:
-    """What may be wrong with a channel: its parameter with the range it is sought in, and what every measurement has."""
+    """A fault in the range it is sought in, and what every measurement has of it."""
 
     name: str
-    unit: str
     neutral: float
     low: float
     high: float
     usual: float
-    text: str  # a sentence
 
 
 def nuisances(problem: Problem) -> tuple[Free, ...]:
@@ -74,26 +87,13 @@ def faults(problem: Problem) -> list[ChannelFault]:
     peak = max(record.peak for record in problem.records)
     lasting = [np.ptp(record.time) for record in problem.records]
     duration, longest = float(np.median(lasting)), float(max(lasting))
-    usual = {free.name: free.high for free in nuisances(problem)}
-    zero, late = RULES.zero_range * peak, max(RULES.delay_range, RULES.delay_samples * period(problem))
-    drift = zero / duration
     sway = max(float(np.quantile(np.abs(problem.accelerations(problem.v)[0]), RULES.speed_quantile)), 1e-9)  # [m/s2]
-    several = [
-        ("force_offset", "N", (0.0, -zero, zero), usual["force_offset"],
-         "The force channel reads a constant in addition to the force."),
-        ("force_gain", "1", (1.0, *RULES.gain_range), RULES.small_gain,
-         "The force channel reads all forces too large or too small."),
-        ("channel_delay", "s", (0.0, -late, late), usual["channel_delay"],
-         "Force and stroke are not recorded simultaneously."),
-        (STROKE_GAIN, "1", (1.0, *RULES.stroke_range), RULES.small_gain,
-         "The stroke channel reads all strokes too large or too small."),
-        (TIME_BASE, "1", (1.0, *RULES.time_range), RULES.small_gain,
-         "The times in the files run too fast or too slow, as with another sampling rate than the stated one."),
-        ("zero_drift", "N/s", (0.0, -drift, drift), RULES.small_force * peak / longest,
-         "The zero of the load cell moves during each record."),
-        ("clock_error", "1", (0.0, -RULES.clock_range, RULES.clock_range), usual["channel_delay"] / duration,
-         "The clock of the force channel runs faster or slower than that of the stroke."),
-        (INERTIA, "kg", (0.0, -RULES.clamp_mass, RULES.clamp_mass), RULES.small_force * peak / sway,
-         "Between load cell and damper a mass is moved, whose inertia the cell reads with the force of the damper."),
-    ]  # fmt: skip
-    return [ChannelFault(name, unit, *bounds, least, text) for name, unit, bounds, least, text in several]
+    usual = {free.name: free.high for free in nuisances(problem)}
+    usual |= dict.fromkeys(("force_gain", STROKE_GAIN, TIME_BASE), RULES.small_gain)
+    usual |= {"zero_drift": RULES.small_force * peak / longest, INERTIA: RULES.small_force * peak / sway}
+    usual["clock_error"] = usual["channel_delay"] / duration
+    several = []
+    for name, fault in SOUGHT.items():
+        low, high = (x * fault.times(peak, duration) for x in (fault.low, fault.high))
+        several.append(ChannelFault(name, fault.neutral, low, high, usual[name]))
+    return several

@@ -12,8 +12,8 @@ from scipy.stats import norm
 from twintube.common.arrays import Array
 from twintube.common.words import shown
 from twintube.core.effects import EFFECTS
-from twintube.diagnosis.channels import TARED
-from twintube.diagnosis.records.seen import AS_RECORDED, TARE
+from twintube.diagnosis.channels import FAULTS, SOUGHT, TARED
+from twintube.diagnosis.records.seen import TARE
 from twintube.errors import InputError
 
 Kind = Literal["half", "normal", "log", "place"]
@@ -104,11 +104,7 @@ OPEN = tuple(
 STRENGTHS: dict[str, dict[str, dict[str, dict[str, Any]]]] = KNOWN
 
 
-UNITS_OF_FAULTS = {
-    "force_offset": "N", "force_gain": "1", "channel_delay": "s", "stroke_gain": "1", "time_base": "1", "zero_drift": "N/s",
-    "clock_error": "1", "clamp_inertia": "kg", "tare": "1",
-}  # fmt: skip
-CATALOGUE = (*STRENGTHS, *(name for name in UNITS_OF_FAULTS if name != TARE), TARED)
+CATALOGUE = (*STRENGTHS, *SOUGHT, TARED)
 
 
 def check(catalogue: Collection[str]) -> None:
@@ -122,7 +118,7 @@ def check(catalogue: Collection[str]) -> None:
 
 def unit_of(name: str) -> str:
     """The unit of a strength."""
-    return str(META[name]["unit"]) if name in META else UNITS_OF_FAULTS[name]
+    return str(META[name]["unit"]) if name in META else "1" if name == TARE else FAULTS[name].unit
 
 
 def effects(reach: float) -> list[Mechanism]:
@@ -147,23 +143,14 @@ def ends(prior: Kind, meta: Mapping[str, Any], reach: float) -> tuple[float, flo
 
 def faults(peak: float, longest: float, rubbing: float) -> list[Mechanism]:
     """The faults of the channels; `peak` [N] and `longest` [s] of the records, `rubbing` [1] friction over gas force."""
-    one = AS_RECORDED
-
-    def single(name: str, scale: float, low: float, high: float, centre: float = 0.0) -> Mechanism:
-        return Mechanism(name, name, "fault", (Strength(name, "normal", scale, centre, low, high),))
-
-    return [
-        single("force_gain", 0.08, 0.3, 3.0, 1.0),
-        single("force_offset", 0.04 * peak, -peak, peak),
-        single("channel_delay", 2e-3, -0.02, 0.02),
-        single("stroke_gain", 0.05, 0.7, 1.4, one["stroke_gain"]),
-        single("time_base", 0.02, 0.8, 1.25, one["time_base"]),
-        single("zero_drift", 0.03 * peak / longest, -peak / longest, peak / longest),
-        single("clock_error", 1e-3, -0.01, 0.01),
-        single("clamp_inertia", 1.0, -5.0, 5.0),
-        # The force at rest lies anywhere between the gas force less and more friction.
-        Mechanism(TARED, TARED, "fault", (Strength(TARE, "normal", rubbing / np.sqrt(3.0), 1.0),)),
+    several = [
+        Mechanism(name, name, "fault", (Strength(name, "normal", by * f.prior, f.neutral, by * f.low, by * f.high),))
+        for name, f in SOUGHT.items()
+        for by in (f.times(peak, longest),)
     ]
+    # The force at rest lies anywhere between the gas force less and more friction.
+    tared = Mechanism(TARED, TARED, "fault", (Strength(TARE, "normal", rubbing / np.sqrt(3.0), 1.0),))
+    return [*several, tared]
 
 
 def both(a: Mechanism, b: Mechanism) -> Mechanism:

@@ -129,14 +129,6 @@ class Rules:
     failed_force: float = model(1e9, "N", "force where a step of the model fails: finite, as least squares needs", NUMERICS)
 
     shares: tuple[float, ...] = faults((0.0007, 0.003, 0.01, 0.03, 0.1, 0.3), "1", "of a fault's range, tried", DEVELOPMENT)
-    zero_range: float = faults(0.5, "1", "of the largest force: range of a zero that is a fault", JUDGEMENT)
-    gain_range: tuple[float, float] = faults((0.5, 2.0), "1", "range of a gain; beyond it is a wrong unit", JUDGEMENT)
-    delay_range: float = faults(0.06, "s", "range of a delay that is a fault, to both sides", JUDGEMENT)
-    delay_samples: float = faults(3.0, "1", "samples that this range holds at least", JUDGEMENT)
-    stroke_range: tuple[float, float] = faults((0.8, 1.25), "1", "range of a gain of the stroke that is a fault", JUDGEMENT)
-    clamp_mass: float = faults(20.0, "kg", "most mass between load cell and damper", JUDGEMENT)
-    time_range: tuple[float, float] = faults((0.9, 1.1), "1", "range of a time base that is a fault", JUDGEMENT)
-    clock_range: float = faults(0.01, "1", "range of a clock's error, to both sides", JUDGEMENT)
 
     least_misfit: float = misfit(0.5, "1", "mean squared weighted error below which nothing is gained", JUDGEMENT)
     half: float = misfit(0.5, "1", "of what a moving zero may leave, where records are too few for a step", TRIALS)

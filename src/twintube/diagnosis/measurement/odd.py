@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from twintube.diagnosis.channels import FAULT_TITLES, ChannelFault, faults
+from twintube.common.words import lower
+from twintube.diagnosis.channels import FAULTS, ChannelFault, faults
 from twintube.diagnosis.measurement.faults import STRANGER, Fault, unit_error
 from twintube.diagnosis.measurement.jitter import with_uncertainty
 from twintube.diagnosis.problem import Problem
@@ -124,9 +125,10 @@ def own_fault(part: Problem, names: tuple[str, ...], several: Sequence[ChannelFa
     if best is None:
         return None
     _, f, value = best
-    text = f"In {', '.join(names)}: {f.text[0].lower()}{f.text[1:]}"
+    known = FAULTS[f.name]
+    text = f"In {', '.join(names)}: {lower(known.acts)}"
     spread = RULES.channel_width * abs(value - f.neutral)
-    return Fault(f.name, FAULT_TITLES[f.name], text, value, f.name, f.unit, names, spread=spread)
+    return Fault(f.name, known.title, text, value, f.name, known.unit, names, spread=spread)
 
 
 def own_fill(part: Problem, names: tuple[str, ...]) -> Fault | None:

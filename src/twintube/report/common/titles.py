@@ -4,8 +4,7 @@ from dataclasses import fields
 
 from twintube.common.words import lower
 from twintube.core.effects import EFFECTS, Parameters
-from twintube.diagnosis.channels import FAULT_TITLES
-from twintube.diagnosis.records.seen import INERTIA
+from twintube.diagnosis.channels import FAULTS
 
 
 def is_share(effect: str, parameter: str) -> bool:
@@ -15,26 +14,14 @@ def is_share(effect: str, parameter: str) -> bool:
 
 def title_of(effect: str) -> str:
     """Title of a candidate; several at once are joined by +."""
-    titles = {name: item.title for name, item in EFFECTS.items()} | FAULT_TITLES
+    titles = {name: item.title for known in (EFFECTS, FAULTS) for name, item in known.items()}
     return " + ".join(titles.get(name, name.replace("_", " ").capitalize()) for name in effect.split("+"))
-
-
-MEASURED = {
-    "force_offset": "measured less true force",
-    "force_gain": "measured over true force",
-    "stroke_gain": "measured over true stroke",
-    "time_base": "recorded over true time",
-    "channel_delay": "by which the force is later than the stroke",
-    "zero_drift": "rise of the zero with time, at first",
-    "clock_error": "by which the clock of the force is fast",
-    INERTIA: "moved between load cell and damper",
-}
 
 
 def meaning(name: str) -> str:
     """Description of a parameter of the model or of the measurement; empty for other names."""
     described = (str(item.metadata["description"]) for item in fields(Parameters) if item.name == name)
-    return next(described, MEASURED.get(name, ""))
+    return next(described, FAULTS[name].means if name in FAULTS else "")
 
 
 def in_words(step: str) -> str:

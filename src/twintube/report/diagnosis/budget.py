@@ -21,7 +21,7 @@ WORDS = {
     "oil_loss": ("Loss of force by missing oil", "records at more velocities in the degraded state"),
     "friction": ("Friction", "a quasi-static record: what does not go with velocity is friction"),
     "gas": ("Gas force", "hang the damper out and read the force on its rod at rest"),
-    "zero": ("Zero of the load cell", "hang the damper out and read the cell"),
+    "zero": ("Small zeros of the records", "hang the damper out and read the cell"),
     "gain": ("Calibration of the load cell", "hang a known weight on the cell"),
     "sampling": ("Delay and filter of the channels", "record both channels through equal filters"),
     "temperature": ("Temperature", "record the temperature of the tube"),

@@ -120,7 +120,8 @@ def next_step(answer: Answer) -> str:
     elif unread:
         steps.append(REPAIRS[TARED])
     elif len(answer.named) > 1:
-        decides = [EFFECTS[name].decides for h in answer.named for name in h.name.split("+") if name in EFFECTS]
+        tells = {name: effect.decides for name, effect in EFFECTS.items()} | REPAIRS
+        decides = [tells[name] for h in answer.named for name in h.name.split("+") if name in tells]
         steps.append(f"what would decide: {decides[0]}" if decides else "repeat the records, at more velocities")
     elif first.kind == "fault":
         steps += [REPAIRS[name] for name in first.name.split("+") if name in REPAIRS]
