@@ -143,8 +143,8 @@ def test_a_temperature_is_a_number_or_the_column(tmp_path: Path) -> None:
         ([*record, "--temperature", "column"], "is the column of temperatures of a record; .*motion.csv has none"),
         (["--temperature", "column"], "is the column of temperatures of a record; a block has none, give --record"),
         (["--temperature", "warm"], "--temperature warm: must be a number of degC, or column"),
-        (["--temperature", "nan"], "temperature = nan K: must be a number from 150 to 500 K"),
-        (["--temperature", "-300"], "temperature = -26.85 K: must be a number from 150 to 500 K"),
+        (["--temperature", "-400"], "--temperature = -400 degC: must be a number from -123.15 to 226.85 degC"),
+        (["--temperature", "nan"], "--temperature = nan degC: must be a number from -123.15 to 226.85 degC"),
     ]
     for options, said in cases:
         run = RUNNER.invoke(app, [*plain, *options])

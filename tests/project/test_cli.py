@@ -253,7 +253,7 @@ def test_a_ride_on_cold_dampers(tmp_path: Path) -> None:
     refused = RUNNER.invoke(app, ["ride", "SA8", "--temperature", "-300"])
     assert (refused.exit_code, refused.stderr) == (
         2,
-        "error: SA8: temperature = -26.85 K: must be a number from 150 to 500 K\n",
+        "error: --temperature = -300 degC: must be a number from -123.15 to 226.85 degC\n",
     )
 
 

@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from twintube.cli.states import KELVIN, gas_preload, in_state
+from twintube.cli.states import gas_preload, in_kelvins, in_state
 from twintube.errors import InputError, InputWarning
 
 if TYPE_CHECKING:
@@ -97,13 +97,14 @@ def kelvins(given: str | None, motion: "Motion | Record", record: Path | None) -
         return None
     if given != COLUMN:
         try:
-            return np.full(len(motion.time), KELVIN + float(given))
+            degC = float(given)
         except ValueError:
             raise InputError(f"--temperature {given}: must be a number of degC, or {COLUMN}") from None
+        return np.full(len(motion.time), in_kelvins(degC))
     if motion.temperature is None:
         where = f"{record} has none" if record is not None else "a block has none, give --record"
         raise InputError(f"--temperature {COLUMN}: is the column of temperatures of a record; {where}")
-    return KELVIN + motion.temperature
+    return np.array([in_kelvins(x, f"{record}, sample {i}: temperature") for i, x in enumerate(motion.temperature.tolist())])
 
 
 def run(damper: "Damper", motion: "Motion | Record", temperature: "Array | None") -> "Simulation":

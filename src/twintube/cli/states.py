@@ -57,11 +57,21 @@ def worn_preload(gas_lost: bool | None, gas: float | None) -> float:
     return 1.0 if share is None else share
 
 
+def in_kelvins(degC: float, name: str = "--temperature") -> float:
+    """A temperature [K] that is given in degC; raises InputError, in degC too, where the model has none."""
+    from twintube.core.checks import TEMPERATURE, outside
+
+    low, high = (TEMPERATURE[end] - KELVIN for end in ("lower", "upper"))
+    if message := outside(name, degC, low, high, "degC"):
+        raise InputError(message)
+    return degC + KELVIN
+
+
 def tempered(damper: "Damper", degC: float | None) -> "Damper":
-    """The damper at the temperature that is given, else as its parameter set says; raises ParameterError."""
+    """The damper at the temperature that is given, else as its parameter set says; raises InputError."""
     from twintube.dampers.temperature import at_temperature
 
-    return damper if degC is None else at_temperature(damper, degC + KELVIN)
+    return damper if degC is None else at_temperature(damper, in_kelvins(degC))
 
 
 def in_state(damper: "Damper", oil_level: float | None, gas_lost: bool | None, gas: float | None) -> "Damper":
