@@ -77,6 +77,14 @@ def test_preload_makes_a_gas_spring():
     assert slope(True) > 1.5 * slope(False)
 
 
+def test_a_share_of_the_preload_is_a_share_of_its_force():
+    """At rest in the middle the gas pushes the rod out by its pressure above ambient on the rod's cross-section."""
+    whole = DAMPER.preload * DAMPER.A_rod
+    for share in (0.0, 0.4, 1.0):
+        force = run(DAMPER, np.linspace(0.0, 0.1, 11), np.zeros(11), 1.0, gas_preload=share).force
+        assert -force[0] == pytest.approx(share * whole, abs=0.01 * whole)
+
+
 @pytest.mark.parametrize(("oil_level", "gas_preload"), [(1.0, True), (0.4, False)])
 def test_every_oscillation_dissipates(oil_level, gas_preload):
     r = record(1.048, oil_level, gas_preload)

@@ -117,15 +117,15 @@ class VirtualDamper:
         """Height of the reserve [m]."""
         return self.h_l + self.overhang
 
-    def constants(self, gas_preload: bool, ambient_degC: float) -> Constants:
-        """Constants of the right-hand side."""
+    def constants(self, gas_preload: float, ambient_degC: float) -> Constants:
+        """Constants of the right-hand side, with a share of the preload [1]."""
         derived = {
             "V_10": self.A_1 * self.half,
             "V_20": self.A_2 * self.half,
             "height_1": self.half,
             "height_2": self.half,
             "V_3": self.A_3 * self.height_3,
-            "p_fill": P_0 + (self.preload if gas_preload else 0.0),
+            "p_fill": P_0 + gas_preload * self.preload,
             "Q_mix": self.A_2 * self.v_mix,
             "wetted": pi * (self.D_a + self.D_la),
             "guide_gap": pi * self.D_PR * self.rod_clearance**3 / (12 * self.viscosity * self.rho_oil * self.guide_length),

@@ -33,7 +33,7 @@ class DatasetRecord:
     file: str  # name of the CSV, without a folder
     measurement: str  # quasi-static, harmonic or stochastic
     oil_level: float  # [1] as recorded, which may differ from the truth
-    gas_preload: bool  # as recorded
+    gas_preload: float  # [1] as recorded
     data: Measured
     split: str = ""  # fit, heldout or empty
 

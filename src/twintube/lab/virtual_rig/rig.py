@@ -37,7 +37,7 @@ class VirtualRecord:
 
     damper: VirtualDamper
     oil_level: float  # [1] share of the intact oil
-    gas_preload: bool
+    gas_preload: float  # [1] share of the gas pressure above ambient
     time: Array  # [s]
     stroke: Array  # [m], positive in rebound
     velocity: Array  # [m/s]
@@ -75,7 +75,7 @@ def run(
     stroke: Array,
     oil_level: float = 1.0,
     *,
-    gas_preload: bool = True,
+    gas_preload: float = 1.0,
     temperature_degC: float = 25.0,
     rtol: float = RTOL,
 ) -> VirtualRecord:
