@@ -27,12 +27,14 @@ from twintube.diagnosis.changes import NONE, UNKNOWN, changes, mechanisms
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.mechanisms import Mechanism
 from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.posterior import NOTHING, log_prior
 from twintube.diagnosis.records.noise import averaging_noise, noise
 from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.search import Fill, off_its_law
+from twintube.diagnosis.shares import SHARES
 from twintube.diagnosis.sizes import Sizes, log_weights
-from twintube.diagnosis.state import NOTHING, log_prior, state
+from twintube.diagnosis.state import state
 from twintube.engine.simulate import simulate
 from twintube.rig.signals import AMPLITUDE
 from worlds.bench.plan import chance
@@ -103,7 +105,8 @@ def of_state(seed: int) -> dict[str, Any]:
     bench, white = planned(rng, ["now"])
     levels = np.arange(NUMBERS.level_low, 1.0 + 1e-9, 0.0025)
     prior = np.exp(log_prior(levels, NOTHING))
-    gas, i = divmod(int(rng.choice(prior.size, p=prior.ravel() / prior.sum())), len(levels))
+    j, i = divmod(int(rng.choice(prior.size, p=prior.ravel() / prior.sum())), len(levels))
+    gas = float(SHARES[j])
     read = float(np.clip(levels[i] + rng.normal(0.0, NUMBERS.level_tolerance), 0.0, 1.0))
     states = bench.states.copy()
     states[:, 0], states[:, 1] = read, gas
@@ -113,7 +116,7 @@ def of_state(seed: int) -> dict[str, Any]:
     seen = Bench(bench.given, measured(bench, force))
     began = time.monotonic()
     found = state(seen, range(len(seen.records)))
-    mass = found.probability.sum(axis=0)
+    mass = found.probability.sum(axis=(0, 1))
     low, high = found.interval()
     for some in (bench, seen):
         some.threads.shutdown()
@@ -121,7 +124,7 @@ def of_state(seed: int) -> dict[str, Any]:
         "seed": seed, "oil_level": float(levels[i]), "gas_preload": gas, "sizes": [sizes.law, sizes.own, sizes.lasting],
         "rank": float(mass[:i].sum() + rng.random() * mass[i]), "gas_lost": found.gas_lost, "interval": [low, high],
         "inside": bool(low - 1e-9 <= levels[i] <= high + 1e-9), "best": list(found.best),
-        "found": [found.evidence.sizes.law, found.evidence.sizes.own, found.evidence.sizes.lasting],
+        "found": [found.sizes.law, found.sizes.own, found.sizes.lasting],
         "seconds": round(time.monotonic() - began, 1),
     }  # fmt: skip
 

@@ -44,9 +44,19 @@ Formula = Callable[[Run], Array]
 
 
 def run(
-    speed: float, level: float = INTACT, *, turns: int = 8, samples: int = 160, slow: int = 0, damper: Damper | None = None
+    speed: float,
+    level: float = INTACT,
+    *,
+    turns: int = 8,
+    samples: int = 160,
+    slow: int = 0,
+    damper: Damper | None = None,
+    gas: float | None = None,
 ) -> Run:
-    """Sines of a top speed [m/s] that begin at the lowest stroke, after a number of `slow` strokes."""
+    """Sines of a top speed [m/s] that begin at the lowest stroke, after a number of `slow` strokes.
+
+    A damper that has lost oil has lost its gas, unless a share of it is given.
+    """
     parts, begin = [], 0.0
     for velocity, count in ((SLOW, slow), (speed, turns)):
         if count:
@@ -55,7 +65,8 @@ def run(
             parts.append((begin + t, -AMPLITUDE * np.cos(omega * t), velocity * np.sin(omega * t)))
             begin = float(parts[-1][0][-1])
     time, stroke, velocities = (np.concatenate(some) for some in zip(*parts, strict=True))
-    given = (damper or load("SA8", as_published=True)).with_(oil_level=level, gas_preload=int(level == INTACT))
+    share = float(level == INTACT) if gas is None else gas
+    given = (damper or load("SA8", as_published=True)).with_(oil_level=level, gas_preload=share)
     result = simulate(given, stroke, velocities, time)
     return Run(level, speed, time, stroke, velocities, result.force, result.F_fluid, result.F_friction, result.F_gas)
 

@@ -45,6 +45,7 @@ def test_oil_and_gas_that_are_missing_are_found(worn: StateAnswer) -> None:
     found = Answer("small", load("SA8"), (), (worn,), None, (), False, None, 0.0)
     row = found.to_dataframe().loc["1"]
     assert row["low"] <= row["oil_level"] <= row["high"] and row["gas_lost"] > 0.95
+    assert row["gas_low"] <= row["gas_preload"] <= row["gas_high"]
     assert found.plot().axes[0].get_xlabel() == "oil level [% of the intact volume]"
     pyplot.close("all")
 
@@ -104,7 +105,7 @@ def test_command(tmp_path: Path) -> None:
     content = json.loads((tmp_path / "out/diagnosis.json").read_text())
     assert content["verdict"] == "state"
     (entry,) = content["state"]
-    assert set(entry) == {"records", "stated", "as_stated", "oil_level", "gas_lost", "tared_cell"}
+    assert set(entry) == {"records", "stated", "as_stated", "oil_level", "gas_preload", "gas_lost", "tared_cell"}
     low, high = entry["oil_level"]["interval"]
     assert low <= entry["oil_level"]["value"] <= high
     assert "% of its oil" in (tmp_path / "out/report.html").read_text(encoding="utf-8")

@@ -23,7 +23,7 @@ def test_it_tells_motions_and_fills() -> None:
     full = small.record(small.run(0.3))
     open_fill = replace(full, oil_level=None, gas_preload=None)
     assert limits.covered([full, open_fill]) == (
-        "Covered: 2 records up to 0.30 m/s and 45 mm from the middle; fills: 100 % oil, gas there, unknown. "
+        "Covered: 2 records up to 0.30 m/s and 45 mm from the middle; fills: 100 % oil, gas kept, unknown. "
         "It says nothing of faster strokes."
     )
 

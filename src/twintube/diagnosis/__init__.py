@@ -5,7 +5,7 @@ discrepancy    D: what a damper's law is off, and what degradation is off
 bench          the records under a simulation, and what the bench may add to their forces
 memory, sizes  noise with memory; how large the model's own errors are
 frame          the evidence of errors, all of this integrated out; heavy: under noise with heavy tails
-state          probability over oil level and preload
+state          probability over oil level and share of the gas; shares: all of them from a simulation with one; posterior
 mechanisms     effects and faults, with what is known of their strengths
 search         the evidence of a mechanism
 base           what always acts, and is no change

@@ -28,6 +28,7 @@ from twintube.diagnosis.measurement.edges import with_edges
 from twintube.diagnosis.measurement.faults import DROPOUTS, Fault, read
 from twintube.diagnosis.mechanisms import OPEN, Strength, check
 from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.posterior import Stated, StatePosterior, log_prior_fill
 from twintube.diagnosis.predictive import Unlike, unlike
 from twintube.diagnosis.problem import Problem
 from twintube.diagnosis.put_right import Measured, put_right
@@ -35,8 +36,9 @@ from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.rules import RULES
 from twintube.diagnosis.search import Fill, Found
+from twintube.diagnosis.shares import nearest
 from twintube.diagnosis.sizes import Sizes
-from twintube.diagnosis.state import Stated, StatePosterior, rather_tared, state
+from twintube.diagnosis.state import rather_tared, state
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -74,16 +76,18 @@ class StateAnswer:
             "stated": {"oil_level": self.stated.oil_level, "gas_preload": self.stated.gas_preload},
             "as_stated": round(p.as_stated, 6) if self.stated.anything else None,
             "oil_level": {"value": round(p.level, 4), "interval": [round(x, 4) for x in p.interval()]},
+            "gas_preload": {"value": round(p.gas, 4), "interval": [round(x, 4) for x in p.gas_interval()]},
             "gas_lost": round(p.gas_lost, 6),
             TARED: round(p.tared, 6),
         }
 
     def row(self) -> dict[str, Any]:
         """The row in a table of all states."""
-        low, high = self.posterior.interval()
-        level, lost = self.posterior.level, self.posterior.gas_lost
-        return {"state": self.state, "records": len(self.records), "oil_level": level, "low": low, "high": high,
-                "gas_lost": lost, TARED: self.posterior.tared}  # fmt: skip
+        p = self.posterior
+        (low, high), (gas_low, gas_high) = p.interval(), p.gas_interval()
+        return {"state": self.state, "records": len(self.records), "oil_level": p.level, "low": low, "high": high,
+                "gas_preload": p.gas, "gas_low": gas_low, "gas_high": gas_high, "gas_lost": p.gas_lost,
+                TARED: p.tared}  # fmt: skip
 
 
 @dataclass(frozen=True, repr=False)
@@ -215,7 +219,8 @@ class Answer:
     def to_dataframe(self) -> pd.DataFrame:
         """A row for each hypothesis with its probability; without a reference a row for each state of filling.
 
-        A state has its most probable oil level, from `low` to `high` with 90 %, and the probability that the gas is lost.
+        A state has its median oil level, from `low` to `high` with 90 %, the share of its gas preload, from `gas_low` to
+        `gas_high`, and the probability that it is lost.
         Raises UserError where pandas is not installed.
         """
         if self.changes is not None:
@@ -359,7 +364,7 @@ def compared_with_reference(dataset: LoadedDataset, progress: Progress, catalogu
         which = np.array([record.state == own[0].state for record in dataset.records])
         if own[0].reference and not own[0].unknown:
             level, preload, *_ = bench.states[which][0]
-            best = int(preload), float(level), rather_tared(bench, which)
+            best = float(preload), float(level), rather_tared(bench, which)
         else:
             several.append(state_of(bench, dataset.records, own, progress))
             found = several[-1].posterior
@@ -386,7 +391,7 @@ def labels(records: Sequence[Record]) -> list[str]:
 def as_filled(
     bench: Bench,
     name: str,
-    other: Mapping[str, tuple[int, float]] | None = None,
+    other: Mapping[str, tuple[float, float]] | None = None,
     log_prior: float = 0.0,
     wide: Mapping[str, float] | None = None,
 ) -> Fill:
@@ -399,9 +404,9 @@ def as_filled(
     other = other or {}
     levels, values = [], {}
     for label, which in bench.labels.items():
-        gas, level = other.get(label, (int(bench.states[which][0, 1]), float(bench.states[which][0, 0])))
+        gas, level = other.get(label, (float(bench.states[which][0, 1]), float(bench.states[which][0, 0])))
         if label in other:
-            values[f"{GAS}:{label}"] = float(gas)
+            values[f"{GAS}:{label}"] = gas
         if level < 1.0 or label in other:
             scale = (wide or {}).get(label, NUMBERS.level_tolerance)
             levels.append(Strength(f"{LEVEL}:{label}", "normal", scale, level, LEAST_LEVEL, 1.0))
@@ -425,19 +430,18 @@ def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill
     doubtful = [one for one in told if one.posterior.as_stated < n.credible]
     wide = {one.state: spread(one.posterior) for one in several if not one.stated.anything}
     out = [as_filled(bench, "as_stated", None, float(np.log(1.0 - n.misstated)) if told else 0.0, wide)]
-    # Of a fill that nobody knows the preload may be there or lost.
+    # Of a fill that nobody knows the share of the gas may be another.
     for one in several:
-        gas = one.posterior.best[0]
-        other = one.posterior.gas_lost if gas else 1.0 - one.posterior.gas_lost
-        if not one.stated.anything and other > n.implausible:
-            out.append(
-                as_filled(bench, one.state, {one.state: (1 - gas, one.posterior.levels_of[1 - gas])}, out[0].log_prior)
-            )
+        probability, *other = one.posterior.otherwise
+        if not one.stated.anything and probability > n.implausible:
+            out.append(as_filled(bench, one.state, {one.state: (other[0], other[1])}, out[0].log_prior))
     if doubtful:
-        # Anywhere between the least level and all oil, with preload and without: the share of it that a tolerance holds.
+        # Anywhere between the least level and all oil, with any share of the gas: the part of it that tolerances hold.
         share = np.sqrt(2.0 * np.pi) * n.level_tolerance / (1.0 - n.level_low)
-        log_prior = float(np.log(n.misstated) + len(doubtful) * np.log(0.5 * (1.0 - n.full) * share))
-        other_fill = as_filled(bench, "another", {one.state: one.posterior.free for one in doubtful}, log_prior, wide)
+        free = {one.state: one.posterior.free for one in doubtful}
+        log_prior = float(np.log(n.misstated) + len(free) * np.log((1.0 - n.full) * share))
+        log_prior += sum(float(log_prior_fill()[nearest(gas)]) for gas, _ in free.values())
+        other_fill = as_filled(bench, "another", free, log_prior, wide)
         out.append(replace(other_fill, other=True))
     ways = [{}] if has_own(bench.given) else [{}, *(values_of(name) for name in VARIED if name != DEFAULT)]
     return [
@@ -453,7 +457,7 @@ def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill
 def edges(bench: Bench, states: Array) -> list[Array]:
     """What the steps of the force leave open in each record (n,) [N]: where in its interval a step falls nobody knows."""
     filled = [
-        replace(record, oil_level=float(level), gas_preload=int(gas))
+        replace(record, oil_level=float(level), gas_preload=float(gas))
         for record, (level, gas, *_) in zip(bench.records, states, strict=True)
     ]
     return [record.edges for record in with_edges(Problem(bench.given, filled)).records]

@@ -79,7 +79,7 @@ class Bench(SeenRecords):
         """Simulate with these values where no others are given."""
         self.usual = dict(values)
 
-    def in_state(self, which: NDArray[np.bool_], preload: int, oil_level: float, tared: bool) -> None:
+    def in_state(self, which: NDArray[np.bool_], preload: float, oil_level: float, tared: bool) -> None:
         """Let the records `which` (r,) be in a state, and put right a load cell that was `tared`."""
         self.states[which, 0], self.states[which, 1] = oil_level, preload
         if tared:
@@ -96,7 +96,7 @@ class Bench(SeenRecords):
         """By how much [N] the gas pushes out the rod of a damper at rest, and the standard deviation [N] of its friction."""
         return self.damper.parameters.F_0, 2.0 * UNIFORM * self.damper.parameters.F_FrS
 
-    def tared(self, errors: Array, which: NDArray[np.bool_], preload: int | Array) -> Array:
+    def tared(self, errors: Array, which: NDArray[np.bool_], preload: float | Array) -> Array:
         """Errors (n,) [N] where the cell was set to zero with the damper in it, in the records `which` (r,); (n, 2).
 
         What it read then is lost: the force of the gas, and friction, which at rest is anywhere between its limits. The

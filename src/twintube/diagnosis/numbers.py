@@ -146,6 +146,13 @@ class Numbers:
     full: float = declared(
         0.25, "1", "probability that a damper whose fill nobody knows has lost no oil", "judged", most=0.99
     )
+    leaking: float = declared(
+        0.1,
+        "1",
+        "probability that a damper whose fill nobody knows has lost a part of its gas; all or none of it are as likely",
+        "as often as a fill is misstated; judged",
+        most=0.99,
+    )
     misstated: float = declared(
         0.1,
         "1",

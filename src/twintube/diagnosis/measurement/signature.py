@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from twintube.common.arrays import Array
 from twintube.data import Record
 from twintube.data.check.defects import clipped
+from twintube.data.records.condition import INTACT_LEVEL
 from twintube.diagnosis.measurement.line import line
 from twintube.diagnosis.measurement.outside import Signature
 from twintube.diagnosis.rules import RULES
@@ -152,10 +153,10 @@ def means(side: Array, edges: Array) -> Array:
 def backlash(blocks: Sequence[tuple[Record, Harmonic]]) -> Signature | None:
     """Equal forces after both reversals, over an equal length of stroke at all velocities of the intact damper.
 
-    A damper without enough oil has dead strokes too, so only records with gas preload decide. A compliance or air in the oil
-    makes the force rise soon and slowly instead of late and at once.
+    A damper without enough oil has dead strokes too, so only records with all of the gas decide. A compliance or air
+    in the oil makes the force rise soon and slowly instead of late and at once.
     """
-    intact = [block for _, block in blocks if block.gas_preload]
+    intact = [block for _, block in blocks if block.gas_preload >= INTACT_LEVEL]
     if len(intact) < RULES.play_records:
         return None
     plays = [play(block) for block in intact]

@@ -100,7 +100,7 @@ def courses(problem: Problem, means: Array) -> Courses | None:
     return found
 
 
-def fills(problem: Problem) -> list[tuple[float, int]]:
+def fills(problem: Problem) -> list[tuple[float, float]]:
     """Oil level and preload of each record."""
     return [(record.oil_level, record.gas_preload) for record in problem.records]
 
@@ -178,7 +178,7 @@ def largest(records: Sequence[PreparedRecord]) -> float:
 
 def states(records: Sequence[PreparedRecord]) -> list[list[int]]:
     """The numbers of the records of each state of filling, by velocity."""
-    numbers: dict[tuple[float, int], list[int]] = {}
+    numbers: dict[tuple[float, float], list[int]] = {}
     for i in sorted(range(len(records)), key=lambda i: records[i].top_speed):
         numbers.setdefault((records[i].oil_level, records[i].gas_preload), []).append(i)
     return list(numbers.values())

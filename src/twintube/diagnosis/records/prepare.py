@@ -14,14 +14,14 @@ from twintube.diagnosis.records.noise import noise
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.records.thinning import thin
 from twintube.diagnosis.rules import RULES
-from twintube.engine.simulate import InputError, checked
+from twintube.engine.simulate import checked
 from twintube.fitting.intervals import impulse, means
 from twintube.fitting.strokes import noise as noise_of_stroke
 from twintube.fitting.strokes import quiet
 
 
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
-    """All records of a dataset; raises InputError where a stroke leaves the tube or a preload is a share."""
+    """All records of a dataset; raises InputError where a stroke leaves the tube."""
     begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
     usual = float(np.median(begins)) if begins else 0.0
     ready = [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
@@ -49,11 +49,9 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
     levels = resolution(record.force)
     # What nobody knows is sought; full until then.
     oil_level = 1.0 if record.oil_level is None else record.oil_level
-    gas_preload = True if record.gas_preload is None else record.gas_preload
-    if gas_preload not in (0, 1):
-        raise InputError(f"{record.file}: gas_preload = {gas_preload:g}: a diagnosis takes true, false or 'unknown'")
+    gas_preload = 1.0 if record.gas_preload is None else float(record.gas_preload)
     ready = PreparedRecord(
-        name=record.name, measurement=record.measurement, oil_level=oil_level, gas_preload=int(gas_preload),
+        name=record.name, measurement=record.measurement, oil_level=oil_level, gas_preload=gas_preload,
         top_speed=top_speed, path=path, stroke_noise=noise_of_stroke(record.stroke)[0],
         force=np.concatenate([record.force[:1], force]),
         time=record.time[at], stroke=stroke, velocity=velocity, cycle=cycle, noise=np.zeros(len(at)),

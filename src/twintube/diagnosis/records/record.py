@@ -17,7 +17,7 @@ class PreparedRecord:
     name: str
     measurement: str
     oil_level: float
-    gas_preload: int
+    gas_preload: float  # share [1]
     top_speed: float  # [m/s]
     path: PPoly  # stroke [m] over time [s], through all measured samples
     stroke_noise: float  # [m] standard deviation of the noise in the samples of the stroke, 0 where it has none

@@ -6,6 +6,7 @@ import numpy as np
 
 from twintube.common.words import counted, listed
 from twintube.dampers import Damper
+from twintube.dampers.damper import gas_in_words
 from twintube.data import Record
 from twintube.diagnosis import Answer
 from twintube.report.common.html_page import Section
@@ -55,4 +56,4 @@ def fill(record: Record) -> str:
     if record.oil_level is None and record.gas_preload is None:
         return "unknown"
     oil = "oil unknown" if record.oil_level is None else f"{100 * record.oil_level:.0f} % oil"
-    return f"{oil}, gas {'unknown' if record.gas_preload is None else 'there' if record.gas_preload else 'lost'}"
+    return f"{oil}, gas {'unknown' if record.gas_preload is None else gas_in_words(record.gas_preload)}"

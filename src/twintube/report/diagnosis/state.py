@@ -9,7 +9,7 @@ from twintube.common.words import listed
 from twintube.diagnosis import StateAnswer
 from twintube.diagnosis.channels import TARED as TARED_CELL
 from twintube.diagnosis.numbers import NUMBERS
-from twintube.diagnosis.state import LOST, TARED, THERE, StatePosterior
+from twintube.diagnosis.posterior import LOST, PARTLY, TARED, THERE, StatePosterior
 from twintube.report.common import style
 from twintube.report.common.html_page import Headline, Picture, Section, Table
 from twintube.report.common.probabilities import chance
@@ -27,6 +27,7 @@ MISSED = "and missing in the records: the load cell was set to zero with the dam
 MAYBE_MISSED = "the load cell may have been set to zero with the damper in it"
 STACKED = (
     (THERE, style.BLUE, "preload there"),
+    (PARTLY, style.GREEN, "preload lost in part"),
     (TARED, style.ORANGE, "preload there, cell set to zero with it"),
     (LOST, style.RED, "preload lost"),
 )
@@ -45,16 +46,18 @@ def sentence(answer: StateAnswer) -> str:
 
 def gas(posterior: StatePosterior) -> str:
     """What the records say of the gas preload, as the end of a sentence."""
-    lost, tared = posterior.gas_lost, posterior.tared
+    lost, there, tared = posterior.gas_lost, posterior.gas_there, posterior.tared
     if tared > SURE:
         return f"its gas preload is there, {MISSED} ({chance(tared)})"
-    if lost > SURE or lost < 1.0 - SURE:
-        known = f"its gas preload is {'lost' if lost > SURE else 'there'} ({chance(max(lost, 1.0 - lost))})"
-        return f"{known}; {MAYBE_MISSED} ({chance(tared)})" if tared > 1.0 - SURE else known
     if undecided(posterior):
         other = f"a load cell set to zero with the damper in it ({chance(tared)})"
         return f"these records cannot tell a lost gas preload ({chance(lost)}) from {other}"
-    return f"whether its gas preload is lost cannot be told ({chance(lost)})"
+    maybe = f"; {MAYBE_MISSED} ({chance(tared)})" if tared > 1.0 - SURE else ""
+    if max(lost, there) > SURE:
+        return f"its gas preload is {'lost' if lost > SURE else 'there'} ({chance(max(lost, there))}){maybe}"
+    low, high = posterior.gas_interval()
+    whether = f", lost with {chance(lost)}" if lost > 1.0 - SURE else ""
+    return f"its gas preload is at {100 * posterior.gas:.0f} % ({100 * low:.0f} to {100 * high:.0f} %){whether}{maybe}"
 
 
 def undecided(posterior: StatePosterior) -> bool:
@@ -96,6 +99,8 @@ def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
         return "oil lost", "no"
     if any(answer.posterior.gas_lost > SURE for answer in answers):
         return "gas preload lost", "no"
+    if any(answer.posterior.by_gas[[LOST, PARTLY]].sum() > SURE for answer in answers):
+        return "gas preload lost in part", "no"
     if any(answer.posterior.tared > SURE for answer in answers):
         return "load cell set to zero with the damper", "warn"
     if any(high - low > WIDE for low, high in intervals) or any(undecided(answer.posterior) for answer in answers):
@@ -109,7 +114,7 @@ def drawn(answers: Sequence[StateAnswer]) -> Picture:
 
 
 def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
-    """Probability over the oil level of each state, with and without preload."""
+    """Probability over the oil level of each state, by what became of the gas."""
     figure, axes = style.grid(len(answers), (8.5, 3.3), narrow, most=1)
     for ax, answer in zip(axes[:, 0], answers, strict=True):
         p = answer.posterior
@@ -117,11 +122,11 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
         end = high if high < 1.0 else 1.0 + 2 * BAR  # beyond it stands the bar of a damper that has lost nothing
         ax.axvspan(100 * low, 100 * end, color=style.FAINT, alpha=0.35, lw=0, label="90 % interval")
         edges = np.arange(NUMBERS.level_low, 1.0 - 1e-9, BAR)
-        bars = [np.histogram(p.levels[:-1], [*edges, 1.0 + 1e-9], weights=row[:-1])[0] for row in p.probability]
+        bars = [np.histogram(p.levels[:-1], [*edges, 1.0 + 1e-9], weights=row[:-1])[0] for row in p.by_gas]
         middles = np.concatenate([100 * (edges + BAR / 2), [100 * (1.0 + BAR)]])  # the last: nothing lost
         bottom = np.zeros(len(middles))
         for row, colour, label in STACKED:
-            height = 100 * np.concatenate([bars[row], p.probability[row, -1:]])
+            height = 100 * np.concatenate([bars[row], p.by_gas[row, -1:]])
             ax.bar(middles, height, 90 * BAR, bottom, color=colour, label=label)
             bottom += height
         ax.set_xlim(100 * NUMBERS.level_low, 100 * (1.0 + 2 * BAR))
@@ -142,6 +147,8 @@ def section(answers: Sequence[StateAnswer], pictures: Sequence[Picture] = ()) ->
             listed(answer.records, 3),
             f"{100 * answer.posterior.level:.0f} %",
             "{:.0f} to {:.0f} %".format(*(100 * x for x in answer.posterior.interval())),
+            f"{100 * answer.posterior.gas:.0f} %",
+            "{:.0f} to {:.0f} %".format(*(100 * x for x in answer.posterior.gas_interval())),
             chance(answer.posterior.gas_lost),
             chance(answer.posterior.tared),
             chance(answer.posterior.as_stated) if answer.stated.anything else "",
@@ -149,7 +156,16 @@ def section(answers: Sequence[StateAnswer], pictures: Sequence[Picture] = ()) ->
         for answer in answers
     ]
     table = Table(
-        ("records", "oil level", "90 % interval", "preload lost", "there, cell set to zero with it", "as the file says"),
+        (
+            "records",
+            "oil level",
+            "90 % interval",
+            "gas preload",
+            "90 % interval",
+            "lost",
+            "there, cell set to zero with it",
+            "as the file says",
+        ),
         rows,
     )
     return Section("states", "Oil and gas in numbers", tables=[table], pictures=pictures)
