@@ -26,7 +26,7 @@ from twintube.diagnosis.put_right import Measured
 from worlds.bench.files import write_truth
 from worlds.makers import WORLDS, Job
 
-answering = import_module("twintube.diagnosis.answer")  # its package has a function of that name
+answering = import_module("twintube.diagnosis.questions")
 SEED = 43001  # the first of each world
 EACH = {"unknown_fill": 2, "before_after": 2, "challenge": 2, "workshop": 2}
 BENCH_LOOKED_AT = ("example", "challenge", "workshop")  # without a reference

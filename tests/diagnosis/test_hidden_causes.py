@@ -12,12 +12,13 @@ from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.diagnosis import answer
-from twintube.diagnosis.answer import as_filled, bench_of
 from twintube.diagnosis.base import Base
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.changes import mechanisms
 from twintube.diagnosis.contract import as_json
+from twintube.diagnosis.fills import as_filled
 from twintube.diagnosis.put_right import put_right
+from twintube.diagnosis.questions import bench_of
 from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.search import Search
 from twintube.report.diagnosis.page import lines, write_report

@@ -12,11 +12,14 @@ base           what always acts, and is no change
 changes        the probability of every hypothesis about what has happened since the reference
 heldout        what hypotheses are worth on records that they were not fitted to
 budget         what the error consists of
-answer         from a dataset to its answer; contract: diagnosis.json
+predictive     whether an answer explains each record
+answer         what is said of a dataset; contract: diagnosis.json
+questions      from a dataset to its answer; fills: what hypotheses may take for the fill
 """
 
-from twintube.diagnosis.answer import Answer, StateAnswer, answer, diagnose, states
+from twintube.diagnosis.answer import Answer, StateAnswer
 from twintube.diagnosis.budget import Budget, Line
 from twintube.diagnosis.priors import priors
+from twintube.diagnosis.questions import answer, diagnose, states
 
 __all__ = ["Answer", "Budget", "Line", "StateAnswer", "answer", "diagnose", "priors", "states"]
