@@ -1,4 +1,4 @@
-"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, car, identify, inspect, diagnosis and others."""
+"""`python -m benchmarks NAME --json FILE`: kernel, fmu_step, quarter_car, car, identify, inspect and others."""
 
 import json
 import os
@@ -13,7 +13,6 @@ import typer
 from benchmarks.calibration import DRAWS, bench_calibration
 from benchmarks.car import bench_car, bench_car_steps
 from benchmarks.dead_length import bench_dead_length
-from benchmarks.diagnosis import bench_detection, bench_diagnosis
 from benchmarks.driving import bench_driving
 from benchmarks.fmu import bench_fmu_step, bench_quarter_car
 from benchmarks.gas_path_page import bench_gas_path
@@ -32,7 +31,6 @@ from twintube.cli.base import standalone
 from twintube.cli.tables import car_sensitivity, sensitivity
 from twintube.engine import compiled
 from twintube.errors import UserError
-from worlds.scoring import tables as score_tables
 
 BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "kernel": bench_kernel,
@@ -52,8 +50,6 @@ BENCHMARKS: dict[str, Callable[[], dict[str, Any]]] = {
     "rough_road": bench_rough_road,
 }
 SEEDED: dict[str, Callable[[int, Path | None], dict[str, Any]]] = {
-    "diagnosis": bench_diagnosis,
-    "detection": bench_detection,
     "identify": lambda seeds, _: bench_identify(seeds),
     "calibration": bench_calibration,
     "priors": lambda _, keep: bench_priors(keep),
@@ -68,7 +64,7 @@ OWN: dict[str, Callable[..., None]] = {
     "sensitivity": sensitivity,
     "car_sensitivity": car_sensitivity,
 }  # options of their own
-TABLES: dict[str, Callable[[Any], str]] = {"diagnosis": score_tables, "importers": as_table}
+TABLES: dict[str, Callable[[Any], str]] = {"importers": as_table}
 NAMES = ", ".join((*BENCHMARKS, *SEEDED, *OTHERS, *OWN))
 app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 
@@ -116,9 +112,8 @@ def main(
 
     Short jobs are run several times, the shortest time counts.
 
-    diagnosis and detection answer datasets with hidden causes one after the other, and take hours with 10 seeds. Other
-    datasets: python -m worlds run. calibration draws datasets from the priors of the diagnosis; priors halves and doubles
-    them on nine datasets. Both take about an hour.
+    calibration draws datasets from the priors of the diagnosis; priors halves and doubles them on nine datasets. Both take
+    about an hour. Datasets with hidden causes: python -m worlds run.
     """
     if name not in (*BENCHMARKS, *SEEDED, *OTHERS):
         typer.echo(f"error: unknown benchmark {name}: must be one of {NAMES}", err=True)

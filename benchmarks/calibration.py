@@ -16,7 +16,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from benchmarks.calibration_figures import figures
-from benchmarks.diagnosis import folder_of
+from benchmarks.folders import folder_of
 from twintube.common.arrays import Array
 from twintube.dampers import Damper, load
 from twintube.data import MEASURED, LoadedDataset, Record

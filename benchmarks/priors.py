@@ -15,7 +15,7 @@ from shutil import copytree
 from typing import Any
 from unittest.mock import patch
 
-from benchmarks.diagnosis import folder_of
+from benchmarks.folders import folder_of
 from twintube.diagnosis import Answer, answer, changes, priors
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.contract import as_json

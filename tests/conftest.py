@@ -28,7 +28,7 @@ if os.environ.get("CI"):
 TESTS = Path(__file__).parent
 # The tests of these folders and files have a mark; all others are `unit`.
 MARKS = {
-    "diagnosis": ["diagnosis", "identification", "claims", "studies", "worlds", "challenge", "blind_trials",
+    "diagnosis": ["diagnosis", "identification", "claims", "studies", "worlds", "challenge",
                   "virtual_rig"],
     "fmu": ["fmu", "native", "vehicle", "driving", "inspection", "explorer"],
     "docs": ["project", "hardening", "report"],

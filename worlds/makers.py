@@ -8,22 +8,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
-from worlds import challenge, workshop
-from worlds.bench.files import told, write_truth
-from worlds.blind_trials import trials
+from worlds import challenge
+from worlds.bench.files import write_truth
 from worlds.identified import identify_first
 from worlds.imperfect import World, before_after, tared_cell, unknown_fill, write
 from worlds.other_physics import virtual_rig
 from worlds.scoring.truth import TruthError, truth_of
-
-PAIRS: Final = (
-    "valve_wear+gas_spring",
-    "oil_temperature+end_stop",
-    "oil_level_error+valve_wear",
-    "side_load_friction+fluid_lag",
-)
-TRIALS: Final = (*trials.EFFECTS, *trials.FAULTS, "recalibrate", "none", *PAIRS, *trials.OUTSIDE)
-FIRST_TRIAL: Final = 100  # seed of the first of each kind: fewer were for development
 
 
 @dataclass(frozen=True)
@@ -50,24 +40,6 @@ def identified(world: str, make_world: Callable[[int], World], seed: int, folder
     write_truth(folder, truth | {"world": world, "not_identified": failure})
 
 
-def of_trials(kind: str, seed: int, strength: float | None, folder: Path) -> None:
-    """A blind trial of a kind."""
-    trial = trials.trial(kind, seed, strength=strength)
-    trials.write(trial, folder / "dataset")
-    causes = kind.split("+")
-    of = "none" if kind == "none" else "fault" if set(causes) <= set(trials.FAULTS) else "effect"
-    more = {"parameters": trial.truth, "strength": trial.strength}
-    write_truth(
-        folder, told("blind_trials", seed, trial.damper, causes, kind="outside" if kind in trials.OUTSIDE else of, more=more)
-    )
-
-
-def blind_trials(seed: int, folder: Path) -> None:
-    """Every kind in turn."""
-    block, place = divmod(seed, len(TRIALS))
-    of_trials(TRIALS[place], FIRST_TRIAL + block, None, folder)
-
-
 WORLDS: Final[dict[str, Callable[[int, Path], object]]] = {
     "unknown_fill": partial(made, unknown_fill),
     "tared_cell": partial(made, tared_cell),
@@ -75,8 +47,7 @@ WORLDS: Final[dict[str, Callable[[int, Path], object]]] = {
     "before_after_identified": partial(identified, "before_after_identified", before_after),
     "virtual_rig": partial(identified, "virtual_rig", virtual_rig),
     "challenge": challenge.write,
-    "workshop": workshop.write,
-    "blind_trials": blind_trials,
+    "workshop": challenge.workshop,
 }
 FIRST_SEED: Final = {"workshop": 1}  # of the others 0
 

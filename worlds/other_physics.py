@@ -17,10 +17,11 @@ from worlds.bench.plan import RNG, Motion, span
 from worlds.imperfect.bench import AMPLITUDES, Fault, draw_bench, sine, triangle
 from worlds.imperfect.causes import CAUSES
 from worlds.imperfect.law import RATE, Law
-from worlds.imperfect.session import Damper, Day, Driven, draw_day, over_noise, session
-from worlds.imperfect.world import IDENTIFYING, STATED_WRONGLY, UNCHANGED, World
+from worlds.imperfect.session import Damper, Day, Driven, draw_day, session
+from worlds.imperfect.world import IDENTIFYING, STATED_WRONGLY, UNCHANGED, World, of_cause, truth
 
 STATES: Final = ("oil_lost", "oil_and_gas_lost", "preload_lost")
+LEAK: Final = "leak"  # during the session, out of the damper of STATES
 CHANNELS: Final = ("gain", "zero", "delay", "stroke", "signs", "unit")
 # Changes of the rig's own damper, each under the cause of `imperfect` whose name and range it has.
 INSIDE: Final[dict[str, Callable[[RNG, VirtualDamper], VirtualDamper]]] = {
@@ -28,8 +29,10 @@ INSIDE: Final[dict[str, Callable[[RNG, VirtualDamper], VirtualDamper]]] = {
     "bleed_wear": lambda rng, d: replace(d, piston_bleed=d.piston_bleed * (1.0 + span(rng, 0.03, 0.5))),
     "blow_off_wear": lambda rng, d: replace(d, piston_crack=d.piston_crack * (1.0 - span(rng, 0.03, 0.4))),
     "side_load": lambda rng, d: with_friction(d, span(rng, 3.0, 100.0)),
+    "foam": lambda rng, d: replace(d, foam=span(rng, 0.004, 0.1)),  # 0.4 to 10 mm of the chambers' 100
 }
-WARMER: Final = (3.0, 60.0)  # [K] by which a hot run begins above the room
+HOT: Final = "hot_run"
+WARMER: Final = (3.0, 60.0)  # [K] by which it begins above the room
 
 
 def with_friction(damper: VirtualDamper, more: float) -> VirtualDamper:
@@ -37,16 +40,15 @@ def with_friction(damper: VirtualDamper, more: float) -> VirtualDamper:
     return replace(damper, F_static=damper.F_static + more, F_sliding=damper.F_sliding + more)
 
 
+def way_out(stroke: Array) -> float:
+    """Way of the rod out of the damper [m]."""
+    return float(np.maximum(np.diff(stroke), 0.0).sum())
+
+
 def force(damper: VirtualDamper, z: Array, level: float, *, preload: bool, room: float, warmer: float) -> Array:
     """Force of the rig [N] (n,) at strokes [m] at RATE, with oil that is `warmer` [K] than the room."""
-    return run(
-        damper,
-        np.arange(len(z)) / RATE,
-        np.asarray(z, dtype=np.float64),
-        level,
-        gas_preload=preload,
-        temperature_degC=room + warmer,
-    ).force
+    times, warm = np.arange(len(z)) / RATE, room + warmer
+    return run(damper, times, np.asarray(z, dtype=np.float64), level, gas_preload=preload, temperature_degC=warm).force
 
 
 def rig_on(
@@ -57,11 +59,12 @@ def rig_on(
     same = damper == healthy and (level, preload, fault, warmer) == (1.0, True, Fault(), 0.0)
 
     def driven(i: int, motion: Motion) -> Driven:
+        nonlocal level
         own = force(damper, motion.stroke, level, preload=preload, room=day.room, warmer=warmer)
+        level -= damper.leak * way_out(motion.stroke) / damper.V_oil
         read = fault.sign * fault.stroke_gain * motion.stroke  # what the damper would do at the stroke that is read
-        return Driven(
-            own, own if same else force(healthy, read, 1.0, preload=True, room=day.room, warmer=0.0), day.room + warmer
-        )
+        plain = own if same else force(healthy, read, 1.0, preload=True, room=day.room, warmer=0.0)
+        return Driven(own, plain, day.room + warmer)
 
     return driven
 
@@ -77,10 +80,10 @@ def virtual_rig(seed: int) -> World:
     first = [triangle(2e-3, amplitude, "_a"), *(sine(bench, v, amplitude, "_a") for v in speeds)]
     again = sorted(float(v) for v in rng.choice(speeds, int(rng.integers(2, 4)), replace=False))
     later = [sine(bench, v, amplitude, "_b") for v in again]
-    key = "" if rng.random() < UNCHANGED else str(rng.choice([*STATES, *CHANNELS, *INSIDE, "hot_run"]))
+    key = "" if rng.random() < UNCHANGED else str(rng.choice([*STATES, *CHANNELS, *INSIDE, LEAK, HOT]))
     damper, warmer = healthy, 0.0
     drawn: dict[str, Any] = {}
-    if key == "hot_run":
+    if key == HOT:
         warmer = span(rng, *WARMER)
         drawn = {"warmer_K": warmer}
     elif key in INSIDE:
@@ -88,23 +91,18 @@ def virtual_rig(seed: int) -> World:
         drawn = {item: value for item, value in asdict(damper).items() if value != asdict(healthy)[item]}
     elif key:
         drawn = CAUSES[key].draw(rng, Law(load(name), {}, 0.0, 1, 1e-3, 0.0), amplitude)
-    state = drawn if key in STATES else {}
+    state = drawn if key in (*STATES, LEAK) else {}
+    if key == LEAK:
+        lost = (drawn["oil_level"] - drawn["oil_level_end"]) * healthy.V_oil
+        damper = replace(healthy, leak=lost / sum(way_out(item.motion.stroke) for item in later))
     fault = Fault(**drawn) if key in CHANNELS else Fault()
     days = draw_day(rng), draw_day(rng)
-    new, used = (
-        rig_on(healthy, healthy, days[0], {}, fault=Fault(), warmer=0.0),
-        rig_on(healthy, damper, days[1], state, fault=fault, warmer=warmer),
-    )
+    new = rig_on(healthy, healthy, days[0], {}, fault=Fault(), warmer=0.0)
+    used = rig_on(healthy, damper, days[1], state, fault=fault, warmer=warmer)
     before = session(rng, bench, days[0], first, Fault(), damper=new, reference=True)
     after = session(rng, bench, days[1], later, fault, damper=used, reference=False)
     wrong = bool(rng.random() < STATED_WRONGLY)
-    truth = {
-        "world": "virtual_rig", "seed": seed, "damper": name, "kind": "none", "causes": ["none"], "also_fits": [],
-        "parameters": drawn, "oil_level": state.get("oil_level", 1.0), "gas_preload": bool(state.get("gas_preload", 1)),
-        "effect_over_noise": 0.0, "noise_N": bench.noise_rms, "bench": asdict(bench), "stated_as_full": wrong,
-    }  # fmt: skip
-    if key:
-        cause = CAUSES[key]
-        truth |= {"kind": cause.kind, "causes": [cause.name], "also_fits": list(cause.also), "source": cause.source}
-        truth["effect_over_noise"] = over_noise(after, bench)
-    return World(name, bench, (True, wrong), [*before, *after], truth)
+    level = state.get("oil_level_end", state.get("oil_level", 1.0))
+    facts = truth("virtual_rig", seed, name, level=level, preload=bool(state.get("gas_preload", 1)), bench=bench)
+    facts |= of_cause(CAUSES[key], drawn, after, bench) if key else {}
+    return World(name, bench, (True, wrong), [*before, *after], facts | {"stated_as_full": wrong})

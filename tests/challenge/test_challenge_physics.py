@@ -128,11 +128,11 @@ def test_foam_collapses_freed_gas_dissolves_and_a_leak_takes_the_force() -> None
     for apply in (oil.foam_half_life, oil.foam_drainage):
         assert rms(with_(plain, apply, 0.5, "setup", power=1.0).force - plain.force) > 0.0
     size = {}
-    for apply in (oil.dissolving, oil.dissolving_under_pressure):
-        run = with_(plain, apply, 1.0, "setup")
-        size[apply.__name__] = rms(run.parts["fluid"])
-        assert size[apply.__name__] > rms(plain.parts["fluid"])
-    assert size["dissolving_under_pressure"] > size["dissolving"], "pressure helps"
+    for henry in (False, True):
+        run = with_(plain, partial(oil.dissolving, henry=henry), 1.0, "setup")
+        size[henry] = rms(run.parts["fluid"])
+        assert size[henry] > rms(plain.parts["fluid"])
+    assert size[True] > size[False], "pressure helps"
     plain = base(0.5)
     for apply, x in ((oil.film_leak, 2e-6), (oil.orifice_leak, 1e-6)):
         assert rms(with_(plain, apply, x, "setup", carried=False).parts["fluid"]) < rms(plain.parts["fluid"])

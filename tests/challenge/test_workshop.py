@@ -1,46 +1,47 @@
-"""Datasets of the workshop: a strength of nothing does nothing, causes have their signs, and the folder is readable."""
+"""The workshop: each case once in a block of seeds, strengths of practice that show, and folders in every format."""
 
 from collections import Counter
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from twintube.dampers import load
 from twintube.data import load_dataset
-from twintube.engine.simulate import simulate
-from worlds.bench.motions import joined, swing
-from worlds.bench.plan import Motion, Record
-from worlds.model.march import Mount
-from worlds.model.run import Run, Step, begun, finished
-from worlds.workshop import write
-from worlds.workshop.catalogue import CASES, case_of
-from worlds.workshop.plan import Wish, plan_day
-from worlds.workshop.sizes import SIZES
+from worlds.bench.files import LAYOUTS
+from worlds.bench.plan import Record
+from worlds.challenge import workshop
+from worlds.challenge.generate import Hidden, logged, needs
+from worlds.challenge.plan import Bench, Order, bench_for, motion
+from worlds.challenge.practice import CASES, NOTHING, PRACTICE, SINGLES, case_of, formulation, strength
+from worlds.model.run import Run, begun, copied, finished, sampled
 
 DAMPER = load("SA8", as_published=True)
-DT = 1.0 / 4000.0
-MOTION = joined([swing(0.05, 0.04, 1, DT), swing(0.786, 0.04, 4, DT)])
 
 
-FAST = joined([swing(0.05, 0.04, 1, DT), swing(1.31, 0.04, 4, DT)])
+@cache
+def plain(level: float) -> Run:
+    order = Order("amplitude", 1.31, 0.045, 0.05, 2, 5.0, 0.0, False, 3, 1)
+    return finished(begun(Record("r", 0, "harmonic", level, level == 1.0, 23.0, 0.0), motion(order, 1e-3, 3.0), DAMPER))
 
 
-def run(key: str, fill: float = 0.5, motion: Motion = MOTION, **values: Any) -> Run:
-    steps = SIZES[key].steps(values) if key else []
-    return finished(begun(Record("r", 0, "harmonic", fill, fill == 1.0, 20.0, 0.0), motion, DAMPER), steps)
+@cache
+def some_bench(asked: frozenset[str] = frozenset({"degraded", "sine"})) -> Bench:
+    return replace(bench_for(asked, False, np.random.default_rng(4)), largest=2000.0)
 
 
-PLAIN = {(level, id(motion)): run("", level, motion) for level in (0.5, 1.0) for motion in (MOTION, FAST)}
+def run(cause: str, name: str, level: float, x: float | None = None, **constants: object) -> Run:
+    item, rng = formulation(cause, name), np.random.default_rng(1)
+    size = strength(rng, some_bench(), cause, name) if x is None else x
+    step = Hidden(item, size, {**item.draw(rng, some_bench()), "carried": False, "file": 0, "state": 0.5, **constants}).step
+    base = plain(level)
+    return finished(begun(base.record, base.motion, DAMPER) if item.stage == "setup" else copied(base), [step])
 
 
-def plain(level: float, motion: Motion = MOTION) -> Run:
-    return PLAIN[level, id(motion)]
-
-
-def rms(values: object) -> float:
-    return float(np.sqrt(np.mean(np.square(values))))
+def rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def work(some: Run) -> float:
@@ -48,99 +49,58 @@ def work(some: Run) -> float:
     return float(np.trapezoid(some.force * some.parts["velocity"], some.time))
 
 
-def test_nothing_hidden_is_the_models_force() -> None:
-    model = simulate(DAMPER.with_(oil_level=0.5, gas_preload=0), MOTION.stroke, MOTION.velocity, MOTION.time)
-    assert np.array_equal(plain(0.5).force, np.asarray(model.force))
+def test_of_a_block_of_seeds_every_case_is_hidden_once() -> None:
+    every, n = Counter(CASES), len(CASES)
+    assert every[()] == NOTHING
+    for first in (1, 1 + n):
+        assert Counter(case_of(seed) for seed in range(first, first + n)) == every
+    assert [case_of(seed) for seed in range(1, 1 + n)] != [case_of(seed) for seed in range(1 + n, 1 + 2 * n)]
 
 
-NOTHING: dict[str, dict[str, Any]] = {
-    "warm_oil": {"kelvin": 0.0}, "oil_column": {"stiffness": 1e12}, "late_valves": {"stroke": 1e-12},
-    "mixing": {"length": 1e-12}, "scale": {"rebound": 0.0, "compression": 0.0}, "bleed": {"rebound": 0.0, "compression": 0.0},
-    "preload": {"ratio": 1.0}, "residual": {"pressure": 0.0, "exponent": 1.0}, "play": {"play": 0.0},
-    "rubber_stop": {"onset": 0.05, "at_10mm": 1e3, "power": 1.5}, "side_load": {"extra": 0.0}, "all_levels": {"shift": 0.0},
-    "bent_rod": {"extra": 0.0, "overhang": 0.1}, "foam_front": {"front": 0.0}, "dissolving": {"rate": 0.0}, "film": {},
-    "offset": {}, "delay": {},
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("key", NOTHING)
-def test_a_strength_of_nothing_does_nothing(key: str) -> None:
+@pytest.mark.parametrize(("cause", "name"), [case[0] for case in SINGLES], ids=lambda word: word)
+def test_every_strength_of_practice_shows(cause: str, name: str) -> None:
+    change = 0.0
     for level in (0.5, 1.0):
-        assert rms(run(key, level, **NOTHING[key]).force - plain(level).force) < 1e-5 * rms(plain(level).force)
+        told = run(cause, name, level)
+        assert np.isfinite(told.force).all()
+        change += rms(told.force - plain(level).force) + 1e6 * rms(told.stroke - plain(level).stroke)
+        change += (told.unit != (1.0, 1.0)) + (told.stretch != 1.0) + (told.force_time is not None)
+    assert change > 0.5
 
 
-def test_a_hard_mount_is_none() -> None:
-    hard = finished(begun(plain(0.5).record, MOTION, DAMPER), [Step("setup", lambda r: setattr(r, "mount", Mount(1e12)))])
-    assert rms(hard.force - plain(0.5).force) < 1e-3 * rms(plain(0.5).force)
+def test_all_names_are_of_a_cause_of_their_own() -> None:
+    assert {cause for case in CASES for cause, _ in case} == set(PRACTICE)
+    assert all(needs([formulation(*part)]) is not None for case in CASES for part in case)
 
 
-def test_causes_have_their_signs() -> None:
-    """Less work with warm oil and worn valves, more with friction; more gas pushes the rod out."""
-    for level in (0.5, 1.0):
-        some: list[tuple[str, dict[str, float]]] = [
-            ("warm_oil", {"kelvin": 30.0}), ("scale", {"rebound": 0.2, "compression": 0.0}),
-            ("bleed", {"rebound": 0.1, "compression": 0.0}), ("heating", {"capacity": 100.0, "cooling": 200.0}),
-        ]  # fmt: skip
-        some += [("late_valves", {"stroke": 8e-3})] if level == 1.0 else []  # without oil there is no force at the reversal
-        for key, values in some:
-            assert work(run(key, level, **values)) < 0.998 * work(plain(level)), key
-        for key, values in (("side_load", {"extra": 100.0}), ("bent_rod", {"extra": 100.0, "overhang": 0.2})):
-            assert work(run(key, level, **values)) > 1.005 * work(plain(level)), key
-    assert np.mean(run("preload", 1.0, ratio=1.6).force) < np.mean(plain(1.0).force) - 10.0
-    assert np.mean(run("residual", pressure=2e5, exponent=1.2).force) < np.mean(plain(0.5).force) - 10.0
+def test_a_warm_damper_does_less_work_and_its_gas_presses_more() -> None:
+    warm = run("oil_temperature", "warm", 1.0, 30.0)
+    assert work(warm) < 0.998 * work(plain(1.0))
+    assert np.mean(warm.parts["gas"]) / np.mean(plain(1.0).parts["gas"]) == pytest.approx(1.0 + 30.0 / 296.15)
 
 
-def test_oil_decides_the_work() -> None:
-    assert work(run("all_levels", shift=0.06)) > work(plain(0.5))
-    assert work(run("film", film=2e-6)) < work(plain(0.5))
-    assert work(run("tilted", height=0.01)) != work(plain(0.5))
+def test_a_clamp_pulls_with_its_acceleration_and_takes_no_work() -> None:
+    base, loose = plain(1.0), run("clamp_inertia", "clamp", 1.0, 4.0)
+    pull = loose.force - base.force
+    assert pull == pytest.approx(4.0 * np.gradient(base.motion.velocity, base.time))
+    assert abs(np.trapezoid(pull * base.motion.velocity, base.time)) < 1e-3 * work(base)
 
 
-def test_a_leak_is_carried_to_the_next_record_of_a_state() -> None:
-    steps = SIZES["film"].steps({"film": 2e-6})
-    records = [Record(str(i), i, "harmonic", 1.0, True, 20.0, 20.0 * i) for i in range(2)]
-    first, second = (finished(begun(record, MOTION, DAMPER), steps) for record in records)
-    assert first.damper.parameters.oil_level == 1.0
-    lost = 2e-6 * np.abs(np.diff(MOTION.stroke)).sum() / DAMPER.parameters.V_oil
-    assert 1.0 - second.damper.parameters.oil_level == pytest.approx(lost, rel=0.1)
+def test_a_wrong_rate_is_in_the_times_of_all_channels() -> None:
+    fast, bench = run("time_base", "header", 1.0, 0.05, sign=1.0), some_bench()
+    told = [
+        logged(sampled(r, bench.recorder), r, bench, sigma=1.0, step=0.1, rng=np.random.default_rng(1))
+        for r in (plain(1.0), fast)
+    ]
+    assert told[1]["time [s]"] == pytest.approx(1.05 * told[0]["time [s]"])
+    assert np.array_equal(told[1]["force [N]"], told[0]["force [N]"])
 
 
-def test_an_oil_column_is_late_a_stop_at_the_end_and_play_leaves_the_damper_behind() -> None:
-    late = run("oil_column", 1.0, stiffness=4e5)
-    assert work(late) < work(plain(1.0))
-    stop = run("rubber_stop", onset=0.035, at_10mm=2000.0, power=1.5)
-    touched = np.abs(stop.force - plain(0.5).force) > 1.0
-    assert touched.any() and stop.stroke[touched].min() > 0.035
-    loose = run("play", play=1e-3)
-    assert np.abs(loose.stroke - loose.parts["stroke"]).max() == pytest.approx(0.5e-3, rel=0.05)
-    assert np.mean(loose.force == 0.0) > 0.02
-
-
-def test_of_sixty_seeds_every_case_is_hidden_once() -> None:
-    every = Counter((case.kind, case.keys) for case in CASES)
-    assert len(CASES) == 60
-    for first in (1, 61):
-        assert Counter((case.kind, case.keys) for case in map(case_of, range(first, first + 60))) == every
-    assert [case_of(seed).keys for seed in range(1, 61)] != [case_of(seed).keys for seed in range(61, 121)]
-
-
-def test_every_strength_of_practice_changes_a_channel() -> None:
-    assert {key for case in CASES for key in case.keys} == set(SIZES)
-    day, draw = plan_day(1, Wish(states=2, low=True, wide=True)), np.random.default_rng(1)
-    for key, size in SIZES.items():
-        values = size.draw(draw, day) | ({"record": 1} if key == "odd" else {"level": 0.5} if key == "one_level" else {})
-        values |= {"onset": 0.035} if key in ("rubber_stop", "foam_bump") else {}
-        runs = [run(key, level, FAST, **values) for level in (0.5, 1.0)]
-        assert all(np.isfinite(some.force).all() for some in runs), key
-        change = sum(rms(some.force - plain(level, FAST).force) for some, level in zip(runs, (0.5, 1.0), strict=True))
-        stretched = runs[0].stretch != 1.0 or not np.array_equal(runs[0].stroke, FAST.stroke)
-        assert change > 0.01 or stretched, key
-
-
+@pytest.mark.slow  # campaigns at full rate
 def test_a_dataset_is_readable_and_repeats(tmp_path: Path) -> None:
-    truths = [write(7, tmp_path / name) for name in "ab"]
-    assert truths[0] == truths[1] and truths[0]["causes"] == list(case_of(7).causes)
+    seed = next(seed for seed in range(1, 60) if case_of(seed) == (("force_offset", "all"),))
+    truths = [workshop(seed, tmp_path / name) for name in "ab"]
+    assert truths[0] == truths[1] and truths[0]["causes"] == ["force_offset"] and truths[0]["format"] in LAYOUTS
     for file in (tmp_path / "a" / "dataset").iterdir():
         assert file.read_bytes() == (tmp_path / "b" / "dataset" / file.name).read_bytes()
-    dataset = load_dataset(tmp_path / "a" / "dataset")
-    assert all(np.ptp(record.stroke) > 0.01 for record in dataset.records)
+    assert all(np.ptp(record.stroke) > 0.01 for record in load_dataset(tmp_path / "a" / "dataset").records)

@@ -1,15 +1,17 @@
 from collections.abc import Callable
 from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from twintube.data import Record
+from twintube.data import Record, load_dataset
 from twintube.diagnosis.measurement.line import peaks, unrepeated
 from twintube.diagnosis.measurement.signature import signatures
-from worlds.blind_trials.trials import dataset, trial
 
+EXAMPLES = Path(str(files("twintube.examples")))
 AMPLITUDE = 0.045
 VELOCITIES = (0.1, 0.2, 0.4, 0.7, 1.1, 1.5)
 
@@ -191,5 +193,5 @@ def test_a_slow_rise_is_no_play() -> None:
     assert names(changed(bench(0.01), soft)) == []
 
 
-def test_a_trial() -> None:
-    assert names(dataset(trial("fluid_lag", 5, blocks=(0.262, 0.524, 1.048))).records) == []
+def test_the_example() -> None:
+    assert names(load_dataset(EXAMPLES / "bench_SA8").records) == []

@@ -170,3 +170,20 @@ def test_bad_input_is_refused():
     for time, stroke, oil in ((t, z * 10, 1.0), (t[::-1], z, 1.0), (t, z, 0.0), (t, z, 1.5), (t, z[:-1], 1.0)):
         with pytest.raises(ValueError):
             run(DAMPER, time, stroke, oil)
+
+
+def test_a_leak_takes_what_the_rod_carries_out():
+    damper = virtual_damper("SA8", leak=2e-5)
+    r = run(damper, *sine(0.524))
+    out = np.maximum(np.diff(r.stroke), 0.0).sum()
+    assert damper.V_oil - r.oil[:, -1].sum() == pytest.approx(2e-5 * out, rel=1e-3)
+    assert (r.dissolved_gas.sum(0)[-1] + r.free_gas.sum(0)[-1]) < (r.dissolved_gas + r.free_gas).sum(0)[0]
+
+
+def test_foam_of_a_run_before_makes_the_force_soft_until_it_has_risen():
+    foamy = run(virtual_damper("SA8", foam=0.05), *sine(0.524, 8))
+    conserves(foamy)
+    missing = 1.0 - works(foamy) / works(record(0.524, count=8))
+    assert missing[0] > 0.02
+    assert missing[-1] < 0.7 * missing[0]
+    assert foamy.bubbles[:2, 0].sum() > 0.0

@@ -196,16 +196,6 @@ def test_figures_of_a_world() -> None:
     json.dumps(scored, allow_nan=False)
 
 
-def test_what_a_careful_bench_cannot_exclude_and_late_samples_are_counted_apart() -> None:
-    right = says("cause", {"oil_temperature": 1.0}, ["oil_temperature"])
-    sizes = [(0.1, None), (0.8, 0.4), (0.8, 1.4)]
-    rows = [pair(Truth("w", 1, "", "effect", ("oil_temperature",), (), 3.0, beyond, late), right) for beyond, late in sizes]
-    groups = score(rows)["worlds"]["w"]
-    assert groups["effect of 2 of the noise or more"]["named alone and right"]["of"] == 3
-    assert groups["beyond a careful bench"]["named alone and right"]["of"] == 2
-    assert groups["the same, no delay below a sample"]["named alone and right"]["of"] == 1
-
-
 def truth_file(folder: Path, **entries: Any) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     content = {"world": "w", "seed": 1, "damper": "SA8", "kind": "none", "causes": ["none"], "effect_over_noise": 0.0}

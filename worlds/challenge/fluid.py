@@ -76,7 +76,18 @@ def walther(T: Array, nu_40: float, nu_100: float) -> Array:
 
 def laminar_fade(run: Run, x: float, c: Constants) -> None:
     """Walther's viscosity on the laminar share of the drop, the density on the rest."""
-    T = acting(run, x, c)
+    thinned(run, acting(run, x, c), c)
+
+
+def warm(run: Run, x: float, c: Constants) -> None:
+    """The damper was `x` [K] warmer than the room all the time; the gas presses by its absolute temperature."""
+    thinned(run, np.full(len(run.time), ROOM + x), c)
+    if run.record.preload:
+        run.times("gas", 1.0 + x / (ROOM + KELVIN))
+
+
+def thinned(run: Run, T: Array, c: Constants) -> None:
+    """The fluid force at temperatures [degC] (n,)."""
     share = 1.0 / (1.0 + np.abs(run.parts["velocity"]) / c["v_turbulent"])
     thin = walther(T, c["nu_40"], c["nu_100"]) / walther(np.array([ROOM]), c["nu_40"], c["nu_100"])
     run.times("fluid", share * thin + (1.0 - share) * (1.0 - 7e-4 * (T - ROOM)))

@@ -134,3 +134,8 @@ def cubic_mount(run: Run, x: float, c: Constants) -> None:
 def filled_rubber(run: Run, x: float, c: Constants) -> None:
     """Rubber with filler: stiffer at small amplitude by its internal friction (Payne, as Berg models it)."""
     run.mount = Mount(1.0 / x, damping=0.3 * c["loss"] / x, friction=c["friction"] * 500.0, half_way=c["half_way"])
+
+
+def inertia(run: Run, x: float, c: Constants) -> None:
+    """A clamp of `x` [kg] moves between load cell and damper."""
+    run.plus("gas", x * np.gradient(run.parts["velocity"], run.time))

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from twintube.core.variables import Parameters
 from twintube.dampers import load
 from twintube.fitting.parameters import DEGRADATION, ranges
 from worlds.challenge.fluid import ATMOSPHERE
@@ -46,7 +45,7 @@ def foam_drainage(run: Run, x: float, c: Constants) -> None:
 
 
 def dissolving(run: Run, x: float, c: Constants, *, henry: bool = False) -> None:
-    """Freed gas dissolves at the rate `x` [1/s]."""
+    """Freed gas dissolves at the rate `x` [1/s]; after Henry that at ambient pressure, growing with the pressure."""
 
     def act(m: Moment) -> None:
         reserve = max(0.0, float(m.d["V_reserve"] - m.s["V3_oil"] - m.s["V3_foam"]))
@@ -63,11 +62,6 @@ def dissolving(run: Run, x: float, c: Constants, *, henry: bool = False) -> None
         m.s["V_cav"] -= sum(parts)
 
     run.acts.append(act)
-
-
-def dissolving_under_pressure(run: Run, x: float, c: Constants) -> None:
-    """As `dissolving`, the rate `x` [1/s] at ambient pressure growing with the pressure (Henry)."""
-    dissolving(run, x, c, henry=True)
 
 
 def lose_before(run: Run, per_second: float) -> None:
@@ -106,14 +100,14 @@ def level_wrong(run: Run, x: float, c: Constants) -> None:
         run.damper = run.damper.with_(oil_level=min(max(run.record.level + c["sign"] * x, EMPTIEST), FULLEST))
 
 
-def drawn_parameters(rng: np.random.Generator, old: Parameters) -> dict[str, Any]:
+def drawn_parameters(rng: np.random.Generator) -> dict[str, Any]:
     """Three to seven of the fourteen degradation parameters, drawn in their ranges."""
     names = rng.choice(DEGRADATION, int(rng.integers(3, 8)), replace=False)
     bounds = dict(zip(DEGRADATION, ranges(DEGRADATION, 1.572), strict=True))
     return {"changed": {str(n): float(rng.uniform(*bounds[n])) for n in names}}
 
 
-def borrowed_parameters(rng: np.random.Generator, old: Parameters) -> dict[str, Any]:
+def borrowed_parameters(rng: np.random.Generator) -> dict[str, Any]:
     """All degradation parameters of another damper."""
     other = load(f"SA{int(rng.integers(1, 9))}").parameters
     return {"changed": {n: getattr(other, n) for n in DEGRADATION}}

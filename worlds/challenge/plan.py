@@ -1,5 +1,6 @@
 """What a test engineer would have decided before the campaign: damper, states, velocities, motion, sampling, noise."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,7 @@ RATES = (100.0, 128.0, 200.0, 250.0, 256.0, 300.0, 500.0, 512.0, 1000.0, 1024.0,
 MOST_SAMPLES = 300_000  # of a dataset
 MOST_RECORDS = 20
 SAMPLINGS = ("point", "mean", "filtered")
-FORMATS = ("csv", "parquet", "german", "tabs")
+FORMATS = ("csv", "parquet", "german", "tabs")  # that hold any column
 STYLES = ("amplitude", "frequency", "triangle", "sweep", "random")
 HARMONIC = ("amplitude", "frequency")
 ONE_KIND = 0.12  # share of the campaigns with the intact state alone, and of those without it
@@ -145,7 +146,7 @@ def orders_for(damper: Damper, style: str, cut: bool, needs: frozenset[str], rng
     return orders, reach
 
 
-def bench_for(needs: frozenset[str], cut: bool | None, rng: RNG) -> Bench:
+def bench_for(needs: frozenset[str], cut: bool | None, rng: RNG, formats: Sequence[str] = FORMATS) -> Bench:
     """A campaign that can show a cause with these needs; `cut` None draws whether the preconditioning is in the files."""
     damper = damper_for(needs, rng)
     styles = HARMONIC if needs & {"sine", "single_speed"} else STYLES
@@ -185,6 +186,6 @@ def bench_for(needs: frozenset[str], cut: bool | None, rng: RNG) -> Bench:
         noise=span(rng, 0.003, 0.03), by_record=chance(rng, 0.3),
         colour=float(rng.choice([0.0, 0.0, 0.0, rng.uniform(0.5, 0.9)])), zero=rng.uniform(0.0, 0.003),
         bits=int(rng.choice([12, 14, 16, 16])), stroke_noise=float(rng.choice([0.0, 2e-6, 1e-5])),
-        format=str(rng.choice(FORMATS)), temperatures=given, velocity_column=chance(rng, 0.15),
+        format=str(rng.choice(formats)), temperatures=given, velocity_column=chance(rng, 0.15),
         volumes=chance(rng, 0.2), milliseconds=chance(rng, 0.2),
     )  # fmt: skip

@@ -1,10 +1,15 @@
-"""Records of the wrong state, setting or damper; the other faults of the measurement are those of the bench."""
+"""A wrong rate, and records of the wrong state, setting or damper; the other faults are those of the bench."""
 
 from twintube.dampers import Damper, load
 from worlds.model.march import march
 from worlds.model.run import Constants, Run
 
 LOWEST, HIGHEST = 0.25, 0.97  # oil levels [1] of a wrong state
+
+
+def stretched(run: Run, x: float, c: Constants) -> None:
+    """Another rate than the one in the header, in all channels alike."""
+    run.stretch = 1.0 + c["sign"] * x
 
 
 def odd_state(run: Run, x: float, c: Constants) -> None:

@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from twintube.dampers import load, names
-from worlds.bench.files import FORCE, LAYOUTS, STROKE, TIME, write_dataset, write_truth
+from worlds.bench.files import FORCE, LAYOUTS, STROKE, TIME, told, write_dataset, write_truth
 from worlds.bench.plan import RNG, chance
 from worlds.imperfect.bench import AMPLITUDES, SPEEDS, Bench, Fault, Test, draw_bench, road, sine, triangle
 from worlds.imperfect.causes import CAUSES, Cause
@@ -48,18 +48,26 @@ def programme(rng: RNG, law: Law, bench: Bench, count: int) -> list[Test]:
     return motions + [sine(bench, float(v), amplitude) for v in left]
 
 
-def truth(world: str, seed: int, name: str, off: float, *, law: Law, bench: Bench, state: State) -> dict[str, Any]:
-    """What both worlds tell."""
-    level = state.oil_level if state.oil_level_end is None else state.oil_level_end  # what is left at the end
-    return {
-        "world": world, "seed": seed, "damper": name, "kind": "none", "causes": ["none"], "also_fits": [], "parameters": {},
-        "source": "", "oil_level": level, "gas_preload": bool(state.gas_preload), "off_percent": off,
-        "effect_over_noise": 0.0, "noise_N": bench.noise_rms, "bench": asdict(bench),
-        "law": {
-            **{key: law.scale * value for key, value in law.traits.items()}, "lag_s": law.scale * law.lag,
-            "lag_order": law.order, "smoothing_m": law.smoothing, "viscosity_per_K": law.viscosity,
-        },
+def truth(world: str, seed: int, name: str, *, level: float, preload: bool, bench: Bench) -> dict[str, Any]:
+    """What all these worlds tell where nothing is hidden; `level` is what is left at the end."""
+    more = {"parameters": {}, "source": "", "oil_level": level, "gas_preload": preload, "effect_over_noise": 0.0,
+            "noise_N": bench.noise_rms, "bench": asdict(bench)}  # fmt: skip
+    return told(world, seed, name, ["none"], kind="none", more=more)
+
+
+def of_cause(cause: Cause, drawn: dict[str, Any], after: list[Recording], bench: Bench) -> dict[str, Any]:
+    """What they tell of a cause in the later records."""
+    names = {"kind": cause.kind, "causes": [cause.name], "also_fits": list(cause.also), "source": cause.source}
+    return {**names, "parameters": drawn, "effect_over_noise": over_noise(after, bench)}
+
+
+def of_specimen(law: Law, off: float, kernel: str) -> dict[str, Any]:
+    """What they tell of the specimen."""
+    own = {
+        **{key: law.scale * value for key, value in law.traits.items()}, "lag_s": law.scale * law.lag,
+        "lag_order": law.order, "smoothing_m": law.smoothing, "viscosity_per_K": law.viscosity,
     }  # fmt: skip
+    return {"off_percent": off, "law": own, "kernel": kernel}
 
 
 def level_over_noise(recordings: list[Recording], bench: Bench) -> float:
@@ -86,16 +94,17 @@ def unknown_fill(seed: int) -> World:
     day = draw_day(rng)
     damper = specimen_on(rng, law, bench, day, count=len(motions), state=state, fault=Fault(), levels=levels)
     recordings = session(rng, bench, day, motions, Fault(), damper=damper, reference=False)
-    told = truth("unknown_fill", seed, name, off, law=law, bench=bench, state=state) | {"kernel": kernel}
+    facts = truth("unknown_fill", seed, name, level=level, preload=bool(state.gas_preload), bench=bench)
+    facts |= of_specimen(law, off, kernel)
     if state != State():
-        told |= {"kind": "state", "causes": ["state"], "effect_over_noise": over_noise(recordings, bench)}
-        told["parameters"] = {"oil_level": level, "gas_preload": state.gas_preload}
-    told["level_over_noise"] = level_over_noise(recordings, bench)
-    told["level_seen"] = told["level_over_noise"] > 1.0
+        facts |= {"kind": "state", "causes": ["state"], "effect_over_noise": over_noise(recordings, bench)}
+        facts["parameters"] = {"oil_level": level, "gas_preload": state.gas_preload}
+    facts["level_over_noise"] = level_over_noise(recordings, bench)
+    facts["level_seen"] = facts["level_over_noise"] > 1.0
     wrong = bool(rng.random() < STATED_WRONGLY)
     if not wrong:  # of a fill that nobody has stated, the state and "nothing has changed" are the same answer
-        told["also_fits"] = ["none" if told["kind"] == "state" else "state"]
-    return World(name, bench, (wrong, wrong), recordings, told | {"stated_as_full": wrong})
+        facts["also_fits"] = ["none" if facts["kind"] == "state" else "state"]
+    return World(name, bench, (wrong, wrong), recordings, facts | {"stated_as_full": wrong})
 
 
 def tared_cell(seed: int) -> World:
@@ -137,12 +146,12 @@ def before_after(seed: int) -> World:
     before = session(rng, bench, days[0], first, Fault(), damper=new, reference=True)
     used = specimen_on(rng, law, bench, days[1], count=len(later), state=state, fault=fault)
     after = session(rng, bench, days[1], later, fault, damper=used, reference=False)
-    told = truth("before_after", seed, name, off, law=law, bench=bench, state=state) | {"kernel": kernel}
-    if cause is not None:
-        told |= {"kind": cause.kind, "causes": [cause.name], "also_fits": list(cause.also), "source": cause.source}
-        told |= {"parameters": drawn, "effect_over_noise": over_noise(after, bench)}
+    level = state.oil_level if state.oil_level_end is None else state.oil_level_end
+    facts = truth("before_after", seed, name, level=level, preload=bool(state.gas_preload), bench=bench)
+    facts |= of_specimen(law, off, kernel)
+    facts |= {} if cause is None else of_cause(cause, drawn, after, bench)
     wrong = bool(rng.random() < STATED_WRONGLY)
-    return World(name, bench, (True, wrong), [*before, *after], told | {"stated_as_full": wrong})
+    return World(name, bench, (True, wrong), [*before, *after], facts | {"stated_as_full": wrong})
 
 
 def write(world: World, output: Path) -> None:

@@ -6,24 +6,17 @@ Without a cache on disk, which would not see a change of the kernel.
 import ast
 from functools import cache
 from types import ModuleType
-from typing import Any
 
 from twintube.core import sources
 from twintube.core.variables import FV_POINTS
-
-
-def njit(function: Any) -> Any:
-    """Compiled by numba."""
-    import numba
-
-    return numba.njit(error_model="numpy", nogil=True)(function)
+from worlds.bench.plan import with_numba
 
 
 @cache
 def kernel() -> ModuleType:
     """The functions of the kernel's files, without their types; records are rows of structured arrays."""
     module = ModuleType("kernel")
-    vars(module).update(FV_POINTS=FV_POINTS, njit=njit)
+    vars(module).update(FV_POINTS=FV_POINTS, njit=with_numba)
     parts = ["import math"]
     for text in sources.kernel_texts().values():
         for node in ast.parse(text).body:

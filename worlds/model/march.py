@@ -15,7 +15,8 @@ from twintube.core.publishing import NAMES as COLUMNS
 from twintube.dampers import Damper
 from twintube.engine import compiled
 from twintube.engine.simulate import at_rest, rows
-from worlds.model.kernel import kernel, njit
+from worlds.bench.plan import with_numba as njit
+from worlds.model.kernel import kernel
 
 # Between two acts upon the volumes, whichever takes longer: a time [s], or a stroke [m] that a long time at rest cuts short.
 CHUNK, WAY, LONG = 0.004, 0.002, 0.05
@@ -33,7 +34,6 @@ class Moment:
     d: Any
     dt: float  # [s]
     out: float  # [m] of stroke out of the damper
-    way: float  # [m] both ways
     speed: float  # [m/s] mean size
     fluid: float  # [N] mean force of the fluid
     size: float  # [N] mean size of that force
@@ -99,22 +99,13 @@ def in_chunks(damper: Damper, t: Array, z: Array, v: Array, acts: Sequence[Act],
     for last in cuts:
         low = max(0, first - 1)
         block = np.empty((last - low, len(COLUMNS)))
-        done = run(
-            p,
-            d,
-            s,
-            f,
-            t[low:last],
-            z[low:last].copy(),
-            v[low:last].copy(),
-            np.full(last - low, damper.parameters.T_curve),
-            block,
-        )
+        warm = np.full(last - low, damper.parameters.T_curve)
+        done = run(p, d, s, f, t[low:last], z[low:last].copy(), v[low:last].copy(), warm, block)
         out[first:last] = block[first - low :]
         if done < last - low:
             return int(low + done)
         steps, fluid = np.diff(z[low:last]), block[:, COLUMNS.index("F_fluid")]
-        moment = Moment(s, d, float(t[last - 1] - t[low]), float(steps[steps > 0.0].sum()), float(np.abs(steps).sum()),
+        moment = Moment(s, d, float(t[last - 1] - t[low]), float(steps[steps > 0.0].sum()),
                         float(np.abs(v[low:last]).mean()), float(fluid.mean()), float(np.abs(fluid).mean()))  # fmt: skip
         for act in acts:
             act(moment)

@@ -31,7 +31,6 @@ class Run(Channels):
     damper: Damper  # its true parameters and state
     acts: list[Act] = field(default_factory=list)
     mount: Mount | None = None
-    path: Array | None = None  # [m] stroke of the damper where it is not the rig's
     parts: dict[str, Array] = field(default_factory=dict)  # of the march
 
     @property
@@ -73,9 +72,8 @@ def finished(run: Run, steps: Sequence[Step] = ()) -> Run:
         if step.stage == "setup":
             step.act(run)
     if not run.parts:
-        z, m = run.motion.stroke if run.path is None else run.path, run.motion
-        v = m.velocity if run.path is None else np.gradient(z, m.time)
-        run.parts = march(run.damper, m.time, z, v, run.acts, mount=run.mount)
+        m = run.motion
+        run.parts = march(run.damper, m.time, m.stroke, m.velocity, run.acts, mount=run.mount)
         run.stroke = m.stroke
     for step in steps:
         if step.stage == "forces":

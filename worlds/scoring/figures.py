@@ -53,16 +53,6 @@ def resampled(values: Sequence[Any], statistic: Callable[[Array], float]) -> Fig
     return Figure(statistic(rows), float(low), float(high), len(rows))
 
 
-def mean(rows: Array) -> float:
-    """Mean."""
-    return float(np.mean(rows))
-
-
-def median(rows: Array) -> float:
-    """Median."""
-    return float(np.median(rows))
-
-
 def calibration_error(rows: Array) -> float:
     """Expected calibration error of rows (n, 2): largest probability, and 1 where its name is right."""
     bins = np.minimum((rows[:, 0] * BINS).astype(int), BINS - 1)
@@ -93,7 +83,7 @@ def of_fill(rows: Rows) -> Figures:
         "interval at most 0.1 wide, where the force tells the level": share(
             [p for p in told if p.truth.level_seen], marks.level_narrow
         ),
-        "log score of the level's density": resampled(scores, mean),
+        "log score of the level's density": resampled(scores, np.mean),
     })  # fmt: skip
 
 
@@ -123,18 +113,18 @@ def of_probabilities(rows: Rows) -> Figures:
     seconds = [p.answer.seconds for p in rows if p.answer.seconds is not None]
     worst = Figure(max(seconds), max(seconds), max(seconds), len(seconds)) if seconds else None
     return kept({
-        "log score": resampled([marks.log_score(p) for p in rows], mean),
-        "Brier score": resampled([marks.brier(p) for p in rows], mean),
+        "log score": resampled([marks.log_score(p) for p in rows], np.mean),
+        "Brier score": resampled([marks.brier(p) for p in rows], np.mean),
         "expected calibration error": resampled(tops, calibration_error),
         "the same by chance alone": by_chance(np.array(tops, dtype=float)) if tops else None,
         "named alone and right": share(rows, marks.right_alone),
         "wrong name alone": share(rows, marks.wrong_alone),
         "top-1": share(rows, marks.top_right),
         "truth in the 90 % set": share(rows, lambda p: marks.holds(p.answer.credible, p)),
-        "size of the set": resampled([len(p.answer.credible) for p in stated], mean),
+        "size of the set": resampled([len(p.answer.credible) for p in stated], np.mean),
         "contradictions": share(rows, lambda p: bool(contradictions(p.answer))),
         "no answer": share(rows, lambda p: not p.answer.given),
-        "seconds, median": resampled(seconds, median),
+        "seconds, median": resampled(seconds, np.median),
         "seconds, worst": worst,
     })  # fmt: skip
 
@@ -144,17 +134,12 @@ def groups(rows: Rows) -> dict[str, Figures]:
     told = [p for p in rows if not marks.fill_alone(p)]  # of causes
     hidden = [p for p in told if p.truth.kind != "none" and p.truth.effect_over_noise is not None]
     sizes = [(p, p.truth.effect_over_noise or 0.0) for p in hidden]
-    beyond = [p for p in hidden if p.truth.effect_beyond_bench is not None and p.truth.kind != "outside"]
-    beyond = [p for p in beyond if min(p.truth.effect_beyond_bench or 0.0, p.truth.effect_over_noise or 0.0) >= SMALL]
-    late = [p for p in beyond if p.truth.late_samples is None or p.truth.late_samples >= 1.0]
     found = {
         "unknown fill": of_fill(rows),
         "nothing hidden": of_nothing(told),
         f"effect of {CLEAR:g} of the noise or more": of_causes([p for p, size in sizes if size >= CLEAR]),
         f"effect of {SMALL:g} of the noise or more": of_causes([p for p, size in sizes if size >= SMALL]),
         f"effect below {SMALL:g} of the noise": of_causes([p for p, size in sizes if size < SMALL]),
-        "beyond a careful bench": of_causes(beyond),
-        "the same, no delay below a sample": of_causes(late) if len(late) < len(beyond) else {},
         "all": of_probabilities(told),
     }
     return {name: figures for name, figures in found.items() if figures}

@@ -29,8 +29,6 @@ class Truth:
     causes: tuple[str, ...]  # `none`, one name, or two that act at once
     also_fits: tuple[str, ...] = ()  # other names for the same in a reader's catalogue
     effect_over_noise: float | None = None  # RMS of the change of force over that of the noise
-    effect_beyond_bench: float | None = None  # the same without what no careful bench can exclude
-    late_samples: float | None = None  # of what makes the force late, in sample periods
     oil_level: float | None = None  # [1] of the later records, at their end
     gas_preload: bool | None = None
     stated_as_full: bool | None = None  # whether the file calls that state full with preload; else it tells nothing
@@ -86,9 +84,7 @@ def truth_of(entry: Mapping[str, Any], place: str) -> Truth:
         world=str(entry.get("world", "")), seed=int(entry.get("seed", -1)), damper=str(entry.get("damper", "")), kind=kind,
         causes=causes, also_fits=texts(entry, "also_fits", place), oil_level=number(entry, "oil_level", place),
         gas_preload=flag(entry, "gas_preload", place), stated_as_full=flag(entry, "stated_as_full", place),
-        level_seen=flag(entry, "level_seen", place), late_samples=number(entry, "late_samples", place),
-        effect_over_noise=number(entry, "effect_over_noise", place),
-        effect_beyond_bench=number(entry, "effect_beyond_bench", place),
+        level_seen=flag(entry, "level_seen", place), effect_over_noise=number(entry, "effect_over_noise", place),
     )  # fmt: skip
 
 

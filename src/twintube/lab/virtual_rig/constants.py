@@ -55,3 +55,5 @@ class Constants(NamedTuple):
     v_stribeck: float  # [m/s]
     bristle: float  # [N/m]
     viscous: float  # [N s/m]
+    leak: float  # [m2] oil that the rod carries out past its seal, per stroke out
+    foam: float  # [1] share of both working chambers that is bubbles at the start

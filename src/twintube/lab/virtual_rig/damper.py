@@ -17,6 +17,7 @@ FULLEST = 0.65
 # Pressure drop of the foot valve relative to the piston's in compression, at the two velocities: the lowest values without
 # cavitation in the rebound chamber with preload. Without preload the chamber is not filled.
 FOOT_TO_PISTON = (1.25, 0.85)
+PAST = 0.15  # [1] share of the flow that leaks past the piston
 WEAKEST = 0.2 * BAR  # [Pa] lowest opening pressure of a check valve, so that its spring closes it; assumed
 
 
@@ -81,6 +82,8 @@ class VirtualDamper:
     v_stribeck: float = 0.02  # [m/s]
     bristle: float = 2e5  # [N/m]
     viscous: float = 5.0  # [N s/m]
+    leak: float = 0.0  # [m2] oil that the rod carries out past its seal, per stroke out
+    foam: float = 0.0  # [1] share of both working chambers that is bubbles at the start, of a fast run before
 
     @property
     def A_2(self) -> float:
@@ -157,10 +160,10 @@ def virtual_damper(
     return replace(damper, overhang=max(OVERHANG, damper.reserve_oil / (FULLEST * damper.A_3) - damper.h_l))
 
 
-def sized(D_PR: float, D_li: float, forces: Forces, leak: float = 0.15) -> dict[str, float]:
+def sized(D_PR: float, D_li: float, forces: Forces) -> dict[str, float]:
     """Valves with which the damper reaches the `forces` [N], as a damper designer sizes them.
 
-    The bleeds and the leak past the piston, a share `leak` [1] of the flow, carry the lower velocity; the blow-off valves
+    The bleeds and the leak past the piston, a share of the flow, carry the lower velocity; the blow-off valves
     open there and carry the rest at the higher one. In compression both valves share the force. A piston valve that would
     have to be open at rest has the weakest spring; the force at the lower velocity is then higher than specified.
     """
@@ -176,8 +179,8 @@ def sized(D_PR: float, D_li: float, forces: Forces, leak: float = 0.15) -> dict[
     down = [F / A_1 for F in rebound]
     piston = [F / (A_1 + ratio * A_rod) for F, ratio in zip(compression, FOOT_TO_PISTON, strict=True)]
     foot = [ratio * dp for dp, ratio in zip(piston, FOOT_TO_PISTON, strict=True)]
-    gap = leak * slow / down[0]  # [m/(Pa s)]
-    bleed = area((1 - leak) * slow, down[0])
+    gap = PAST * slow / down[0]  # [m/(Pa s)]
+    bleed = area((1 - PAST) * slow, down[0])
     foot_bleed = area(slow, foot[0])
     check_slope = (area(fast, piston[1]) - area(slow, piston[0])) / (piston[1] - piston[0])
     check_crack = max(piston[0] - (area(slow, piston[0]) - bleed) / check_slope, WEAKEST)

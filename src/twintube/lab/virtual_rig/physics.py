@@ -206,6 +206,9 @@ def rates(z: float, v: float, y: Vector, dy: Vector, c: Constants) -> None:
     if p_1 > p_3:
         power += transfer(0, 2, c.rod_guide, c.guide_gap * thin, False, p_1, p_3, y, dy, c)
     drain(thin, y, dy, c)
+    leaked = c.leak * max(v, 0.0)
+    dy[OIL] -= leaked
+    dy[DISSOLVED] -= leaked * y[DISSOLVED] / (all_oil(0, y) + TINY)
     exchange(0, p_1, y, dy, c)
     exchange(1, p_2, y, dy, c)
     exchange(2, p_3, y, dy, c)

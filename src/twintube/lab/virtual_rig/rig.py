@@ -61,9 +61,11 @@ def initial_state(z: float, oil: float, temperature: float, c: Constants) -> Arr
     y = np.zeros(STATES)
     remaining = oil
     for i in (1, 0, 2):
-        y[OIL + i] = min(remaining, rooms[i] / (dense if i < 2 else 1.0))
+        froth = c.foam * rooms[i] if i < 2 else 0.0
+        y[OIL + i] = min(remaining, (rooms[i] - froth) / (dense if i < 2 else 1.0))
         remaining -= y[OIL + i]
-        y[POCKET + i] = max(rooms[i] - y[OIL + i] * (dense if i < 2 else 1.0), 0.0) * p / P_0 / warm
+        y[BUBBLES + i] = froth * p / P_0 / warm
+        y[POCKET + i] = max(rooms[i] - froth - y[OIL + i] * (dense if i < 2 else 1.0), 0.0) * p / P_0 / warm
         y[DISSOLVED + i] = c.solubility * y[OIL + i] * p / P_0
     y[TEMPERATURE] = temperature
     return y
@@ -140,6 +142,6 @@ def check(damper: VirtualDamper, time: Array, stroke: Array, oil_level: float, c
     longest = 0.95 * damper.half
     if np.abs(stroke).max() > longest:
         raise ValueError(f"stroke {np.abs(stroke).max():.4f} m is beyond the end stops at {longest:.4f} m")
-    room = c.V_10 + c.V_20 - (c.A_2 - c.A_1) * np.abs(stroke).max() + 0.95 * c.V_3
+    room = (1.0 - c.foam) * (c.V_10 + c.V_20) - (c.A_2 - c.A_1) * np.abs(stroke).max() + 0.95 * c.V_3
     if not LOWEST <= oil_level <= room / damper.V_oil:
         raise ValueError(f"oil_level {oil_level}: must be from 0.05 to {room / damper.V_oil:.3f}")
