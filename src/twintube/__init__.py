@@ -6,12 +6,16 @@ harmonic_block  the excitation of the paper's test rig
 build_fmu       the damper as FMI 2.0 co-simulation FMU
 identify        the parameters from measured data
 diagnose        what state a damper is in, what has changed, and what the simulation lacks, from measured data
+plot            the picture of what simulate, identify and diagnose return, as does their own plot()
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from twintube.common.showing import DRAWS
+
 if TYPE_CHECKING:
+    from twintube.common.showing import Figure
     from twintube.dampers import Damper as Damper
     from twintube.dampers import ParameterError as ParameterError
     from twintube.dampers import load as load
@@ -39,7 +43,17 @@ HOMES = {
     "twintube.rig": ("Signal", "harmonic_block"),
     "twintube.version": ("__version__",),  # nor is there one before the package is installed
 }
-__all__ = [name for names in HOMES.values() for name in names]
+__all__ = [name for names in (*HOMES.values(), ("plot",)) for name in names]
+
+
+def plot(result: Any) -> "Figure":
+    """The picture of a result as a figure of pyplot; raises TypeError for what has none."""
+    from twintube.report.plot import picture
+
+    return picture(result)
+
+
+DRAWS.append(plot)
 
 if not TYPE_CHECKING:
 

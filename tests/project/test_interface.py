@@ -54,7 +54,10 @@ def test_a_simulation_draws_itself_where_pyplot_shows_it(result: twintube.Simula
     assert drawn is pyplot.gcf()
     assert {ax.get_xlabel() for ax in drawn.axes} == {"time [s]", "stroke [mm]", "velocity [m/s]"}
     assert all(re.search(r"\[.+\]", ax.get_ylabel()) for ax in drawn.axes)
+    assert len(twintube.plot(result).axes) == len(drawn.axes)
     pyplot.close("all")
+    with pytest.raises(TypeError, match="int has no picture"):
+        twintube.plot(3)
 
 
 def test_texts_of_results_are_short(result: twintube.Simulation) -> None:

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 import numpy as np
 
@@ -51,9 +51,9 @@ class SimulatedRecords:
     """Records laid end to end, and the damper that they drive.
 
     `starts` (r + 1,) where each record begins; `states` (r, 4) oil level, preload and factors of the gas; `t`, `z`, `v` (n,)
-    time, stroke and
-    velocity. `parts` are the steps of the model per interval; the forces behind a step that fails are `failed` [N].
-    `threads` serve several parameter sets at once, as the library releases the interpreter's lock.
+    time, stroke and velocity. `parts` are the steps of the model per interval; the forces behind a step that fails are
+    `failed` [N]. `threads` serve several parameter sets at once, as the library releases the interpreter's lock. Who makes
+    such records closes them: `with Objective(...) as objective`.
     """
 
     def __init__(self, damper: Damper, records: Sequence[Driven], *, parts: int, failed: float) -> None:
@@ -71,10 +71,17 @@ class SimulatedRecords:
         self.warm = np.concatenate([getattr(r, "warm", np.zeros(len(r.time))) for r in records])
         self.workers = os.cpu_count() or 1
         self.threads = ThreadPoolExecutor(self.workers)
-        # Records that run side by side are shared out by their samples; their own threads, as a set may wait for them.
-        self.runners = ThreadPoolExecutor(self.workers)
+        # Records that run side by side are shared out by their samples.
         shares = np.linspace(0, self.starts[-1], min(self.workers, len(records)) + 1)
         self.spans: list[int] = sorted({int(np.abs(self.starts - share).argmin()) for share in shares})
+
+    def __enter__(self) -> Self:
+        """For as long as its threads are needed."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the threads."""
+        self.threads.shutdown()
 
     def rows(self) -> list[Any]:
         """The compiled model's records with the given parameters; each thread needs its own."""
@@ -116,7 +123,11 @@ class SimulatedRecords:
             return int(compiled.module().run_means(*own, records, Means(*(x[a:b] for x in means))))
 
         ends = self.spans if side_by_side else [0, len(given)]
-        counts = list(self.runners.map(run, ends[:-1], ends[1:])) if len(ends) > 2 else [run(*ends)]
+        if len(ends) > 2:
+            with ThreadPoolExecutor(self.workers) as threads:  # not those of several sets, of which one may wait for these
+                counts = list(threads.map(run, ends[:-1], ends[1:]))
+        else:
+            counts = [run(*ends)]
         for first, last, count in zip(ends[:-1], ends[1:], counts, strict=True):
             if count < last - first:
                 for some in (means.force, means.point):

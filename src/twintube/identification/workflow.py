@@ -141,20 +141,22 @@ def identify_damper(  # noqa: PLR0913 - records of four kinds, and how they are 
         starts = [np.array([getattr(damper.parameters, name) for name in DEGRADATION])]
     # The third step leaves out foam, which its own records may hold, and the fourth cannot undo that.
     names = DEGRADATION
-    every = Objective(damper, names, degraded, with_work=True)
-    file, told = run.file(every), run.told(TOGETHER)
-    best = together(every, budget.together, seed=seed, starts=starts, journal=file, progress=told)
-    candidates = [run.kept(TOGETHER, every, best)]
-    fine = Objective(damper, names, degraded, with_work=True, samples=FINE)
-    candidates.append(polished(fine, candidates[0]))
-    x = candidates[int(np.argmin(fine(np.array(candidates))))]
-    # How far the sampling alone moves the optimum: an error that the noise does not show.
-    moved = np.abs(polished(every, x) - x)
-    every = every.corrected(fine, x)
-    intervals, related = estimates(
-        every, x, moved, walkers=budget.intervals[0], steps=budget.intervals[1], seed=seed, journal=run.file(every),
-        progress=run.told("intervals"),
-    )  # fmt: skip
+    with (
+        Objective(damper, names, degraded, with_work=True) as coarse,
+        Objective(damper, names, degraded, with_work=True, samples=FINE) as fine,
+    ):
+        file, told = run.file(coarse), run.told(TOGETHER)
+        best = together(coarse, budget.together, seed=seed, starts=starts, journal=file, progress=told)
+        candidates = [run.kept(TOGETHER, coarse, best)]
+        candidates.append(polished(fine, candidates[0]))
+        x = candidates[int(np.argmin(fine(np.array(candidates))))]
+        # How far the sampling alone moves the optimum: an error that the noise does not show.
+        moved = np.abs(polished(coarse, x) - x)
+        every = coarse.corrected(fine, x)
+        intervals, related = estimates(
+            every, x, moved, walkers=budget.intervals[0], steps=budget.intervals[1], seed=seed, journal=run.file(every),
+            progress=run.told("intervals"),
+        )  # fmt: skip
     return Identification(every.damper_at(x), run.steps, known + intervals, alike(intervals, related), offset, remarks)
 
 
@@ -202,13 +204,13 @@ class Searches:
         """The damper after the third and fourth step of the paper."""
         calm = [r for r in degraded if r.top_speed <= SLOW]
         if calm:
-            bare = Objective(damper.with_(**NO_FOAM, **NO_CAVITATION), TABLE_6, calm, with_work=False)
-            x = self.alone("Table 6", bare, budget.table_6)
+            with Objective(damper.with_(**NO_FOAM, **NO_CAVITATION), TABLE_6, calm, with_work=False) as bare:
+                x = self.alone("Table 6", bare, budget.table_6)
             damper = damper.with_(**dict(zip(TABLE_6, x.tolist(), strict=True)))
         else:
             remarks.append(f"no degraded record up to {SLOW} m/s: Table 6 is fitted together with the others")
-        full = Objective(damper, TABLES_7_8, degraded, with_work=True)
-        return full.damper_at(self.alone("Tables 7 and 8", full, budget.tables_7_8))
+        with Objective(damper, TABLES_7_8, degraded, with_work=True) as full:
+            return full.damper_at(self.alone("Tables 7 and 8", full, budget.tables_7_8))
 
 
 def journal_file(folder: Path | None, number: int, objective: Objective) -> Path | None:
