@@ -92,6 +92,13 @@ def test_imports_run_in_one_direction(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout
 
 
+def test_nothing_is_without_use() -> None:
+    """But for the names in pyproject.toml, with who uses them there."""
+    pytest.importorskip("vulture")
+    done = subprocess.run([sys.executable, "-m", "vulture"], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+
+
 def test_every_package_is_in_the_distribution_and_in_the_architecture() -> None:
     packages = {path.parent.relative_to(ROOT / "src") for path in (ROOT / "src" / "twintube").rglob("__init__.py")}
     listed = set(PROJECT["tool"]["setuptools"]["packages"])

@@ -43,15 +43,6 @@ def digits(value: float, resolution: float) -> str:
     return f"{value:.{max(0, min(decimals, most, 9))}f}"
 
 
-def with_interval(value: float, low: float, high: float, unit: str, share: bool = True) -> tuple[str, str]:
-    """Value and interval as text."""
-    name, factor = unit_of(unit, value, share)
-    numbers = [digits(x * factor, abs(high - low) * factor / 2) for x in (value, low, high)]
-    gap = f" {name}" if name else ""
-    span = f"{numbers[1]} to {numbers[2]}{gap}" if MISSING not in numbers[1:] else MISSING
-    return numbers[0] + gap, span
-
-
 def percent(value: float) -> str:
     """A share as text; only the whole is 100 %, and a gain far below zero is only called that."""
     if not math.isfinite(value):

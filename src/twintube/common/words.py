@@ -8,9 +8,10 @@ from typing import Any
 # Control characters but tab and line feed, line separators, what turns the direction of writing, what XML does not allow.
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
 LONGEST = 4000  # characters of a message's line
+LONG = 80  # of a name
 
 SHORT = reprlib.Repr()
-SHORT.maxlevel, SHORT.maxstring, SHORT.maxother, SHORT.maxlong = 2, 80, 80, 80
+SHORT.maxlevel, SHORT.maxstring, SHORT.maxother, SHORT.maxlong = 2, LONG, LONG, LONG
 
 
 def escaped(match: re.Match[str]) -> str:
@@ -37,9 +38,9 @@ def counted(number: int, word: str) -> str:
     return f"{number} {word}" if number == 1 else f"{number} {word}s"
 
 
-def short(text: str, most: int = 80) -> str:
+def short(text: str) -> str:
     """A name, its middle left out where it is long."""
-    return text if len(text) <= most else f"{text[: most // 2]}...{text[-most // 2 :]}"
+    return text if len(text) <= LONG else f"{text[: LONG // 2]}...{text[-LONG // 2 :]}"
 
 
 def listed(texts: Iterable[str], most: int = 20) -> str:

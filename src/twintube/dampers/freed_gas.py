@@ -16,7 +16,6 @@ from twintube.dampers.damper import Damper, ParameterError
 from twintube.dampers.variants import scalar_factor
 
 HALF_LIFE_RETURN: Final = (6.1, 10.2)  # [s] until half of the gas is dissolved again, Section 3.2
-HALF_LIFE_RELEASE: Final = (3.6, 7.6)  # [s] until half of the dissolved gas is released, Section 3.2
 SOLUBILITY: Final = (0.093, 0.113)  # gas per oil volume at ambient pressure, Section 3.2
 P_GAS: Final = 0.3  # [bar] absolute, at which the gas sits that `limited` counts (assumed)
 P_GASES: Final = (P_GAS, 0.5, 1.0)  # [bar] over which it is varied; 1 is that of an open reserve

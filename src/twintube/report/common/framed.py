@@ -81,7 +81,7 @@ def wrapped(text: str, size: float, width: float) -> list[str]:
     )
 
 
-def name_lines(ax: Axes, names: Iterable[tuple[float, str, str]], size: float = WORDS) -> None:
+def name_lines(ax: Axes, names: Iterable[tuple[float, str, str]]) -> None:
     """Write (height in data, text, colour) at the right of the axes, moved apart where they would overlap.
 
     For axes whose limits are final.
@@ -92,8 +92,8 @@ def name_lines(ax: Axes, names: Iterable[tuple[float, str, str]], size: float = 
     heights = ax.transAxes.inverted().transform(ax.transData.transform([(0.0, y) for y, _, _ in ordered]))[:, 1]
     figure = ax.get_figure(root=True)
     assert figure is not None
-    gap = inches(size) / (ax.get_position().height * figure.get_size_inches()[1])
+    gap = inches(WORDS) / (ax.get_position().height * figure.get_size_inches()[1])
     steps = gap * np.arange(len(ordered))
     apart = isotonic_regression(heights - steps).x + steps
     for y, (_, text, colour) in zip(apart.tolist(), ordered, strict=True):
-        ax.text(1.015, y, text, transform=ax.transAxes, color=colour, size=size, va="center", parse_math=False)
+        ax.text(1.015, y, text, transform=ax.transAxes, color=colour, size=WORDS, va="center", parse_math=False)

@@ -59,10 +59,10 @@ def canvas(rows: int = 1, columns: int = 1, size: tuple[float, float] = (10.0, 4
     return figure, axes
 
 
-def panels(names: Iterable[str], size: tuple[float, float] = (11.0, 6.2), **options: Any) -> tuple[Figure, dict[str, Axes]]:
+def panels(names: Iterable[str], **options: Any) -> tuple[Figure, dict[str, Axes]]:
     """Panels (a) to (h), one per damper, as in the paper."""
     listed = list(names)
-    figure, axes = canvas(2, (len(listed) + 1) // 2, size, **options)
+    figure, axes = canvas(2, (len(listed) + 1) // 2, (11.0, 6.2), **options)
     table = dict(zip(listed, axes.flat, strict=False))
     for letter, (name, ax) in zip("abcdefgh", table.items(), strict=False):
         title(ax, f"({letter}) {name}")

@@ -7,11 +7,6 @@ from twintube.core.effects import EFFECTS, Parameters
 from twintube.diagnosis.channels import FAULTS
 
 
-def is_share(effect: str, parameter: str) -> bool:
-    """Whether a dimensionless parameter is shown in percent: yes for effects' shares; no for faults (factors)."""
-    return effect in EFFECTS and "power" not in parameter
-
-
 def title_of(effect: str) -> str:
     """Title of a candidate; several at once are joined by +."""
     titles = {name: item.title for known in (EFFECTS, FAULTS) for name, item in known.items()}
