@@ -13,13 +13,13 @@ import pytest
 
 from twintube import ParameterError
 from twintube.data.formats import Format, Raw
-from twintube.data.read.binary_child import parquet
 from twintube.driving import signals as signals_file
 from twintube.driving.channels import CHANNELS
 from twintube.driving.columns import BARE
 from twintube.driving.sheet import data_sheet
 from twintube.driving.signals import KEY, Signals, from_frame, read, write
 from twintube.errors import InputError
+from twintube.readers.tables import parquet
 from twintube.vehicle.cars import load_car
 
 YAW = "yaw_rate_rad_per_s"

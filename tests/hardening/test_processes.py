@@ -121,8 +121,8 @@ def test_many_crashes_are_not_all_tried(tmp_path: Path, monkeypatch: pytest.Monk
 
 def slow_reader(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str) -> str:
     script = tmp_path / "slow.py"
-    script.write_text(f"import sys\nsys.path.insert(0, {str(binary.SCRIPT.parent)!r})\n{code}\n")
-    monkeypatch.setattr(binary, "SCRIPT", script)
+    script.write_text(f"import sys\n{code}\n")
+    monkeypatch.setattr(binary, "PROGRAM", (str(script),))
     mat(time=np.arange(5))(tmp_path / "a.mat")
     fill(tmp_path, ["a.mat"])
     (finding,) = check_dataset(tmp_path).errors
@@ -141,7 +141,9 @@ def test_a_reader_that_waits_is_ended_and_the_machine_may_be_the_reason(
 @posix
 def test_the_time_of_a_reader_is_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(binary, "SECONDS", 1.0)
-    message = slow_reader(tmp_path, monkeypatch, "from binary_child import limit\nlimit(int(sys.argv[2]))\nwhile True: pass")
+    message = slow_reader(
+        tmp_path, monkeypatch, "from twintube.readers.__main__ import limit\nlimit(int(sys.argv[2]))\nwhile True: pass"
+    )
     assert message == "the file is damaged: reading took more than 1 s of processor time"
 
 

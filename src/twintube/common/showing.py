@@ -10,7 +10,7 @@ from twintube.errors import UserError
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.figure import Figure as Figure
+    from matplotlib.figure import Figure as Figure  # noqa: PLC0414 - also for the package, whose room does not draw
 
 
 def data_frame(

@@ -10,13 +10,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-TEXT = {
-    ".csv": ",", ".txt": "whitespace", ".dat": "whitespace", ".asc": "whitespace", ".prn": "whitespace",
-    ".out": "whitespace", ".tsv": "\t", ".tab": "\t", ".lvm": "\t",
-}  # the delimiter where none is given  # fmt: skip
-WORKBOOKS = (".xlsx", ".xlsm", ".xls")
-TEXT_BYTES = 256_000_000
-BINARY_BYTES = 4_000_000_000
+from twintube.readers import KINDS, TEXT_XLS
+
+TEXT = {ending: kind.delimiter for ending, kind in KINDS.items() if kind.reader == "text"}
+TEXT_BYTES, BINARY_BYTES = KINDS[".csv"].most, KINDS[".parquet"].most
 MOST_COLUMNS = 256  # a wider table is not a recording of channels
 MOST_SKIPPED = 100_000  # rows before the header
 # Others take quadratic time, or are encodings of something else than a file.
@@ -75,7 +72,7 @@ class Raw:
 
 def usual_delimiter(path: Path) -> str:
     """The delimiter of a text file where none is given; a text named .xls is parted by tabs."""
-    return TEXT.get(path.suffix.lower(), "\t")
+    return TEXT.get(path.suffix.lower(), TEXT_XLS.delimiter)
 
 
 def known_encoding(name: str) -> bool:

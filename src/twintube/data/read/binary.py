@@ -1,6 +1,5 @@
 """Binary records, read by a child process: whatever a damaged file does to its library, this process goes on."""
 
-import codecs
 import json
 import os
 import signal
@@ -14,45 +13,33 @@ from typing import Any
 
 import numpy as np
 
+from twintube import readers
 from twintube.common.extras import extra_of
 from twintube.data.findings import UnreadableError
-from twintube.data.formats import EMPTY, WORKBOOKS, Format, Raw
-from twintube.data.read.binary_child import READERS, is_hdf5
+from twintube.data.formats import EMPTY, Format, Raw
 from twintube.data.read.sheets import Cells, read_sheet
+from twintube.readers import is_hdf5, kind_of
 
-SCRIPT = Path(__file__).with_name("binary_child.py")
+PROGRAM = ("-P", "-m", "twintube.readers")
+PACKAGE = Path(readers.__file__).parents[2]  # where the child finds it
 SECONDS, BYTES_PER_SECOND = 30.0, 5e6  # of processor time that a child may take: to start, and for its files
 BUSY = 20.0  # times that long by the clock: other work on the machine makes no file damaged
 MOST_DEATHS = 5  # children that may end on a file before the others are not tried any more
-LOOK = 1000  # bytes that tell a text from a workbook
-PACKAGES = {
-    ".mf4": "asammdf", ".mdf": "asammdf", ".parquet": "pyarrow", ".pq": "pyarrow",
-    **dict.fromkeys(WORKBOOKS, "python_calamine"),
-}  # fmt: skip
 # The child's libraries would start threads for each core, which take address space.
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "ARROW_NUM_THREADS": "1", "PYTHONFAULTHANDLER": ""}
 
 
 def is_binary(path: Path) -> bool:
-    """Whether the file is one of these formats, by its ending; many machines name a text .xls, for Excel to open it."""
-    return path.suffix.lower() in READERS and not is_text_xls(path)
-
-
-def is_text_xls(path: Path) -> bool:
-    """Whether a file named .xls is a table of text, and neither a workbook nor a web page."""
-    if path.suffix.lower() != ".xls" or not path.is_file():
-        return False
-    with path.open("rb") as file:
-        start = file.read(LOOK).removeprefix(codecs.BOM_UTF8)
-    return start.isascii() and start[:1].isalnum() and b"\0" not in start and not start.startswith(b"PK\x03")
+    """Whether a process of its own reads the file."""
+    kind = kind_of(path)
+    return kind is not None and kind.reader != "text"
 
 
 def check_package(path: Path) -> None:
     """Raise UnreadableError if the package is missing that reads the file."""
-    if path.suffix.lower() == ".json":
-        return
-    package = PACKAGES.get(path.suffix.lower()) or ("h5py" if is_hdf5(path) else "scipy")
-    if find_spec(package) is None:
+    kind = kind_of(path)
+    package = "h5py" if kind is not None and kind.reader == "matlab" and is_hdf5(path) else kind.package if kind else ""
+    if package and find_spec(package) is None:
         what = f"'twintube[{extra_of(package)}]'"
         raise UnreadableError(f"{path.suffix} files need the package {package.replace('_', '-')}: pip install {what}")
 
@@ -96,11 +83,13 @@ def child(folder: Path, files: list[tuple[int, Path, Format]], first_rows: int |
     (folder / "requests.json").write_text(json.dumps(requests), encoding="utf-8")
     seconds = SECONDS + sum(path.stat().st_size for _, path, _ in files) / BYTES_PER_SECOND
     with subprocess.Popen(
-        [sys.executable, "-P", str(SCRIPT), str(folder), f"{seconds:.0f}"],
+        [sys.executable, *PROGRAM, str(folder), f"{seconds:.0f}"],
         stdin=subprocess.PIPE,  # stays open: the child ends when it closes
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
-        env=os.environ | ENVIRONMENT,
+        env=os.environ
+        | ENVIRONMENT
+        | {"PYTHONPATH": os.pathsep.join(filter(None, (str(PACKAGE), os.environ.get("PYTHONPATH"))))},
     ) as process:
         try:
             code = process.wait(timeout=BUSY * seconds)

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from twintube.common.reading import ReadError, check_regular
 from twintube.data.findings import UnreadableError
-from twintube.data.formats import BINARY_BYTES, TEXT, TEXT_BYTES, WORKBOOKS, Format, Raw
+from twintube.data.formats import Format, Raw
 from twintube.data.read.binary import check_package, is_binary, read_binary
-from twintube.data.read.binary_child import READERS
 from twintube.data.read.text import TextReader
+from twintube.readers import KINDS, kind_of
 
 Outcome = Raw | UnreadableError | OSError
 
@@ -47,22 +47,21 @@ def text_outcome(reader: TextReader, path: Path, form: Format) -> Outcome:
 
 def refusal(path: Path, form: Format) -> UnreadableError | OSError | None:
     """Why a file is not even opened; None where it is."""
-    ending = path.suffix.lower()
     try:
-        if ending not in TEXT and ending not in READERS:
-            raise UnreadableError(f"unknown format {ending!r}, must be one of {', '.join([*TEXT, *READERS])}")
-        sheets = ending in WORKBOOKS  # tables of cells, as texts are
-        if is_binary(path) and form.block is not None and not sheets:
+        kind = kind_of(path)
+        if kind is None:
+            raise UnreadableError(f"unknown format {path.suffix.lower()!r}, must be one of {', '.join(KINDS)}")
+        if form.block is not None and not kind.cells:
+            ending = path.suffix.lower()
             raise UnreadableError(f"block = {form.block}: is for several tables in a text file, not for {ending}")
-        if is_binary(path) and isinstance(form.columns, list) and not sheets:
+        if isinstance(form.columns, list) and not kind.cells:
             raise UnreadableError(
                 "columns: a list is for text and workbooks without header, here it must be a table: header = its name"
             )
-        check_regular(path, BINARY_BYTES if is_binary(path) else TEXT_BYTES)
+        check_regular(path, kind.most)
         with path.open("rb"):
             pass  # a file without permission says so itself
-        if is_binary(path):
-            check_package(path)
+        check_package(path)
     except ReadError as error:
         return UnreadableError(f"cannot be read: {error}")
     except (UnreadableError, OSError) as error:

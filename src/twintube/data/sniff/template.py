@@ -15,13 +15,10 @@ from twintube.common.reading import MB, ReadError, check_regular
 from twintube.common.words import CONTROL
 from twintube.data.dataset_toml.keys import FILE, NOT_SURE, READING, UNKNOWN
 from twintube.data.dataset_toml.manifest import form_of, part_of
-from twintube.data.formats import TEXT, WORKBOOKS
-from twintube.data.read.binary_child import READERS
 from twintube.data.sniff.blocks import sniff_records
 from twintube.data.sniff.values import Sniffed
 from twintube.engine.simulate import InputError
-
-ENDINGS = (*TEXT, *READERS)
+from twintube.readers import KINDS
 
 MOST_BYTES = 4000 * MB  # of a record
 
@@ -111,8 +108,8 @@ def new_dataset(
     names = [file.name for file in files]
     copies: dict[Path, Path] = {}
     for file in files:
-        if file.suffix.lower() not in ENDINGS:
-            raise InputError(f"{file}: unknown format {file.suffix!r}, must be one of {', '.join(ENDINGS)}")
+        if file.suffix.lower() not in KINDS:
+            raise InputError(f"{file}: unknown format {file.suffix!r}, must be one of {', '.join(KINDS)}")
         if names.count(file.name) > 1:
             raise InputError(f"{file}: two files have the name {file.name}")
         try:
@@ -127,7 +124,7 @@ def new_dataset(
     records = [
         (file.name, guess, file.resolve() in before)
         for file in files
-        for guess in (sniff_records(file) if file.suffix.lower() in (*TEXT, *WORKBOOKS) else [Sniffed({})])
+        for guess in (sniff_records(file) if KINDS[file.suffix.lower()].cells else [Sniffed({})])
     ]
     text, doubts = template(folder, records, damper, state or Fill())
     for target, file in copies.items():
@@ -139,7 +136,7 @@ def new_dataset(
 
 def present(folder: Path) -> list[Path]:
     """The records that lie in a folder, by name."""
-    return sorted(p for p in folder.glob("*") if p.suffix.lower() in ENDINGS) if folder.is_dir() else []
+    return sorted(p for p in folder.glob("*") if p.suffix.lower() in KINDS) if folder.is_dir() else []
 
 
 def template(
