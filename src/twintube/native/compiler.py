@@ -14,7 +14,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from twintube.common.caches import cache_folder, writable
-from twintube.native.expressions import INEXACT
+from twintube.native.mathematics import INEXACT
 
 # Equal operations in equal order on every platform, as the interpreter does them: no fused multiply-add, and no function of
 # math.h that the compiler computes itself, which rounds otherwise.

@@ -5,56 +5,17 @@ order in which calls happen. Where Python raises (division by zero, root of a ne
 """
 
 import ast
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NoReturn
 
-from twintube.native.kinds import BOOL, FLOAT, INT, SIZES, Kind, Types, constant, refuse
+from twintube.native.kinds import BOOL, FLOAT, INT, SIZES, Kind, constant, refuse
+from twintube.native.mathematics import MATH, MATH_CONSTANTS, ROUNDED
+from twintube.native.terms import AND, ATOM, CHOICE, COMPARED, OR, PRODUCT, SUM, UNARY, Function, Known, Term, number, quiet
 
-# How tightly C binds: an operand that binds less is put in brackets.
-CHOICE, OR, AND, COMPARED, SUM, PRODUCT, UNARY, ATOM = range(1, 9)
 OPERATORS = {ast.Add: ("+", SUM), ast.Sub: ("-", SUM), ast.Mult: ("*", PRODUCT), ast.Div: ("/", PRODUCT)}
 HELPED = {ast.FloorDiv: "floor_div", ast.Mod: "modulo"}  # of whole numbers
 COMPARISONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
-# Functions of `math` that CPython takes from the C library as they are, by their number of arguments.
-ONE = ("acos", "asin", "atan", "cos", "cosh", "exp", "expm1", "log", "log1p", "sin", "sinh", "tan", "tanh")
-INEXACT = {name: 1 for name in ONE} | {"atan2": 2, "pow": 2}
-MATH = INEXACT | {"fabs": 1, "sqrt": 1, "copysign": 2, "fmod": 2}
-ROUNDED = ("ceil", "floor")
-MATH_CONSTANTS = {"pi": "M_PI", "inf": "INFINITY", "nan": "NAN"}
-
-
-@dataclass(frozen=True)
-class Function:
-    """A function as callers see it; `writes` are the numbers of the arguments that it changes."""
-
-    name: str
-    arguments: tuple[tuple[str, Kind], ...]
-    result: Kind
-    writes: frozenset[int] = frozenset()
-
-
-@dataclass
-class Known:
-    """What a function's text may refer to; helpers of C that it needs are noted in `used`."""
-
-    types: Types
-    constants: Mapping[str, float]
-    functions: Mapping[str, Function]
-    used: set[str] = field(default_factory=set)
-
-
-@dataclass(frozen=True)
-class Term:
-    """An expression in C: its text, its type, and how tightly its outermost operator binds."""
-
-    text: str
-    kind: Kind
-    level: int = ATOM
-
-    def within(self, level: int) -> str:
-        """The text as an operand of an operator of a level."""
-        return self.text if self.level >= level else f"({self.text})"
 
 
 @dataclass
@@ -327,15 +288,3 @@ class Expressions:
         """The name of a function of the head in C."""
         self.known.used.add(name)
         return f"{self.known.types.prefix}{name}"
-
-
-def number(value: float) -> Term:
-    """A number as C writes it: all its digits, and a sign in brackets."""
-    kind = INT if isinstance(value, int) else FLOAT
-    text = repr(value) if kind == INT or "inf" not in repr(value) else repr(value).replace("inf", "INFINITY")
-    return Term(text, kind, UNARY if value < 0 else ATOM)
-
-
-def quiet(node: ast.expr) -> bool:
-    """Whether an expression is of local numbers alone."""
-    return not any(isinstance(item, ast.Attribute | ast.Subscript | ast.Call) for item in ast.walk(node))

@@ -9,9 +9,10 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from twintube.native.expressions import Function, Known
-from twintube.native.functions import Source, Writer, arguments_of, comments_of, refuse_at
+from twintube.native.functions import Writer
 from twintube.native.kinds import C_NUMBERS, SIZES, STRUCTS, Kind, Member, Types, constant, is_record, read_class, refuse
+from twintube.native.source import Source, arguments_of, comments_of, refuse_at
+from twintube.native.terms import Function, Known
 
 HELPERS = {
     "max": "double {0}max(double a, double b)\n{{\n    return b > a ? b : a;\n}}",

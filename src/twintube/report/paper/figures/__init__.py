@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from twintube.report.paper.context import Context
-from twintube.report.paper.figures import degraded, drives, intact, mechanism, studies, validation
+from twintube.report.paper.figures import degraded, drives, intact, loops, mechanism, studies, validation
 from twintube.report.paper.records import Job, drive_jobs, harmonic_jobs, slow_jobs
 from twintube.report.paper.statement import Plot
 
@@ -44,8 +44,8 @@ FIGURES: dict[int, Entry] = {
     17: Entry(mechanism.figure_17),
     18: Entry(mechanism.figure_18),
     **{18 + i: Entry(partial(validation.work, name=f"SA{i}"), partial(fitting, f"SA{i}")) for i in range(1, 9)},
-    27: Entry(validation.figure_27, partial(fitting, "SA7")),
-    28: Entry(validation.figure_28, partial(fitting, "SA7")),
+    27: Entry(loops.figure_27, partial(fitting, "SA7")),
+    28: Entry(loops.figure_28, partial(fitting, "SA7")),
     **{n: Entry(partial(drives.bump, name=name), partial(drives.jobs_bump, name)) for n, name in ((29, "SA7"), (30, "SA8"))},
     **{
         n: Entry(partial(drives.bars, name=name), lambda name=name: [*fitting(name), *drive_jobs(name)])  # type: ignore[misc]
