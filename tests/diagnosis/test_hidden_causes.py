@@ -21,7 +21,7 @@ from twintube.diagnosis.put_right import put_right
 from twintube.diagnosis.questions import bench_of
 from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.search import Search
-from twintube.report.diagnosis.page import lines, write_report
+from twintube.report.diagnosis.page import lines, page
 
 SPEEDS = (0.3, 0.6, 1.0)  # [m/s]
 
@@ -97,5 +97,5 @@ def test_a_wrong_unit_is_put_right_and_told(tmp_path: Path) -> None:
     assert [(fault.effect, fault.factor) for fault in found.faults] == [("unit_error", 1000.0)]
     assert as_json(found)["credible_set"][0] == "unit_error"
     assert any("kN for N" in line for line in lines(found))
-    write_report(found, tmp_path)
+    page(found).write(tmp_path)
     assert "kN for N" in (tmp_path / "report.html").read_text(encoding="utf-8")

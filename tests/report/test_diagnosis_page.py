@@ -8,7 +8,7 @@ from tests.diagnosis import small
 from twintube.dampers import load
 from twintube.diagnosis import Answer
 from twintube.diagnosis.heldout import HeldOut
-from twintube.report.common.html_page import Headline, html
+from twintube.report.common.html_page import Headline, Page
 from twintube.report.diagnosis import changes, limits
 
 
@@ -30,7 +30,7 @@ def test_it_tells_motions_and_fills() -> None:
 
 def test_the_limits_are_not_folded() -> None:
     found: Any = SimpleNamespace(damper=load("SA8"), records=(small.record(small.run(0.3)),), changes=None)
-    text = html("A title", [], [limits.section(cast(Answer, found))], headline=Headline("An answer"))
+    text = Page("A title", [limits.section(cast(Answer, found))], headline=Headline("An answer")).html
     assert "<details open><summary><h2>What this cannot say</h2>" in text
 
 

@@ -9,7 +9,7 @@ from tests.identification.test_noisy_strokes import record
 from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.identification import Result, identify_dataset
-from twintube.report.identification.page import write_report
+from twintube.report.identification.page import page
 from twintube.report.identification.pictures import works
 
 SIZES = {0.131: 0.02, 0.2: 0.01, 0.3: 0.02}  # amplitude [m] by velocity [m/s]
@@ -23,11 +23,11 @@ def result() -> Result:
 
 def test_page_of_intact_records(tmp_path: Path) -> None:
     identified = result()
-    write_report(identified, tmp_path)
-    page = (tmp_path / "report.html").read_text()
-    assert "F_FrS" in page and "1, 1 stochastic" in page
-    assert "Measured up to 0.3 m/s" in page
-    assert page.count('"label":"100% oil') == 3  # to look into
+    page(identified, "found").write(tmp_path)
+    text = (tmp_path / "report.html").read_text()
+    assert "F_FrS" in text and "1, 1 stochastic" in text
+    assert "Measured up to 0.3 m/s" in text
+    assert text.count('"label":"100% oil') == 3  # to look into
     assert repr(identified) == "<Result: SA1-identified from 3 of 4 records>"
     assert set(identified.to_dataframe().loc["drive", ["work_first", "work_last"]]) == {
         identified.validation[-1].work_measured[0]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from twintube.report.common import style
-from twintube.report.common.html_page import Section, html
+from twintube.report.common.html_page import Page, Section
 from twintube.report.identification.live import MOST_POINTS, Curve, Look, live
 
 CURVES = [Curve("measured", "measured", style.INK), Curve("base", "base model <b>", style.BLUE, (6, 4)),
@@ -29,7 +29,7 @@ def look(name: str, turns: int) -> Look:
 def page(chromium: Any, tmp_path: Path) -> Iterator[Any]:
     part = live(CURVES, [look("first </script>", 3), look("second", 20)])
     file = tmp_path / "page.html"
-    file.write_text(html("Live", [], [Section("records", "Records", live=part)]), encoding="utf-8")
+    file.write_text(Page("Live", [Section("records", "Records", live=part)]).html, encoding="utf-8")
     said: list[str] = []
     shown = chromium.new_page(viewport={"width": 900, "height": 900})
     shown.on("console", lambda message: said.append(message.text))

@@ -5,7 +5,8 @@ from html.parser import HTMLParser
 
 import pytest
 
-from twintube.report.common.html_page import Finding, Headline, Picture, Section, Table, html, readable
+from twintube.report.common import html_page
+from twintube.report.common.html_page import Finding, Headline, Picture, Section, Table, readable
 
 PNG = b"\x89PNG\r\n\x1a\n0000"
 
@@ -48,9 +49,8 @@ def text() -> str:
     finding = Finding("work < force & more", "does not hold", [("Source", "Section 1")], {"a_b": {"SA1": [1.0, 2.0]}})
     section = Section("one", "Figure 1", "does not hold", "0 of 1", ["A paragraph"], [Picture(PNG, "a picture")], [finding],
                       [Table(("x", "y"), [("1", "2")], "A table")], [("Remark", "none")])  # fmt: skip
-    return html(
-        "A title", ["A lead"], [section, Section("two", "Without verdict")], [Table(("h",), [("c",)])], foot="the foot"
-    )
+    sections = [section, Section("two", "Without verdict")]
+    return html_page.Page("A title", sections, ["A lead"], [Table(("h",), [("c",)])], foot="the foot").html
 
 
 def test_it_is_self_contained(text):
@@ -74,7 +74,7 @@ def test_the_page_contains_its_input(text):
 def test_an_answer_comes_first_and_the_rest_folds():
     step, picture = "Run `twintube check`.", Picture(PNG, "loops")
     headline = Headline("The oil gets hot.", "cause named", "found", "Very likely (95 %).", step, picture)
-    page = html("A title", [], [Section("one", "Numbers", text=["Inside"])], headline=headline)
+    page = html_page.Page("A title", [Section("one", "Numbers", text=["Inside"])], headline=headline).html
     before, _, after = page.partition("<details>")
     for said in ("The oil gets hot.", "cause named", "Very likely (95 %).", "<code>twintube check</code>", 'alt="loops"'):
         assert said in before
@@ -89,3 +89,9 @@ def test_verdicts_have_marks(text):
 def test_numbers_as_text():
     assert readable({"at_60": [1.0, 0.5], "x": {"y": True}}) == "at 60: 1.0, 0.5; x (y: true)"
     assert readable([]) == "none"
+
+
+def test_a_page_is_written_with_its_pictures(tmp_path):
+    page = html_page.Page("A title", [Section("one", "Numbers")], pictures={"loops": Picture(PNG, "loops")})
+    assert page.write(tmp_path) == [tmp_path / "loops.png", tmp_path / "report.html"]
+    assert (tmp_path / "loops.png").read_bytes() == PNG and (tmp_path / "report.html").read_text() == page.html

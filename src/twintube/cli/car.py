@@ -11,7 +11,7 @@ from twintube.cli.base import VEHICLE, app
 from twintube.cli.options import CAR, FRONT, JSON_FILE, MANEUVERS, REAR, ROADS, WORN_AT, one_of
 from twintube.cli.outputs import check_folder, mark_folder, of_options
 from twintube.cli.states import GAS_SHARE, LOST_BELOW_FULL, TEMPERATURE, tempered, worn_preload
-from twintube.common.files import write_bytes, write_text
+from twintube.common.files import write_text
 from twintube.common.words import counted
 from twintube.errors import InputError
 
@@ -71,7 +71,7 @@ def car(
     from twintube.dampers.damper import gas_in_words
     from twintube.report.car.conclusion import read_inspection
     from twintube.report.car.courses import pictures
-    from twintube.report.car.page import page, picture
+    from twintube.report.car.page import page
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.study import USUAL, cases, compared, dampers_of, drive_all
 
@@ -101,9 +101,7 @@ def car(
         output.mkdir(exist_ok=True)
         mark_folder(output, of_options())
         courses = {name: pictures(loaded, both, worn, wanted, name) for name in names}
-        write_text(output / "car.html", page(loaded, conditions, rows, entries, seen=seen, courses=courses))
-        if shown := picture(rows):
-            write_bytes(output / "car.png", shown)
+        page(loaded, conditions, rows, entries, seen=seen, courses=courses).write(output, "car.html")
         typer.echo(f"{output / 'car.html'}")
     warm = "" if temperature is None else f", all dampers at {temperature:g} degC"
     typer.echo(f"worn: {worn}, gas preload {conditions['gas_preload']}{warm}")

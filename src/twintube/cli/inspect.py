@@ -110,7 +110,7 @@ def inspect(
     from twintube.inspection import USUAL, Setting, conditions, inspected, method, study
     from twintube.inspection.detection import check_count
     from twintube.inspection.tiring import AMPLITUDES, shaker
-    from twintube.report.inspection.page import write_report
+    from twintube.report.inspection.page import page
     from twintube.report.inspection.summary import Inspection, summary, terminal
     from twintube.vehicle.cars import load_car
 
@@ -140,6 +140,6 @@ def inspect(
         write_text(json_file, json.dumps(summary(result), indent=1) + "\n")
     typer.echo(terminal(result))
     if output is not None:
-        files = write_report(result, output)
+        files = page(result).write(output)
         mark_folder(output, of_options())
         typer.echo(f"{output}: {', '.join(file.name for file in files)}")

@@ -147,16 +147,17 @@ def identify(
             bar.update()
 
         result = identify_dataset(read, method=method, budget=budget, seed=seed, journal=journal, progress=progress)
-    from twintube.report.identification.page import write_report
+    from twintube.report.identification.page import page, write_table
 
     write_text(output / "identified.toml", to_toml(result.identification.damper))
     figures = summary(result, str(output))
     write_text(output / "identification.json", json.dumps(figures, indent=1) + "\n")
-    files = write_report(result, output)
+    page(result, output.name).write(output)
+    files = write_table(result, output)
     shutil.rmtree(journal)
     for line in identified_lines(result, figures):
         typer.echo(line)
-    tables = ", ".join(file.name for file in files if file.stem == "fv_table")
+    tables = ", ".join(file.name for file in files)
     typer.echo(f"{output}: identified.toml, identification.json, {tables}, report.html")
 
 
@@ -212,7 +213,7 @@ def write_answer(found: "Answer", output: Path) -> None:
     """Write the files of an answer, and say it."""
     from twintube.dampers import to_toml
     from twintube.diagnosis.contract import as_json
-    from twintube.report.diagnosis.page import lines, write_report
+    from twintube.report.diagnosis.page import lines, page
 
     *sentences, step = lines(found)
     content = as_json(found) | {"sentence": " ".join(sentences), "next_step": step.removeprefix("Next: ")}
@@ -222,7 +223,7 @@ def write_answer(found: "Answer", output: Path) -> None:
         write_text(extended, to_toml(found.extended))
     else:
         extended.unlink(missing_ok=True)  # of an earlier run
-    write_report(found, output)
+    page(found).write(output)
     for line in (*sentences, step):
         typer.echo(line)
     files = ["report.html", "diagnosis.json", *([extended.name] if found.extended is not None else [])]

@@ -54,5 +54,5 @@ def monitor(
         write_text(json_file, json.dumps(content, indent=1) + "\n")
     typer.echo(terminal(answer))
     if output is not None:
-        write_text(output, page(answer, names[0], names[1:], str(shipped().about["says"])))
+        write_text(output, page(answer, names[0], names[1:], str(shipped().about["says"])).html)
         typer.echo(f"{output}")

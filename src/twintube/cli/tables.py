@@ -8,7 +8,7 @@ import typer
 
 from twintube.cli.options import CAR, DAMPER_ARGUMENT, FRONT, JSON_FILE, REAR, WORN_AT
 from twintube.cli.outputs import check_folder, keep_other, mark_folder, of_options
-from twintube.common.files import write_bytes, write_text
+from twintube.common.files import write_text
 from twintube.errors import InputError
 
 
@@ -50,7 +50,7 @@ def car_sensitivity(
     It says how the effect of the worn dampers moves.
     """
     from twintube import dampers
-    from twintube.report.car.sensitivity import as_json, page, text, tornado
+    from twintube.report.car.sensitivity import as_json, page, text
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.catalogue import Case
     from twintube.vehicle.full.run import full_car
@@ -73,6 +73,5 @@ def car_sensitivity(
     if output is not None:
         output.mkdir(exist_ok=True)
         mark_folder(output, of_options())
-        write_text(output / "sensitivity.html", page(result, conditions))
-        write_bytes(output / "sensitivity.png", tornado(result))
+        page(result, conditions).write(output, "sensitivity.html")
         typer.echo(f"{output / 'sensitivity.html'}")

@@ -13,7 +13,7 @@ from twintube.driving.model import FLEET, REFERENCE
 from twintube.driving.monitor import FINE, STATES, UNCLEAR, WATCH, WORN_OUT, Answer, Watched, meaning
 from twintube.driving.spectra import HOP
 from twintube.report.common import style
-from twintube.report.common.html_page import Headline, Picture, Section, Table, html
+from twintube.report.common.html_page import Headline, Page, Picture, Section, Table
 from twintube.report.common.probabilities import LEAST, MOST
 
 COLOURS = {FINE: style.GREEN, UNCLEAR: style.BLUE, WATCH: style.ORANGE, WORN_OUT: style.RED}
@@ -155,8 +155,8 @@ def terminal(answer: Answer) -> str:
     return "\n".join([*lines, *(row for text in (sentence(answer), remark(answer)) for row in textwrap.wrap(text, 118))])
 
 
-def page(answer: Answer, name: str, references: Sequence[str], about: str) -> str:
-    """The page as HTML; `about` says what the tables were made from."""
+def page(answer: Answer, name: str, references: Sequence[str], about: str) -> Page:
+    """The page; `about` says what the tables were made from."""
     state = worst_state(answer)
     head = Headline(
         sentence(answer), state, MARKS[state], remark(answer), NEXT[state],
@@ -172,9 +172,8 @@ def page(answer: Answer, name: str, references: Sequence[str], about: str) -> st
         ("References", listed(list(references), 5) if references else "none"),
     ]
     states = [(name, text) for name, text in STATES.items()]
-    return html(
+    return Page(
         f"Dampers of the driving car: {name}",
-        [],
         [
             Section("dampers", "The four dampers", tables=[summary(answer)], notes=states),
             Section("reasons", "What speaks for it", text=[REASONS], tables=[reasons(answer)]),

@@ -9,8 +9,7 @@ from twintube.dampers.freed_gas import SCALAR
 from twintube.report.car import conclusion
 from twintube.report.car.pictures import TITLES, answer, drives, over_levels
 from twintube.report.car.tables import tables
-from twintube.report.common import style
-from twintube.report.common.html_page import Headline, Picture, Section, Table, html
+from twintube.report.common.html_page import Headline, Page, Picture, Section, Table
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.full.catalogue import MANEUVERS
 
@@ -18,11 +17,6 @@ LEVELS = "Dots and lines: the model; open squares: a scalar factor in its place.
 BESIDE = "`twintube inspect --json FILE`, then `twintube car --inspection FILE`: what an inspection sees of the same loss."
 VARY = "`python -m benchmarks car_sensitivity` shows what the assumed values of the car do to these figures."
 SHOWN = 0.01  # relative change [1] that is told
-
-
-def picture(rows: Sequence[Mapping[str, Any]]) -> bytes:
-    """PNG of the changes over the oil level; empty where nothing is drawn."""
-    return style.png(over_levels(rows)) if drives(rows) else b""
 
 
 def page(
@@ -33,15 +27,15 @@ def page(
     *,
     seen: Mapping[str, Any] | None = None,
     courses: Mapping[str, Sequence[Picture]] | None = None,
-) -> str:
-    """The page as HTML; `rows` compare the `entries` of the drives, `seen` holds the figures of an inspection study.
+) -> Page:
+    """The page; `rows` compare the `entries` of the drives, `seen` holds the figures of an inspection study.
 
     `courses` are pictures of drives, by manoeuvre.
     """
     sections = [conclusion.section(seen, rows)] if seen is not None else []
-    if drives(rows):
-        drawn = Picture.drawn(partial(over_levels, rows), LEVELS)
-        sections.append(Section("levels", "Change over the oil level", pictures=[drawn]))
+    drawn = {"car": Picture.drawn(partial(over_levels, rows), LEVELS)} if drives(rows) else {}
+    if drawn:
+        sections.append(Section("levels", "Change over the oil level", pictures=list(drawn.values())))
     for name, words in TITLES.items():
         own = [entry for entry in entries if entry["maneuver"] == name]
         if own:
@@ -60,19 +54,16 @@ def page(
     assumed = [(name, text) for name, text in car.assumed.items()]
     sections.append(Section("assumed", "Assumed values of the car", text=["No source gives these:"], notes=assumed))
     sections.append(Section("sources", "Sources", notes=list(car.sources.items())))
-    return html(
-        f"Whole car: {car.title}",
-        [
-            f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
-            f"gas preload {conditions['gas_preload']}{warm(conditions)}; grip {conditions['grip']} of a dry road's. "
-            "Each figure is that of the worn car over that of the intact car on the same road; the "
-            f"band is that of {counted(conditions['seeds'], 'seed')}: other roads of the class, and a slip control whose "
-            "thresholds and rates scatter by a quarter; of the full model also that of four ways of the gas that "
-            "cavitation frees. F-v curves are stand-ins (assumed)."
-        ],
-        sections,
-        headline=headline(rows, seen, conditions["gas_preload"]),
+    lead = (
+        f"Dampers {conditions['front']} in front and {conditions['rear']} at the rear; worn: {conditions['worn']}, "
+        f"gas preload {conditions['gas_preload']}{warm(conditions)}; grip {conditions['grip']} of a dry road's. "
+        "Each figure is that of the worn car over that of the intact car on the same road; the "
+        f"band is that of {counted(conditions['seeds'], 'seed')}: other roads of the class, and a slip control whose "
+        "thresholds and rates scatter by a quarter; of the full model also that of four ways of the gas that "
+        "cavitation frees. F-v curves are stand-ins (assumed)."
     )
+    head = headline(rows, seen, conditions["gas_preload"])
+    return Page(f"Whole car: {car.title}", sections, [lead], headline=head, pictures=drawn)
 
 
 def warm(conditions: Mapping[str, Any]) -> str:

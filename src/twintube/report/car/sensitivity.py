@@ -12,8 +12,8 @@ from twintube.common.readable import unit_of
 from twintube.common.words import counted
 from twintube.inspection.tables import markdown
 from twintube.report.common.framed import framed, oil
-from twintube.report.common.html_page import Headline, Picture, Section, Table, html
-from twintube.report.common.style import BLUE, FAINT, INK, ORANGE, grid, png, title
+from twintube.report.common.html_page import Headline, Page, Picture, Section, Table
+from twintube.report.common.style import BLUE, FAINT, INK, ORANGE, grid, title
 from twintube.vehicle.full.catalogue import MANEUVERS
 from twintube.vehicle.full.sensitivity import ASSUMED, DRIVES, SPEED, Assumed, Sensitivity, mean
 
@@ -96,11 +96,6 @@ def text(result: Sensitivity) -> str:
     return markdown(*head_and_rows(result))
 
 
-def tornado(result: Sensitivity) -> bytes:
-    """The picture as PNG."""
-    return png(drawn(result))
-
-
 def drawn(result: Sensitivity, narrow: bool = False) -> Figure:
     """For each headline the values that move it most, from end to end."""
     figure, axes = grid(len(DRIVES), (4.7, 2.9), narrow)
@@ -149,8 +144,8 @@ def sure(result: Sensitivity) -> str:
     )
 
 
-def page(result: Sensitivity, conditions: Mapping[str, Any]) -> str:
-    """The page as HTML."""
+def page(result: Sensitivity, conditions: Mapping[str, Any]) -> Page:
+    """The page with its picture."""
     head, rows = head_and_rows(result)
     lead = [
         f"Worn dampers: {conditions['worn']}, {result.level:.0%} oil without gas preload, {SPEED:g} km/h, against the "
@@ -162,10 +157,11 @@ def page(result: Sensitivity, conditions: Mapping[str, Any]) -> str:
     held = "; ".join(f"{name_of(d)}, in {same_sign(result, d):.0%}" for d in DRIVES) if count else "no draws"
     sentence = f"How many of {count} draws of all assumed values keep the sign of the change: {held}."
     reasons = [(f"{item.title}, {range_of(item)}", item.reason) for item in ASSUMED]
-    return html(
-        f"Whole car: what the assumed values do, {conditions['car']}", lead,
+    picture = Picture.drawn(partial(drawn, result), CAPTION)
+    return Page(
+        f"Whole car: what the assumed values do, {conditions['car']}",
         [Section("table", "All assumed values", tables=[Table(head, rows)]), Section("ranges", "Ranges", notes=reasons)],
-        headline=Headline(sentence, next=READ, picture=Picture.drawn(partial(drawn, result), CAPTION)),
+        lead, headline=Headline(sentence, next=READ, picture=picture), pictures={"sensitivity": picture},
     )  # fmt: skip
 
 

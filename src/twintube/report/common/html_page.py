@@ -7,15 +7,17 @@ without one is a collection: its sections are open, and contents lead to them.
 import base64
 import json
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import jinja2
 from matplotlib.figure import Figure
 
+from twintube.common.files import write_bytes, write_text
 from twintube.report.common import style
 from twintube.version import __version__
 
@@ -141,19 +143,34 @@ def readable(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
-def html(
-    title: str, lead: Iterable[str], sections: Iterable[Section], summary: Iterable[Table] = (), *, foot: str = "",
-    headline: Headline | None = None,
-) -> str:  # fmt: skip
-    """The whole page."""
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters["coded"] = coded
-    source = files("twintube.report.common").joinpath("page.html").read_text(encoding="utf-8")
-    return environment.from_string(source).render(
-        title=title,
-        lead=list(lead),
-        sections=list(sections),
-        summary=list(summary),
-        headline=headline,
-        foot=". ".join(text for text in (foot.rstrip("."), f"twintube {__version__}") if text),
-    )
+@dataclass(frozen=True)
+class Page:
+    """The page of a result, and those of its pictures that stand beside it as files, by name."""
+
+    title: str
+    sections: Sequence[Section]
+    lead: Sequence[str] = ()
+    summary: Sequence[Table] = ()
+    headline: Headline | None = None
+    foot: str = ""
+    pictures: Mapping[str, Picture] = field(default_factory=dict)
+
+    @property
+    def html(self) -> str:
+        """The whole page."""
+        environment = jinja2.Environment(
+            autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+        )
+        environment.filters["coded"] = coded
+        source = files("twintube.report.common").joinpath("page.html").read_text(encoding="utf-8")
+        foot = ". ".join(text for text in (self.foot.rstrip("."), f"twintube {__version__}") if text)
+        named = {name: getattr(self, name) for name in ("title", "lead", "sections", "summary", "headline")}
+        return environment.from_string(source).render(**named, foot=foot)
+
+    def write(self, folder: Path, name: str = "report.html") -> list[Path]:
+        """Write pictures and page; returns the files."""
+        written = [folder / f"{picture}.png" for picture in self.pictures]
+        for file, picture in zip(written, self.pictures.values(), strict=True):
+            write_bytes(file, picture.png)
+        write_text(folder / name, self.html)
+        return [*written, folder / name]

@@ -26,7 +26,7 @@ from twintube.report.diagnosis.state import sentence as state_sentence
 from twintube.report.diagnosis.state import sentences as state_sentences
 from twintube.report.diagnosis.state import undecided
 
-PICTURE = "changes.png"
+PICTURE = "changes"
 SHOWN = 8  # hypotheses of the picture
 TITLES = {
     True: {

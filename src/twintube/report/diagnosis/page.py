@@ -1,10 +1,7 @@
 """report.html of an answer about states of filling and about what has happened since a reference."""
 
-from pathlib import Path
-
-from twintube.common.files import write_bytes, write_text
 from twintube.diagnosis import Answer
-from twintube.report.common.html_page import html
+from twintube.report.common.html_page import Page
 from twintube.report.diagnosis import budget, changes, limits, loops, state
 
 
@@ -17,8 +14,8 @@ def lines(answer: Answer) -> list[str]:
     return [*state.sentences(answer.asked), *changes.lines(answer), *errors]
 
 
-def write_report(answer: Answer, folder: Path) -> None:
-    """Write report.html and its picture."""
+def page(answer: Answer) -> Page:
+    """The page of an answer, with its first picture."""
     if answer.changes is None:
         head, name = state.headline(answer.states), state.PICTURE
         sections = [limits.section(answer), state.section(answer.states)]
@@ -28,6 +25,5 @@ def write_report(answer: Answer, folder: Path) -> None:
         if answer.states:
             sections.append(state.section(answer.states, pictures=[state.drawn(answer.states)]))
     assert head.picture is not None, "both answers are drawn"
-    write_bytes(folder / name, head.picture.png)
     foot = f"Computed in {answer.seconds:.0f} s."
-    write_text(folder / "report.html", html(f"Diagnosis: {answer.title}", [], sections, [], foot=foot, headline=head))
+    return Page(f"Diagnosis: {answer.title}", sections, headline=head, foot=foot, pictures={name: head.picture})

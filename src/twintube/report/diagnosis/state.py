@@ -15,7 +15,7 @@ from twintube.report.common.html_page import Headline, Picture, Section, Table
 from twintube.report.common.probabilities import chance
 from twintube.report.diagnosis.repairs import REPAIRS
 
-PICTURE = "state.png"
+PICTURE = "state"
 SURE = 0.95  # probability from which a preload is said to be there or lost
 BAR = 0.02  # width of a bar of the picture
 WIDE = 0.2  # width of the interval above which a record that would narrow it is named

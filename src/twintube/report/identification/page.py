@@ -17,7 +17,7 @@ from twintube.identification.figures import totals, unit
 from twintube.identification.judgement import judgement, next_step
 from twintube.identification.remarks import reach
 from twintube.report.common import style
-from twintube.report.common.html_page import Headline, Picture, Section, Table, html
+from twintube.report.common.html_page import Headline, Page, Picture, Section, Table
 from twintube.report.common.titles import meaning
 from twintube.report.identification import pictures as drawings
 from twintube.report.identification.live import Curve, Look, live
@@ -198,21 +198,19 @@ def sections(result: Result, drawn: dict[str, Picture], chosen: Sequence[tuple[H
     return parts
 
 
-def write_report(result: Result, folder: Path) -> list[Path]:
-    """Write report.html, its pictures and the table of forces over velocity; returns the files."""
+def page(result: Result, folder: str) -> Page:
+    """The page of a result with its pictures; `folder` is named in the next step."""
     ordered = sorted(result.harmonics, key=lambda pair: (pair[1] != "heldout", pair[0].top_speed))
     chosen = spread([pair for pair in ordered if not pair[0].intact] or ordered, LOOPS)
-    drawn = pictures(result, chosen)
-    head = headline(result, folder.name, chosen)
-    text = html(f"Identification: {result.dataset.title}", [], sections(result, drawn, chosen), headline=head)
-    files = [folder / f"{name}.png" for name in drawn]
-    for file, picture in zip(files, drawn.values(), strict=True):
-        write_bytes(file, picture.png)
-    write_text(folder / "report.html", text)
-    table = peak_velocities([h for h, _ in result.harmonics])
-    files += [folder / "report.html", folder / "fv_table.csv"]
-    write_text(files[-1], as_csv(table))
+    drawn, head = pictures(result, chosen), headline(result, folder, chosen)
+    return Page(f"Identification: {result.dataset.title}", sections(result, drawn, chosen), headline=head, pictures=drawn)
+
+
+def write_table(result: Result, folder: Path) -> list[Path]:
+    """Write the table of forces over velocity; returns the files."""
+    table, files = peak_velocities([h for h, _ in result.harmonics]), [folder / "fv_table.csv"]
+    write_text(files[0], as_csv(table))
     if find_spec("xlsxwriter"):
         files.append(folder / "fv_table.xlsx")
-        write_bytes(files[-1], as_xlsx(table))
+        write_bytes(files[1], as_xlsx(table))
     return files

@@ -2,16 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
 
-from twintube.common.files import write_bytes, write_text
 from twintube.common.words import listed
 from twintube.dampers import Damper
 from twintube.inspection import METHODS, Detection
 from twintube.inspection.detection import CONFIDENCE, FALSE_ALARMS, SEEN
 from twintube.inspection.figures import READING, WINDOWS
 from twintube.inspection.tables import METHOD_HEAD, RANGE_HEAD, method_rows, range_rows
-from twintube.report.common.html_page import Headline, Picture, Section, Table, html
+from twintube.report.common.html_page import Headline, Page, Picture, Section, Table
 from twintube.report.inspection import tiring
 from twintube.report.inspection.pictures import figures_over_oil, roc_curves, shares, spanned, sweep, verdicts
 from twintube.report.inspection.summary import EVERY_WAY, Inspection, factor_seen, figure_rows, gas, seen_in_words, sentence
@@ -136,8 +134,8 @@ def detection_section(result: Inspection, damper: Damper) -> tuple[Section, dict
     return Section(f"detection-{damper.name}", title, text=[text], pictures=list(drawn.values()), tables=tables), drawn
 
 
-def write_report(result: Inspection, folder: Path) -> list[Path]:
-    """Write report.html and its pictures; returns the files."""
+def page(result: Inspection) -> Page:
+    """The page of an inspection with its pictures."""
     first = headline(result)
     assert first.picture is not None, "there is a method"
     pictures, sections = {"verdicts": first.picture}, []
@@ -164,9 +162,4 @@ def write_report(result: Inspection, folder: Path) -> list[Path]:
         f"Car: {result.vehicle.title}. {ONE_CORNER} Figures and lines: freed gas {result.ways[0]}"
         + (f"; shaded: from the lowest to the highest of {listed(result.ways)}." if len(result.ways) > 1 else "."),
     ]
-    text = html("Inspection of worn dampers", lead, sections, headline=first)
-    files = [folder / f"{name}.png" for name in pictures]
-    for file, picture in zip(files, pictures.values(), strict=True):
-        write_bytes(file, picture.png)
-    write_text(folder / "report.html", text)
-    return [*files, folder / "report.html"]
+    return Page("Inspection of worn dampers", sections, lead, headline=first, pictures=pictures)

@@ -12,7 +12,7 @@ from twintube.common.files import write_bytes
 from twintube.dampers import ParameterError
 from twintube.engine.simulate import InputError
 from twintube.report.common import style
-from twintube.report.common.html_page import Finding, Picture, Section, Table, html
+from twintube.report.common.html_page import Finding, Page, Picture, Section, Table
 from twintube.report.paper.context import Context
 from twintube.report.paper.figures import FIGURES
 from twintube.report.paper.statement import Plot, Statement, as_json, plain
@@ -115,8 +115,7 @@ def reproduce(
             report(f"Figure {number:2}  {plot.verdict:14} {plot.tally}")
     content: dict[str, Any] = {"paper": PAPER, "twintube": __version__, "bases": BASES, "figures": entries}
     write_bytes(output / "reproduce.json", (json.dumps(content, indent=1) + "\n").encode())
-    page = html(TITLE, LEAD, sections, [summary(entries)])
-    write_bytes(output / "index.html", page.encode())
+    Page(TITLE, sections, LEAD, [summary(entries)]).write(output, "index.html")
     return Report(output / "index.html", output / "reproduce.json", tuple(pictures), verdicts)
 
 
