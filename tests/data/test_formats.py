@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 
 from tests.data.conftest import RECORD, Columns, as_csv, good
+from twintube.common.extras import extra_of
 from twintube.dampers import load
 from twintube.data import GIVEN, GRADIENT, MEASURED, Record, check_dataset, load_dataset
+from twintube.readers import KINDS
+from twintube.readers.__main__ import READERS
 
 Make = Callable[..., Path]
 SHORT = {"time": "time [s]", "stroke": "stroke [mm]", "velocity": "velocity [mm/s]", "force": "force [N]"}
@@ -226,3 +229,13 @@ def test_real_sources(folder: Make, tmp_path: Path, source: str, pattern: str, c
     assert all(0.001 < np.ptp(record.stroke) < 0.06 and 100 < np.ptp(record.force) < 1000 for record in dataset.records)
     offset = [f for f in dataset.findings if f.message.startswith("offset: the stroke")]
     assert len(offset) == (len(files) if source == "mr_labcontrol" else 0)
+
+
+def test_the_table_names_a_reader_for_every_ending_and_a_file_of_another_is_told_all(tmp_path: Path) -> None:
+    for ending, kind in KINDS.items():
+        assert kind.reader == "text" or kind.reader in READERS, ending
+        assert kind.package in ("", "scipy") or extra_of(kind.package) in ("formats", "mdf"), ending
+    (tmp_path / "a.foo").write_text("1,2\n")
+    (tmp_path / "dataset.toml").write_text('damper = "SA8"\n' + RECORD.format("a.foo"))
+    message = "; ".join(finding.message for finding in check_dataset(tmp_path).errors)
+    assert all(ending in message for ending in KINDS), message

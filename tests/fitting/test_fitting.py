@@ -1,5 +1,8 @@
 """What identification and diagnosis share: derivatives, least squares, pulls, intervals and velocities."""
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -14,6 +17,7 @@ from twintube.engine.loops import Means, Records
 from twintube.fitting.intervals import impulse, means
 from twintube.fitting.least_squares import STEP, bounded, derivatives, pulls, sandwich
 from twintube.fitting.parameters import DEGRADATION, FASTER, ranges
+from twintube.fitting.simulation import SimulatedRecords
 from twintube.fitting.splits import distinct
 
 LOW, HIGH = np.array([0.0, 10.0]), np.array([1.0, 30.0])
@@ -112,3 +116,13 @@ def test_a_record_does_not_depend_on_what_stands_before_it() -> None:
         forces.append(np.concatenate(found))
     assert np.isfinite(forces[0]).all()
     assert np.array_equal(*forces)
+
+
+def test_threads_end_with_their_owner() -> None:
+    still: Any = SimpleNamespace(
+        oil_level=1.0, gas_preload=1, time=np.arange(3) * 5e-3, stroke=np.zeros(3), velocity=np.zeros(3)
+    )
+    with SimulatedRecords(load("SA8"), [still], parts=1, failed=np.inf) as run:
+        assert list(run.threads.map(abs, (-1, 2))) == [1, 2]
+    with pytest.raises(RuntimeError, match="after shutdown"):
+        run.threads.submit(abs, 1)
