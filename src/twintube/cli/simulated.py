@@ -164,11 +164,10 @@ def drawn(name: str, motion: "Motion | Record", result: "Simulation") -> bytes:
     import numpy as np
 
     from twintube.data import Record
-    from twintube.report.simulated_record import picture
+    from twintube.report.common.style import png
+    from twintube.report.simulated_record import figure
 
-    return picture(
-        name, motion.time, motion.stroke, result.velocity,
-        simulated=result.force,
-        measured=motion.force if isinstance(motion, Record) else None,
-        usable=motion.usable if isinstance(motion, Record) else np.ones(len(motion.time), dtype=bool),
-    )  # fmt: skip
+    whole = np.ones(len(motion.time), dtype=bool)
+    measured, usable = (motion.force, motion.usable) if isinstance(motion, Record) else (None, whole)
+    inputs = name, motion.time, motion.stroke, result.velocity
+    return png(figure(*inputs, simulated=result.force, measured=measured, usable=usable))

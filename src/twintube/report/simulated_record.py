@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from twintube.common.arrays import Array
 from twintube.data.check.cycles import cycle_starts
-from twintube.report.common.style import GREY, INK, RED, canvas, legend_above, plain, png, title
+from twintube.report.common.style import GREY, INK, RED, canvas, legend_above, plain, title
 
 MOST_POINTS = 200_000  # of a line in the picture
 
@@ -60,20 +60,6 @@ def deviation(stroke: Array, measured: Array, simulated: Array, usable: NDArray[
     )
 
 
-def picture(
-    name: str,
-    time: Array,
-    stroke: Array,
-    velocity: Array,
-    *,
-    simulated: Array,
-    measured: Array | None,
-    usable: NDArray[np.bool_],
-) -> bytes:
-    """PNG: stroke and force over time, force over stroke and over velocity; SI arrays (n,)."""
-    return png(figure(name, time, stroke, velocity, simulated=simulated, measured=measured, usable=usable))
-
-
 def figure(
     name: str,
     time: Array | None,
@@ -84,7 +70,7 @@ def figure(
     measured: Array | None,
     usable: NDArray[np.bool_],
 ) -> Figure:
-    """The same as a figure; without times the left half is missing."""
+    """Force over stroke, over velocity and, where there are times, over time with the stroke; SI arrays (n,)."""
     drawn, axes = canvas(2, 1 if time is None else 2, (5.5 if time is None else 11.0, 7.2))
     over_stroke, over_velocity = axes[:, -1]
     thin = slice(None, None, max(1, len(stroke) // MOST_POINTS))
