@@ -50,6 +50,19 @@ def test_single_intervals_are_named_with_their_times_and_change_no_answer(good: 
     assert as_json(found)["causes"][0]["effect"] == "dropouts"
 
 
+def test_a_step_at_another_moment_is_told_and_is_no_fault_of_the_channel() -> None:
+    """In one oscillation of a damper without preload: where nothing else does so, no hypothesis has it."""
+    records = small.records(speeds=SPEEDS, levels=(small.DEGRADED,))
+    force = records[2].force.copy()
+    at = len(force) // 2 + int(np.argmax(np.abs(np.diff(force[len(force) // 2 :]))))
+    late = slice(at + 1, at + 4)
+    force[late] = force[at]
+    found = answered([*records[:2], replace(records[2], force=force)])
+    assert found.faults == ()
+    (remark,) = (x for x in found.remarks if "steps at another moment" in x)
+    assert remark.startswith(f"{records[2].name} at {records[2].time[at]:.1f}"[:-1])
+
+
 def with_a_groove(record: Record) -> Array:
     """The force of a piston that passes a worn place of the tube."""
     return np.where(np.abs(record.stroke - GROOVE) < WIDE, 0.6 * record.force, record.force)

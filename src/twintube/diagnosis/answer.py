@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -90,6 +90,9 @@ class Answer:
     def remarks(self) -> tuple[str, ...]:
         """What else was put right or is missing, each as a sentence without its full stop."""
         known = () if self.measured is None else self.measured.remarks
+        moved = [one for one in self.unlike if one.kind == "step"]
+        if moved:
+            known = (*known, f"{places(moved)}: the force steps at another moment than under any hypothesis")
         if not self.tared:
             return known
         names = ", ".join(self.tared)
@@ -122,7 +125,7 @@ class Answer:
     def faults(self) -> tuple[Fault, ...]:
         """Faults of the bench that are no hypothesis: put right before anything was judged, and what counts for nothing."""
         known = () if self.measured is None else self.measured.faults
-        few = [one for one in self.unlike if not one.whole]
+        few = [one for one in self.unlike if one.kind == "spike"]
         return (*known, dropouts(few)) if few else known
 
     @property
@@ -140,7 +143,8 @@ class Answer:
         if self.changes is None:
             return ()
         credible = self.changes.credible
-        if not self.weights or sum(self.weights.get(name, 0.0) for name in credible) >= 1.0 - NUMBERS.credible:
+        agreeing = sum(share for name, share in self.weights.items() if agrees(name, credible))
+        if not self.weights or agreeing >= 1.0 - NUMBERS.credible:
             return ()
         ordered = sorted(self.weights, key=lambda name: -self.weights[name])
         total = np.cumsum([self.weights[name] for name in ordered])
@@ -169,7 +173,7 @@ class Answer:
         """Why even the most probable hypothesis is no answer, in a sentence; empty where it is one."""
         if self.changes is None:
             return ""
-        if names := [one.record for one in self.unlike if one.whole]:
+        if names := [one.record for one in self.unlike if one.kind == "whole"]:
             return f"{listed(names, len(names))}: the force goes otherwise than under any hypothesis"
         if self.compared:
             return ""
@@ -227,10 +231,20 @@ def beyond(known: Budget | None, sizes: Sizes, damper: str) -> str:
     return ""
 
 
+def agrees(name: str, credible: Collection[str]) -> bool:
+    """Whether a hypothesis is one of some, or has another cause beside theirs: that does not contradict them."""
+    causes = set(name.split("+"))
+    return name in credible or any(causes >= set(other.split("+")) for other in credible)
+
+
+def places(several: Sequence[Unlike]) -> str:
+    """Where records are not as a hypothesis has them."""
+    return "; ".join(f"{one.record} at {listed([f'{x:.3f}' for x in one.times], 5)} s" for one in several)
+
+
 def dropouts(few: Sequence[Unlike]) -> Fault:
     """The fault of a channel that is off for single intervals."""
-    where = "; ".join(f"{one.record} at {listed([f'{x:.3f}' for x in one.times], 5)} s" for one in few)
-    text = f"The force drops out or spikes in single intervals, which count for next to nothing: {where}."
+    text = f"The force drops out or spikes in single intervals, which count for next to nothing: {places(few)}."
     count = sum(len(one.times) for one in few)
     names = tuple(one.record for one in few)
     return Fault(DROPOUTS, "Drop-outs or spikes of the force channel", text, count, "intervals", records=names)

@@ -4,18 +4,22 @@ What a right hypothesis leaves of a record is Student's noise. In n samples that
 
     \sum \log(1 + r^2 / \nu)   has the mean  n (\psi((\nu + 1) / 2) - \psi(\nu / 2))
 
-and the variance n (\psi'(\nu / 2) - \psi'((\nu + 1) / 2)). A record that has far more is not explained. A single interval
-that no such noise has is a drop-out or a spike of the channel: a damper's force does not come and go in one.
+and the variance n (\psi'(\nu / 2) - \psi'((\nu + 1) / 2)). A record that has far more is not explained. Single intervals of
+which the like holds are a drop-out or a spike of the channel where the measured force leaves the range of what is before and
+after; else the force steps at another moment.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import digamma, polygamma
 from scipy.stats import norm, t
 
 from twintube.common.arrays import Array
+from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.heavy import standardised
 from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.search import Found, Search
@@ -26,8 +30,8 @@ class Unlike:
     """A record that is not as a hypothesis has it."""
 
     record: str
-    whole: bool  # or in a few intervals alone
-    times: tuple[float, ...]  # [s] of these
+    kind: Literal["whole", "spike", "step"]
+    times: tuple[float, ...]  # [s] of single intervals
 
 
 def unlike(search: Search, found: Found) -> Iterator[Unlike]:
@@ -36,11 +40,32 @@ def unlike(search: Search, found: Found) -> Iterator[Unlike]:
     off = standardised(frame, search.trial(found.mechanism, found.at, found.exact).values, found.sizes)
     for record, span in zip(bench.records, bench.slices, strict=True):
         inside = span.start + np.flatnonzero(frame.used[span])
-        far = inside[2.0 * t.sf(np.abs(off[inside]), NUMBERS.freedom) * frame.used.sum() < NUMBERS.implausible]
-        if len(inside) and chance(off[inside]) * len(bench.records) < NUMBERS.implausible:
-            yield Unlike(record.name, whole=True, times=())
-        elif len(far):
-            yield Unlike(record.name, whole=False, times=tuple(bench.t[far].tolist()))
+        if not len(inside):
+            continue
+        if chance(off[inside]) * len(bench.records) < NUMBERS.implausible:
+            yield Unlike(record.name, "whole", ())
+            continue
+        times: dict[Literal["spike", "step"], list[float]] = {"spike": [], "step": []}
+        far = inside[seldom(off[inside], frame)]
+        for run in np.split(far, np.flatnonzero(np.diff(far) > 1) + 1):
+            left = outside(bench.measured[span], run - span.start) / frame.noise[run]
+            times["spike" if seldom(left, frame).any() else "step"] += bench.t[run].tolist()
+        for kind, some in times.items():
+            if some:
+                yield Unlike(record.name, kind, tuple(some))
+
+
+def seldom(off: Array, frame: Frame) -> NDArray[np.bool_]:
+    """Whether samples (n,) so many standard deviations off are in no right answer."""
+    return np.asarray(2.0 * t.sf(np.abs(off), NUMBERS.freedom) * frame.used.sum() < NUMBERS.implausible)
+
+
+def outside(force: Array, run: NDArray[np.int64]) -> Array:
+    """By how much [N] a `run` of forces leaves the range of those before and after it."""
+    if not len(run):
+        return np.zeros(0)
+    ends = force[[max(0, run[0] - 1), min(len(force) - 1, run[-1] + 1)]]
+    return np.asarray(np.maximum(0.0, np.maximum(force[run] - ends.max(), ends.min() - force[run])))
 
 
 def chance(off: Array) -> float:

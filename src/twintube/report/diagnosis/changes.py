@@ -141,7 +141,7 @@ def next_step(answer: Answer) -> str:
 
 def lines(answer: Answer) -> list[str]:
     """The answer for the terminal."""
-    put_right = [f"{remark}." for remark in answer.remarks] if answer.tared else []
+    put_right = [f"{remark}." for remark in answer.remarks] if answer.tared or answer.unlike else []
     return [sentence(answer), *put_right, next_step(answer)]
 
 
