@@ -57,7 +57,7 @@ def test_above_it_force_is_lost_in_compression_and_at_the_begin_of_rebound() -> 
     run, intact, most = simulate(damper, block), simulate(load("SA8"), block), fills_up_to(damper)
     p = damper.parameters
     fast = run.velocity < -1.05 * most  # not the step across it
-    assert -run.F_fluid[fast] == pytest.approx(np.interp(most, [0.0, *p.v_co], [0.0, *p.F_co]), rel=0.01)
+    np.testing.assert_allclose(-run.F_fluid[fast], np.interp(most, [0.0, *p.v_co], [0.0, *p.F_co]), rtol=0.01)
     assert np.abs(intact.F_fluid[fast]).min() > np.abs(run.F_fluid[fast]).max()
     k, void = (last(block, values)[0] for values in (run.k_degr, run.V1_gas))
     assert void[0] > 0.0 and void[-1] == 0.0

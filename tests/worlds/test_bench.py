@@ -48,18 +48,18 @@ def test_faults_do_what_they_say() -> None:
     plain, one = channels(), channels()
     faults.late(one, force=0.01)
     at = 0.5 * plain.time[-1]
-    assert np.interp(at, one.time, one.force) == pytest.approx(np.interp(at - 0.01, plain.time, plain.force), rel=1e-4)
+    np.testing.assert_allclose(np.interp(at, one.time, one.force), np.interp(at - 0.01, plain.time, plain.force), rtol=1e-4)
     for carried, settling, change in ((False, 0.0, 2.0 * at), (True, 0.0, 2.0 * (at + 10.0)), (False, 0.1, 0.2)):
         one = channels()
         faults.drift(one, 2.0, carried=carried, settling=settling)
-        assert np.interp(at, one.time, one.force - plain.force) == pytest.approx(change, rel=0.02)
+        np.testing.assert_allclose(np.interp(at, one.time, one.force - plain.force), change, rtol=0.02)
     faults.fast_clock(one, 0.01)
     assert one.force_time is not None and one.force_time(np.array([1.01]))[0] == pytest.approx(1.0)
     faults.clipped(one, 300.0)
     assert np.abs(one.force).max() == 300.0
     one = channels()
     faults.scaled(one, 1.1, 5.0)
-    assert one.force == pytest.approx(1.1 * plain.force + 5.0)
+    np.testing.assert_allclose(one.force, 1.1 * plain.force + 5.0, rtol=1e-6)
     assert one.stroke is plain.stroke or np.array_equal(one.stroke, plain.stroke)
     for gap, share in ((1e-7, 1.0), (5e-3, 0.9)):
         one = channels()
@@ -77,12 +77,12 @@ def test_sampling_kinds() -> None:
     values = np.sin(2 * np.pi * time)
     at = np.arange(0.1, 1.9, 0.01)
     mean = np.sin(2 * np.pi * (at - 0.005))
-    assert taken(time, values, at, Recorder(100.0, "point")) == pytest.approx(np.sin(2 * np.pi * at), abs=1e-6)
-    assert taken(time, values, at, Recorder(100.0, "mean", late=True)) == pytest.approx(mean, abs=1e-3)
-    assert taken(time, values, at, Recorder(100.0, "mean")) == pytest.approx(np.sin(2 * np.pi * at), abs=1e-3)
+    np.testing.assert_allclose(taken(time, values, at, Recorder(100.0, "point")), np.sin(2 * np.pi * at), rtol=0, atol=1e-6)
+    np.testing.assert_allclose(taken(time, values, at, Recorder(100.0, "mean", late=True)), mean, rtol=0, atol=1e-3)
+    np.testing.assert_allclose(taken(time, values, at, Recorder(100.0, "mean")), np.sin(2 * np.pi * at), rtol=0, atol=1e-3)
     delay = np.sqrt(2.0) / (2 * np.pi * 40.0)  # of a Butterworth filter of second order at low frequency
     late = np.sin(2 * np.pi * (at - delay))
-    assert taken(time, values, at, Recorder(100.0, "filtered")) == pytest.approx(late, abs=5e-3)
+    np.testing.assert_allclose(taken(time, values, at, Recorder(100.0, "filtered")), late, rtol=0, atol=5e-3)
 
 
 def test_noise_has_its_size_and_memory_and_a_converter_its_steps() -> None:
@@ -105,7 +105,7 @@ def test_every_layout_is_read_as_written(layout: str, tmp_path: Path) -> None:
     dataset = check_dataset(tmp_path)
     assert not dataset.errors
     (record,) = dataset.records
-    assert record.force == pytest.approx(force, abs=1e-4)
-    assert record.stroke == pytest.approx(z, abs=1e-8)
-    assert record.time == pytest.approx(columns["time [s]"], abs=1e-6)
+    np.testing.assert_allclose(record.force, force, rtol=0, atol=1e-4)
+    np.testing.assert_allclose(record.stroke, z, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(record.time, columns["time [s]"], rtol=0, atol=1e-6)
     assert (record.temperature is not None) == ("temperature [degC]" in columns)
