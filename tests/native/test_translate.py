@@ -423,7 +423,7 @@ def change(s: Rec, x: float) -> float:
 """
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2))])
 def test_random_functions_give_the_bits_of_the_interpreter(seed: int, tmp_path: Path) -> None:
     names = [f"f{i}" for i in range(60)]
     source = COMMON + "\n\n".join(Draw(1000 * seed + i).function(name) for i, name in enumerate(names))
