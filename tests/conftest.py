@@ -30,7 +30,7 @@ TESTS = Path(__file__).parent
 MARKS = {
     "diagnosis": ["diagnosis", "identification", "claims", "studies", "worlds", "challenge",
                   "virtual_rig"],
-    "fmu": ["fmu", "native", "vehicle", "driving", "inspection", "explorer"],
+    "fmu": ["fmu", "native", "vehicle", "driving", "inspection", "explorer", "effects/test_extended_fmu.py"],
     "docs": ["project", "hardening", "report"],
 }  # fmt: skip
 HERE = (fmpy.platform,)
@@ -40,15 +40,16 @@ FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
          "--disable-component-update", "--disable-sync"]  # fmt: skip
 
 
-def mark_of(folder: str) -> str:
-    """The mark of a folder's tests."""
-    return next((mark for mark, folders in MARKS.items() if folder in folders), "unit")
+def mark_of(path: Path) -> str:
+    """The mark of the tests of a file, given below the folder of all tests."""
+    named = {path.parts[0], path.as_posix()}
+    return next((mark for mark, places in MARKS.items() if named & set(places)), "unit")
 
 
 @pytest.hookimpl(tryfirst=True)  # before -m looks at marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
-        item.add_marker(mark_of(item.path.relative_to(TESTS).parts[0]))
+        item.add_marker(mark_of(item.path.relative_to(TESTS)))
 
 
 def ensure_made(platform: str) -> None:

@@ -54,11 +54,10 @@ def block(mine: Path) -> Path:
     """What `twintube simulate` writes of a block, as a record of a bench would be: time, stroke, velocity, force."""
     file = mine.parent / "all.csv"
     run("simulate", str(mine), *STATE, "--velocity", str(VELOCITY), "--output", str(file))
-    table = np.genfromtxt(file, delimiter=",", names=True, deletechars="")
-    names = ["time_[s]", "stroke_[m]", "velocity_[m/s]", "force_[N]"]
+    table, names = columns(file), ["time [s]", "stroke [m]", "velocity [m/s]", "force [N]"]
     record = mine.parent / "block.csv"
-    head = ",".join(name.replace("_", " ") for name in names)
-    np.savetxt(record, np.column_stack([table[name] for name in names]), "%.9g", ",", header=head, comments="")
+    rows = np.column_stack([table[name] for name in names])
+    np.savetxt(record, rows, "%.9g", ",", header=",".join(names), comments="")
     return record
 
 
@@ -77,9 +76,15 @@ def run(*arguments: str) -> str:
     return done.output
 
 
+def columns(file: Path) -> dict[str, Array]:
+    with file.open(encoding="utf-8") as lines:
+        names = next(lines).strip().split(",")
+    return dict(zip(names, np.loadtxt(file, delimiter=",", skiprows=1, unpack=True), strict=True))
+
+
 def force_and_work(file: Path) -> tuple[Array, Array]:
-    table = np.genfromtxt(file, delimiter=",", names=True, deletechars="")
-    return table["force_[N]"], table["work_[J]"]
+    table = columns(file)
+    return table["force [N]"], table["work [J]"]
 
 
 def apart(force: Array, other: Array) -> float:
