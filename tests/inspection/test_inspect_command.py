@@ -59,6 +59,8 @@ def test_the_page_has_all_methods_and_pictures(tmp_path: Path) -> None:
             "20",
             "--processes",
             "1",
+            "--freed-gas",
+            DEFAULT,
             "--output",
             str(tmp_path),
         ],

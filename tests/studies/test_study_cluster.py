@@ -20,7 +20,7 @@ oil_level = {from = 0.1, to = 0.9, count = 9}
 velocity = 0.05
 variant = [2, 4]
 [parameters]
-"foam.B" = {from = 0.1, to = 1.0, count = 6}
+"foam.B" = {from = 0.1, to = 1.0, count = 3}
 """
 
 
