@@ -34,9 +34,8 @@ def as_it_is() -> Answer:
     return asked(LEVEL)
 
 
-@pytest.mark.parametrize(("stated", "backwards"), [(LEVEL - 0.02, False), (LEVEL, True)], ids=["level", "order"])
-def test_the_answer_does_not_depend_on_how_it_is_asked(as_it_is: Answer, stated: float, backwards: bool) -> None:
-    other = asked(stated, backwards=backwards)
+def test_the_answer_does_not_depend_on_how_it_is_asked(as_it_is: Answer) -> None:
+    other = asked(LEVEL - 0.02, backwards=True)
     likeliest = []
     for found in (as_it_is, other):
         assert found.changes is not None

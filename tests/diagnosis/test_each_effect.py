@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from tests.diagnosis import small
@@ -13,6 +14,8 @@ from twintube.core.hook_table import HOOKS
 from twintube.dampers import load
 from twintube.data import LoadedDataset
 from twintube.diagnosis import Answer, answer
+from twintube.diagnosis.changes import mechanisms, priors
+from twintube.diagnosis.mechanisms import CATALOGUE
 
 # Large ones, as in a damper that is to be replaced.
 HIDDEN: dict[str, dict[str, float]] = {
@@ -59,13 +62,31 @@ def before_and_after(
     return answer(LoadedDataset("Small", damper, records, []), catalogue=catalogue)
 
 
+def assert_numbers_agree(found: Answer, catalogue: Collection[str]) -> None:
+    """Shares are in order and sum to one, and each is its prior times its evidence."""
+    assert found.changes is not None
+    several = found.changes.hypotheses
+    prior = priors(list(dict.fromkeys(m.effect for m in mechanisms(found.changes.search.bench, catalogue))))
+    shares = [h.probability for h in several]
+    assert shares == sorted(shares, reverse=True)
+    assert sum(shares) == pytest.approx(1.0)
+    assert sum(h.probability for h in found.named) >= 0.9
+    most = max(h.log_evidence for h in several)
+    own = np.array([prior(h.name) * np.exp(h.log_evidence - most) for h in several])
+    assert own / own.sum() == pytest.approx(shares, abs=1e-6)
+
+
 @pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["look-alikes", "catalogue"])
 @pytest.mark.parametrize("effect", HIDDEN)
 def test_a_hidden_effect_is_among_what_is_named(effect: str, whole: bool) -> None:
     level = small.DEGRADED if effect in IN_LOST_OIL else small.INTACT
-    found = before_and_after(level, HIDDEN[effect], catalogue=None if whole else look_alikes(effect))
+    catalogue = CATALOGUE if whole else look_alikes(effect)
+    found = before_and_after(level, HIDDEN[effect], catalogue=catalogue)
+    assert_numbers_agree(found, catalogue)
     # A fill other than stated is a state.
     assert {"oil_level_error": "state"}.get(effect, effect) in {part for h in found.named for part in h.name.split("+")}
+    if found.verdict == "cause":
+        assert found.extended is not None and found.extended.parameters != found.damper.parameters
 
 
 def test_every_effect_is_hidden() -> None:
@@ -76,7 +97,12 @@ def test_every_hook_acts_on_one_part_of_the_force() -> None:
     assert sorted(hook for several in ACTS_ON.values() for hook in several) == sorted(HOOKS)
 
 
-@pytest.mark.parametrize(("level", "seed"), [(small.INTACT, 1), (small.INTACT, 2), (small.DEGRADED, 3)])
+OTHER_NOISE = pytest.param(small.INTACT, 2, marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize(("level", "seed"), [(small.INTACT, 1), OTHER_NOISE, (small.DEGRADED, 3)])
 def test_a_good_damper_is_cleared(level: float, seed: int) -> None:
     found = before_and_after(level, {}, seed)
     assert found.verdict == "none"
+    assert found.extended is None
+    assert found.states[0].posterior.as_stated > 0.9

@@ -1,5 +1,7 @@
 """Noise with heavy tails: few samples decide nothing; and the budget of the error, whose first line is what is hidden."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.stats import t as student
@@ -59,6 +61,11 @@ def test_few_samples_decide_nothing(zero: Answer) -> None:
     assert found.cause.values["force_offset"] == pytest.approx(zero.cause.values["force_offset"], abs=5.0)
 
 
+def test_the_answer_tells_the_fault_that_is_hidden(zero: Answer) -> None:
+    assert zero.to_dataframe()["probability"].idxmax() == "force_offset"
+    assert re.fullmatch(r"<Answer about SA8 from 3 records: measurement_fault: force_offset \(.*%\)>", repr(zero))
+
+
 def test_the_first_line_of_the_budget_is_what_is_hidden(zero: Answer) -> None:
     budget = zero.budget()
     assert budget is not None
@@ -69,11 +76,3 @@ def test_the_first_line_of_the_budget_is_what_is_hidden(zero: Answer) -> None:
     said = lines(zero)
     assert any(line.startswith("The simulation is") for line in said)
     assert any("Zero of the load cell" in line and "the cause that is named" in line for line in said)
-
-
-def test_nothing_hidden_leaves_no_finding() -> None:
-    records = small.records(speeds=SPEEDS)
-    found = answer(LoadedDataset("Small", load("SA8", as_published=True), records, []), catalogue=CATALOGUE)
-    budget = found.budget()
-    assert found.verdict == "none" and budget is not None
-    assert not [line.name for line in budget.lines if line.finding and line.force > budget.noise]
