@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.diagnosis import small
+from tests.diagnosis.look_alikes import look_alikes
 from tests.diagnosis.specimen import own_law
 from twintube.common.arrays import Array
 from twintube.dampers import load
@@ -23,6 +24,7 @@ from twintube.report.diagnosis import page, state
 SA8 = load("SA8", as_published=True)
 GAS = SA8.parameters.F_0  # [N] missing where the cell was set to zero with the damper in it
 SPEEDS = (0.3, 0.6)  # [m/s]
+CONSTANTS = look_alikes("gas_spring")  # what a constant of the force is easily taken for
 EDGE = 0.01  # levels below the lowest that was looked at have the least evidence: a hundredth of all levels
 
 
@@ -68,7 +70,7 @@ def test_a_preload_that_is_lost_is_found_by_the_stiffness_of_the_gas() -> None:
 
 def test_a_cell_tared_since_the_reference_is_named() -> None:
     before = [replace(r, reference=True) for r in measured("before", 0.0)]
-    found = answer(LoadedDataset("small", SA8, [*before, *measured("after", GAS, seed=9)], []))
+    found = answer(LoadedDataset("small", SA8, [*before, *measured("after", GAS, seed=9)], []), catalogue=CONSTANTS)
     content = as_json(found)
     assert content["verdict"] == "measurement_fault"
     assert content["credible_set"] == [TARED]
@@ -114,7 +116,7 @@ def test_the_state_and_what_has_changed_do_not_contradict_each_other(tared_later
 def test_a_reference_on_a_tared_cell_accuses_nobody() -> None:
     before = [replace(r, reference=True) for r in measured("before", GAS)]
     after = [replace(r, oil_level=None, gas_preload=None) for r in measured("after", 0.0, seed=9)]
-    found = answer(LoadedDataset("small", SA8, [*before, *after], []))
+    found = answer(LoadedDataset("small", SA8, [*before, *after], []), catalogue=CONSTANTS)
     assert found.verdict == "none"
     assert found.states[0].posterior.gas_lost < 0.05
     assert found.tared == ("before_0", "before_1")
