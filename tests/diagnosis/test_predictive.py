@@ -11,6 +11,7 @@ from twintube.common.arrays import Array
 from twintube.dampers import load
 from twintube.data import LoadedDataset, Record
 from twintube.diagnosis import Answer, answer
+from twintube.diagnosis.changes import UNKNOWN, Hypothesis
 from twintube.diagnosis.contract import as_json
 from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.predictive import chance
@@ -76,5 +77,9 @@ def test_what_no_hypothesis_has_is_unexplained_with_the_record(good: list[Record
     assert as_json(found)["causes"] == []
 
 
-def test_every_record_of_a_good_damper_is_explained(good: list[Record]) -> None:
-    assert answered(good).unlike == ()
+def test_every_record_of_a_good_damper_is_explained_and_a_free_change_is_not_judged_by_them(good: list[Record]) -> None:
+    found = answered(good)
+    assert found.unlike == ()
+    assert found.changes is not None
+    several = (Hypothesis(UNKNOWN, UNKNOWN, 100.0, 1.0), *found.changes.hypotheses)
+    assert replace(found, changes=replace(found.changes, hypotheses=several)).verdict == "unexplained"

@@ -143,8 +143,10 @@ class Answer:
         if self.changes is None:
             return ()
         credible = self.changes.credible
+        if any(name not in self.weights for name in credible):  # a free change predicts nothing
+            return ()
         agreeing = sum(share for name, share in self.weights.items() if agrees(name, credible))
-        if not self.weights or agreeing >= 1.0 - NUMBERS.credible:
+        if agreeing >= 1.0 - NUMBERS.credible:
             return ()
         ordered = sorted(self.weights, key=lambda name: -self.weights[name])
         total = np.cumsum([self.weights[name] for name in ordered])
