@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from twintube.cli.base import VEHICLE, app
-from twintube.cli.options import CAR, FRONT, REAR, ROADS, SEED, WORN_AT, one_of
+from twintube.cli.options import CAR, CARS, FRONT, REAR, ROADS, SEED, WORN_AT, one_of
 from twintube.cli.states import GAS_SHARE, WORN_GAS_LOST, WORN_OIL_LEVEL, worn_preload
 from twintube.errors import InputError
 
@@ -66,3 +66,29 @@ def drive(
         f"{len(signals.values)} channels every {signals.interval * 1e3:g} ms; {worn}: "
         f"{in_words(oil_level, preload)}"
     )
+
+
+@app.command(
+    rich_help_panel=VEHICLE,
+    epilog="Example: twintube join can.csv imu.csv --car my_car.toml --output drive.parquet",
+)
+def join(
+    signals: Annotated[list[Path], typer.Argument(metavar="SIGNALS...", help="Files with channels of one drive.")],
+    output: Annotated[Path, typer.Option(metavar="FILE", help="Signals: .parquet, or .mf4 (extra mdf).")],
+    car: Annotated[
+        str | None,
+        one_of(CARS, "--car", metavar="CAR", help="Where the files do not say it: a car's file with wheelbase and radius."),
+    ] = None,
+) -> None:
+    """Join files of one drive that have rates of their own, as bus and inertial unit, on one even raster.
+
+    One file whose times jitter gets an even raster likewise.
+    """
+    from twintube.driving import joining
+    from twintube.driving.sheet import data_sheet
+    from twintube.driving.signals import check_suffix, write
+
+    check_suffix(output)
+    drive = joining.join(signals, None if car is None else data_sheet(car))
+    write(drive, output)
+    typer.echo(f"{output}: {drive.time[-1]:.1f} s, {len(drive.values)} channels every {drive.interval * 1e3:.3g} ms")

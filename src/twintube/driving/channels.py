@@ -33,8 +33,8 @@ CHANNELS: Final = {
         Channel("accel_x_m_per_s2", "m/s2", "acceleration along the car, forward positive", -50.0, 50.0),
         Channel("accel_y_m_per_s2", "m/s2", "lateral acceleration, to the left positive", -50.0, 50.0),
         Channel("yaw_rate_rad_per_s", "rad/s", "yaw rate, turning left positive", -5.3, 5.3),
-        Channel("steering_angle_rad", "rad", "steer angle at the road wheels, to the left positive", -1.0, 1.0),
-        Channel("brake_pressure_pa", "Pa", "brake pressure over ambient", -1e6, 3e7),
+        Channel("steering_angle_rad", "rad", "steer angle at the road wheels, to the left positive", -1.0, 1.0, False),
+        Channel("brake_pressure_pa", "Pa", "brake pressure over ambient", -1e6, 3e7, False),
         *(
             Channel(f"wheel_accel_{place}_m_per_s2", "m/s2", f"vertical acceleration of the {name}", -1000.0, 1000.0, False)
             for place, name in NAMES.items()
@@ -47,6 +47,7 @@ CHANNELS: Final = {
             100.0,
             False,
         ),
+        Channel("ambient_temperature_degC", "degC", "temperature of the air outside", -60.0, 70.0, False),
     )
 }
 # What the data sheet of a car says: unit, lower and upper bound.

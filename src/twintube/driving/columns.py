@@ -19,12 +19,13 @@ UNITS: Final = {
     "rad/s": {"rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "1/min": np.pi / 30.0},
     "m/s2": {"m/s2": 1.0, "g": G, "mg": 1e-3 * G},
     "rad": {"rad": 1.0, "deg": np.pi / 180.0},
+    "degC": {"degC": 1.0},
     "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "bar": 1e5, "psi": 6894.757},
 }
 SPEEDS: Final = {"m/s": 1.0, "km/h": 1.0 / 3.6, "mph": 0.44704}  # of a wheel, over its radius
 UNIT_OF: Final = {TIME: "s"} | {name: channel.unit for name, channel in CHANNELS.items()}
 # Without the unit in the name: `wheel_speed_fl`, which then stands in brackets.
-BARE: Final = {name.removesuffix("_" + unit.lower().replace("/", "_per_")): name for name, unit in UNIT_OF.items()}
+BARE: Final = {name[: -len("_" + unit.replace("/", "_per_"))]: name for name, unit in UNIT_OF.items()}
 SIGNS: Final = str.maketrans({"²": "2", "^": None, "°": "deg", "\N{MICRO SIGN}": "u", "\N{GREEK SMALL LETTER MU}": "u"})
 
 

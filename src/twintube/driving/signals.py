@@ -104,13 +104,16 @@ def check_time(time: Array) -> None:
     steps = np.diff(time)
     if steps.min() <= 0.0:
         i = int(np.argmin(steps > 0.0))
-        raise InputError(f"{TIME}, sample {i + 2}: {time[i + 1]:.6g} s after {time[i]:.6g} s: the times must increase")
+        raise InputError(
+            f"{TIME}, sample {i + 2}: {time[i + 1]:.6g} s after {time[i]:.6g} s: the times must increase; where a clock "
+            "jumps, cut the file there"
+        )
     usual = usual_interval(time)
     if steps.max() > GAP * usual:
         i = int(np.argmax(steps > GAP * usual))
         raise InputError(
-            f"{TIME}: a gap of {steps[i]:.3g} s after {time[i]:.6g} s: must be at most {GAP:g} times the usual "
-            f"{usual:.3g} s; cut the file there"
+            f"{TIME}, sample {i + 2}: a gap of {steps[i]:.3g} s after {time[i]:.6g} s: must be at most {GAP:g} times the "
+            f"usual {usual:.3g} s; cut the file there, or make the raster even with `twintube join`"
         )
 
 
@@ -143,10 +146,7 @@ def read(path: str | Path, car: Mapping[str, Any] | None = None) -> Signals:
     """
     path = Path(path)
     try:
-        check_suffix(path, READ)
-        is_text = path.suffix.lower() in TEXT
-        check_regular(path, TEXT_BYTES if is_text else BINARY_BYTES)
-        return assembled((of_text if is_text else of_binary)(path), car or {})
+        return assembled(found_in(path), car or {})
     except (ReadError, UnreadableError, ValueError) as error:
         raise InputError(f"{path.name}: {error}") from error
 
@@ -196,6 +196,14 @@ def assembled(found: Found, car: Mapping[str, Any]) -> Signals:
     if any(channel.required and name not in values for name, channel in CHANNELS.items()):
         check_names(dict.fromkeys([*values, *(name for name in found.names if not named(name))]))
     return Signals(time, values, **{**known, "car": sheet})
+
+
+def found_in(path: Path) -> Found:
+    """What a file in one of READ holds; raises InputError, OSError."""
+    check_suffix(path, READ)
+    is_text = path.suffix.lower() in TEXT
+    check_regular(path, TEXT_BYTES if is_text else BINARY_BYTES)
+    return (of_text if is_text else of_binary)(path)
 
 
 def of_text(path: Path) -> Found:
