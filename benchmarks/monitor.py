@@ -1,6 +1,7 @@
 """`python -m benchmarks.monitor drives.parquet`: the monitor's tables, and how many worn dampers they see.
 
-The drives are those of `twintube study driving`: the cars of the group `train` make the tables, those of `test` are judged.
+The drives are those of `twintube study driving`: the cars of the group `train` make the tables, those of other groups are
+judged.
 """
 
 import json
@@ -52,14 +53,17 @@ def main(
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all figures to this file.")] = None,
 ) -> None:
-    """Make the monitor's tables from the cars of the training, and judge the drives of the test."""
+    """Make the monitor's tables from the cars of the training, and judge the drives of the others."""
     loaded = [drive for path in drives for drive in load(path)]
-    training, test = ([drive for drive in loaded if drive.group == group] for group in ("train", "test"))
+    training = [drive for drive in loaded if drive.group == "train"]
+    test = [drive for drive in loaded if drive.group != "train"]
     model = from_json(to_json(train(training, trained(training))))
-    figures = detection.summary(model, training, test)
-    figures["learning_curve"] = detection.learning_curve(training, test, PARTS)
     if model_file is not None:
         model_file.write_text(to_json(model), encoding="utf-8")
+    if not test:
+        return
+    figures = detection.summary(model, training, test)
+    figures["learning_curve"] = detection.learning_curve(training, test, PARTS)
     if json_file is not None:
         json_file.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
     typer.echo("\n".join(lines(figures)))

@@ -9,10 +9,11 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
+from twintube.dampers import load
 from twintube.dampers.freed_gas import SCALAR
 from twintube.driving import study
 from twintube.driving.channels import CHANNELS
-from twintube.driving.draws import LEVELS, PER_CAR, SCALES, SEEDS, SIZES, draw, sized
+from twintube.driving.draws import GROUPS, HOP_SPEED, LEVELS, PER_CAR, SCALES, SEEDS, SIZES, draw, sized, tuned
 from twintube.driving.signals import read
 from twintube.errors import UserError
 from twintube.studies import StudyError
@@ -22,9 +23,9 @@ RUNNER = CliRunner()
 
 
 def test_the_groups_share_no_car_no_road_and_no_tyre() -> None:
-    drawn = [draw(number, 60.0, 1) for number in range(0, 40 * PER_CAR, 5)]
+    drawn = [draw(number, 60.0, 1) for number in range(0, 42 * PER_CAR, 5)]
     several = [[each for each in drawn if each.group == group] for group in ("train", "test")]
-    assert len(several[0]) == len(several[1])
+    assert len(several[0]) == len(several[1]) and {each.group for each in drawn} == set(GROUPS)
     for of in (
         lambda d: d.car, lambda d: d.vehicle.car.name, lambda d: d.vehicle.seed, lambda d: d.vehicle.tyre,
         lambda d: d.conditions.road_seed, lambda d: d.conditions.scale,
@@ -48,8 +49,32 @@ def test_a_car_is_the_same_in_all_its_drives_and_worn_in_some() -> None:
         assert len(cars) == PER_CAR and all(each == cars[0] for each in cars)
     worn = [each for each in drawn if min(each.wear.oil_level) < 1.0]
     assert worn and not any(each.reference for each in worn) and sum(each.reference for each in drawn) == 24
-    assert all(LEVELS[0] <= min(each.wear.oil_level) <= LEVELS[1] for each in worn)
+    assert all(LEVELS[0][0] <= min(each.wear.oil_level) <= LEVELS[1][1] for each in worn)
     assert draw(7, 60.0, 1) == drawn[7] and draw(7, 60.0, 2) != drawn[7]
+
+
+def test_references_of_one_season_and_of_all_four_worn() -> None:
+    drawn = [draw(number, 60.0, 1) for number in range(40 * PER_CAR)]
+    spread = [np.ptp([each.conditions.ambient for each in drawn if each.car == car and each.reference]) for car in range(40)]
+    # Weather alone has a standard deviation of 5 K, the year a range of 18 K.
+    assert min(spread) < 8.0 and max(spread) > 15.0
+    assert any(max(each.wear.oil_level) < 0.4 for each in drawn)
+    assert all(0.0 <= each.conditions.temperature - each.conditions.ambient <= 25.0 for each in drawn)
+
+
+def test_dampers_give_a_wheel_the_damping_that_is_asked_for() -> None:
+    axle = load_car().axles["front"]
+    p = tuned(load("SA7"), axle, 0.3).parameters
+    speed = HOP_SPEED * axle["ratio"]
+    constant = 0.5 * (np.interp(speed, p.v_re, p.F_re) + np.interp(speed, p.v_co, p.F_co)) / HOP_SPEED * axle["ratio"]
+    assert constant / (2.0 * np.sqrt(axle["m_wheel"] * (axle["c_tyre"] + axle["c_body"]))) == pytest.approx(0.3)
+
+
+def test_one_group_of_cars_alone_with_fewer_drives_of_each() -> None:
+    plan = study.Plan(12, 1.0, group="other", per_car=6)
+    drawn = [draw(plan.number(i), 60.0, 1) for i in range(12)]
+    assert {each.group for each in drawn} == {"other"} and len({each.car for each in drawn}) == 2
+    assert sum(each.reference for each in drawn) == 8
 
 
 def test_a_larger_car_has_the_same_frequencies() -> None:
@@ -118,6 +143,8 @@ def test_a_worker_of_another_version_is_refused() -> None:
     [
         ("study driving --drives 0", "drives = 0: must be from 1 to 100000"),
         ("study driving --minutes 0.5", "minutes = 0.5: must be from 1 to 60"),
+        ("study driving --group fleet", "group fleet: must be one of train, test, other"),
+        ("study driving --per-car 4", "per_car = 4: must be from 5 to 10"),
         ("study driving --seed -1", "seed = -1: must not be below 0"),
         ("study driving --processes 0", "processes = 0: must be at least 1"),
         ("study variants --drives 3", "--drives: only with the study driving"),

@@ -44,7 +44,7 @@ def row(change: dict[str, float], random: np.random.Generator) -> dict[str, floa
                 feature = f"{sensor}_{name}"
                 away = 0.1 * random.standard_normal() + change.get(place, 0.0) * SIGNS[feature]
                 minute[f"{feature}_{place}"] = model.usual[axle][feature].value + away
-    return minute | {"body_bounce": model.usual["front"]["body_bounce"].value}
+    return minute | {"cold": 0.0, "body_bounce": model.usual["front"]["body_bounce"].value}
 
 
 def drives(car: str, levels: tuple[float, ...], random: np.random.Generator) -> list[Drive]:

@@ -59,7 +59,7 @@ def study(
             metavar="ADDRESS", help="Dask scheduler that computes instead, e.g. tcp://10.0.0.1:8786 (extra cluster)."
         ),
     ] = None,
-    drives: Annotated[int, typer.Option(metavar="N", help="Of driving: number of drives, ten of each car.")] = 1000,
+    drives: Annotated[int, typer.Option(metavar="N", help="Of driving: number of drives.")] = 1000,
     minutes: Annotated[float, typer.Option(metavar="MIN", help="Of driving: length of a drive.")] = 5.0,
     seed: Annotated[int, typer.Option(metavar="N", help="Of driving: seed of all that is drawn.")] = 1,
     scalar: Annotated[
@@ -69,6 +69,12 @@ def study(
         bool,
         typer.Option("--freed-gas", help="Of driving: worn dampers with the other ways of the freed gas, too."),
     ] = False,
+    group: Annotated[
+        str | None, typer.Option(metavar="GROUP", help="Of driving: only cars of train, of test, or of other.")
+    ] = None,
+    per_car: Annotated[
+        int, typer.Option(metavar="N", help="Of driving: drives of each car, of which four are its references.")
+    ] = 10,
     signals: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Of driving: write the signals of every drive to this folder.")
     ] = None,
@@ -83,14 +89,15 @@ def study(
     if definition == "driving":
         from twintube.driving.study import Plan, run, summary
 
-        plan = Plan(drives, minutes, seed, scalar, freed_gas, None if signals is None else str(signals.resolve()))
+        folder = None if signals is None else str(signals.resolve())
+        plan = Plan(drives, minutes, seed, scalar, freed_gas, group, per_car, folder)
         if not named():
             refuse_other(output, same=studies.definition_of(output) == plan.text)
         count = (os.cpu_count() or 1) if processes is None else processes
         counts = run(plan, output, processes=count, cluster=cluster)
         typer.echo(summary(plan, output, counts))
         return
-    for name in ("drives", "minutes", "seed", "scalar", "freed_gas", "signals"):
+    for name in ("drives", "minutes", "seed", "scalar", "freed_gas", "group", "per_car", "signals"):
         if named(name):
             raise InputError(f"--{name.replace('_', '-')}: only with the study driving, not with {definition}")
     loaded = studies.load(definition)

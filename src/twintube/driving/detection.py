@@ -19,14 +19,17 @@ from twintube.errors import InputError
 
 CONFIDENCE: Final = 0.95
 MONITOR, BASELINE = "monitor", "damping ratio"
-ONE, AXLE, OTHER = "one damper", "an axle", "several"
+ONE, AXLE, ALL, OTHER = "one damper", "an axle", "all four", "several"
 STEP: Final = 10  # [%] of oil level in a row
 EDGES: Final = np.array([0.0, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0])  # of the probabilities whose reliability is told
 
 
 @dataclass(frozen=True)
 class Judged:
-    """One damper in one drive, judged: `score` is the probability, or minus the change of ln damping ratio."""
+    """One damper in one drive, judged: `score` is the probability, or minus the change of ln damping ratio.
+
+    `unlike` is one that is too far from the training to be judged.
+    """
 
     drive: Drive
     place: str
@@ -36,11 +39,12 @@ class Judged:
     method: str
     score: float
     limit: float
+    unlike: bool = False
 
     @property
     def seen(self) -> bool:
-        """Whether it is beyond the limit."""
-        return self.score > self.limit
+        """Whether it is beyond the limit, and judged."""
+        return self.score > self.limit and not self.unlike
 
     @property
     def oil(self) -> str:
@@ -59,6 +63,8 @@ class Judged:
         bad = [place for place in PLACES if not self.drive.good(place)]
         if len(bad) < 2:
             return ONE
+        if len(bad) == len(PLACES):
+            return ALL
         return AXLE if len(bad) == 2 and AXLES[bad[0]] == AXLES[bad[1]] else OTHER
 
 
@@ -90,8 +96,9 @@ def judged(model: Model, drives: Sequence[Drive], limits: dict[tuple[str, str], 
                 for sensors in model.tables[way]:
                     table = model.table(way, sensors, place)
                     if all(name in difference for name in table.weights):
+                        unlike = model.distance(way, sensors, place, difference) > table.far
                         score = table.probability(difference)
-                        found.append(Judged(drive, place, length, way, sensors, MONITOR, score, table.limit))
+                        found.append(Judged(drive, place, length, way, sensors, MONITOR, score, table.limit, unlike))
     return found
 
 
@@ -104,6 +111,7 @@ def share(some: Sequence[Judged]) -> dict[str, Any]:
         "share": count / len(some),
         "band": [float(interval.low), float(interval.high)],
         "dampers": len(some),
+        "unlike": sum(each.unlike for each in some),
     }
 
 

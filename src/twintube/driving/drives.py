@@ -8,10 +8,22 @@ import numpy as np
 
 from twintube.common.arrays import Array
 from twintube.driving.channels import CHANNELS, PLACES
-from twintube.driving.sensors import INERTIAL, RASTER, STEERING, VERTICAL, Encoder, resolutions, rounded, sensed, wheel_speed
+from twintube.driving.sensors import (
+    INERTIAL,
+    OUTSIDE,
+    RASTER,
+    STEERING,
+    VERTICAL,
+    Encoder,
+    resolutions,
+    rounded,
+    sensed,
+    wheel_speed,
+)
 from twintube.driving.signals import Signals
 from twintube.engine import compiled
 from twintube.errors import InputError
+from twintube.inspection.scatter import ROOM
 from twintube.vehicle.full.car import WHEELS
 from twintube.vehicle.full.maneuvers import Road, checked_speed
 from twintube.vehicle.full.rolling import ROLL_COLUMNS, ROLL_STATES
@@ -28,6 +40,8 @@ STOPS: Final = 90.0  # [s] between two brakings, mean
 BRAKED: Final = (2.0, 2.0)  # deceleration [m/s2], and how long [s]
 REGAINED: Final = 0.7  # [m/s2] after it
 SLOWEST: Final = 5.0  # [m/s] below which nobody brakes
+HILL: Final = 400.0  # [m] within which the grade changes
+GIVES: Final = 1.0  # share of the speed lost per grade: 5 % uphill, 5 % slower
 
 
 @dataclass(frozen=True)
@@ -55,6 +69,8 @@ class Scene:
     random: int
     sheet: Mapping[str, Any]
     labels: Mapping[str, Any] = field(default_factory=dict)
+    hills: float = 0.0  # grade [1], root mean square
+    ambient: float = ROOM  # [degC] of the air
 
 
 def slow_noise(count: int, dt: float, frequency: float, random: np.random.Generator) -> Array:
@@ -65,10 +81,18 @@ def slow_noise(count: int, dt: float, frequency: float, random: np.random.Genera
     return np.asarray(noise / np.sqrt(2.0 / 3.0))  # what a line between knots leaves of the variance
 
 
-def course(car: FullCar, speed: float, seconds: float, random: np.random.Generator) -> Array:
-    """What the driver does: inputs (n, 3) of `drive_car` around a `speed` [m/s], with curves, and brakings now and then."""
+def grades(scene: Scene, speed: float, count: int) -> Array:
+    """The grade [1] (count,) of the road under the car, every DT."""
+    return scene.hills * slow_noise(count, DT, speed / HILL, np.random.default_rng([scene.random, 1]))
+
+
+def course(car: FullCar, speed: float, seconds: float, grade: Array, random: np.random.Generator) -> Array:
+    """What the driver does: inputs (n, 3) of `drive_car` around a `speed` [m/s], with curves, and brakings now and then.
+
+    Uphill, by a `grade` (n,), he gets slower.
+    """
     count = round(seconds / DT)
-    wanted = speed * (1.0 + WANDER[0] * slow_noise(count, DT, WANDER[1], random))
+    wanted = speed * (1.0 + WANDER[0] * slow_noise(count, DT, WANDER[1], random) - GIVES * grade)
     lateral = CURVES[0] * slow_noise(count, DT, CURVES[1], random)
     braked = np.zeros(count, dtype=bool)
     at = SETTLED + random.exponential(STOPS)
@@ -112,13 +136,16 @@ def rolled(scene: Scene, run: CarRun, slopes: Array, way: float, state: Array) -
     return out, float(ways[-1] + speed[-1] * DT)
 
 
-def seen(scene: Scene, run: CarRun, out: Array) -> dict[str, Array]:
-    """What moves the sensors in a stretch, (n,) or (n, 4); accelerometers feel the weight as the body pitches and rolls."""
+def seen(scene: Scene, run: CarRun, out: Array, grade: Array) -> dict[str, Array]:
+    """What moves the sensors in a stretch, (n,) or (n, 4); accelerometers feel the weight as the body pitches and rolls.
+
+    So they do on a hill, which moves the car by the engine only.
+    """
     push = out[:, ROLL_COLUMNS - 1] / scene.car.body.mass
     columns = {
         "spin": out[:, : ROLL_COLUMNS - 1],
         "steer": run.steer,
-        "accel_x_m_per_s2": run.a_x + push - GRAVITY * run.pitch,
+        "accel_x_m_per_s2": run.a_x + push + GRAVITY * (grade - run.pitch),
         "accel_y_m_per_s2": run.a_y + GRAVITY * run.roll,
         "yaw_rate_rad_per_s": run.yaw_rate,
         "brake_pressure_pa": run.pressure.max(axis=1),
@@ -131,7 +158,8 @@ def driven(scene: Scene) -> Signals:
     """Drive; raises InputError where a piston would leave its tube."""
     random = np.random.default_rng(scene.random)
     speed = checked_speed(scene.speed_kmh)
-    inputs = course(scene.car, speed, scene.seconds + SETTLED, random)
+    grade = grades(scene, speed, round((scene.seconds + SETTLED) / DT))
+    inputs = course(scene.car, speed, scene.seconds + SETTLED, grade, random)
     # The speed that is held swings on a rough road, and the road must not end before the time.
     heights, slopes = ground(scene, 1.1 * float(np.sum(np.where(inputs[:, 2] > 0, inputs[:, 2], speed))) * DT + 100.0)
     way = Underway(scene.car, heights, SPACING, speed, grips=scene.road.grips)
@@ -141,7 +169,7 @@ def driven(scene: Scene) -> Signals:
     for begin in range(0, len(inputs), size):
         run = way.on(inputs[begin : begin + size])
         out, at = rolled(scene, run, slopes, at, state)
-        parts.append(seen(scene, run, out))
+        parts.append(seen(scene, run, out, grade[begin : begin + len(out)]))
     moved = {name: np.concatenate([part[name] for part in parts])[round(SETTLED / DT) :] for name in parts[0]}
     return on_bus(scene, moved, random)
 
@@ -165,5 +193,6 @@ def on_bus(scene: Scene, moved: Mapping[str, Array], random: np.random.Generator
     values["steering_angle_rad"] = rounded(moved["steer"][:: round(RASTER / DT)], float(STEERING))
     values |= {name: sensed(moved[name], DT, sensor, random) for name, sensor in VERTICAL.items()}
     time = np.arange(len(values["steering_angle_rad"])) * RASTER
+    values["ambient_temperature_degC"] = np.full(len(time), rounded(np.array(scene.ambient), OUTSIDE))
     about = {"seconds": scene.seconds}
     return Signals(time, values, scene.sheet, about, resolutions(radius, values), scene.labels)

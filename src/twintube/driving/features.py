@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 
 from twintube.common.arrays import Array
+from twintube.driving.air import cold
 from twintube.driving.channels import PLACES
 from twintube.driving.physical import wheel_hop
 from twintube.driving.signals import Signals
@@ -29,7 +30,8 @@ OF_THE_BODY: Final = {
     "body_bounce": "power of the body at its resonance over that between the resonances",
     "body_hop": "power of the body at wheel hop over that between the resonances",
 }
-CONDITIONS: Final = ("speed", "level")  # logarithms: speed over 1 m/s, power of the road that the wheels show
+# Logarithms: speed over 1 m/s, power of the road that the wheels show, force of cold oil; the last where the air is known.
+CONDITIONS: Final = ("speed", "level", "cold")
 
 
 def band_power(frequency: Array, power: Array, band: tuple[float, float]) -> float:
@@ -41,6 +43,8 @@ def of_a_minute(some: Spectra) -> dict[str, float]:
     """The features of some windows, and under which CONDITIONS they were driven."""
     f = some.frequency
     row = {"speed": float(np.mean(np.log(some.speed)))}
+    if np.isfinite(some.air).all():
+        row["cold"] = cold(float(np.mean(some.air)))
     for sensor in some.sensors:
         each = {place: some.amplitude[f"{sensor}_{place}"] for place in PLACES}
         power = {place: density(x) for place, x in each.items()}

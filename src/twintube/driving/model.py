@@ -4,6 +4,10 @@ What counts is by how much a feature differs from what is usual: for the car in 
 else for the fleet of the training. What is usual moves with speed and road, by slopes that all cars share. The sum of
 weight times difference over scale is the logarithm of the odds against a good damper, a worn one taken as likely as a good
 one before the drive.
+
+That says which of two kinds a damper is likelier of, and nothing of whether it is of either. So there is a distance, too: of
+all features, and of speed and road, to what good dampers show plus any amount of what wear adds, at this wheel, at the other
+wheel of the axle and at the other axle. What is further off than 99 of 100 good dampers is not judged.
 """
 
 import json
@@ -14,7 +18,9 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any, Final
 
-from twintube.common.words import listed
+import numpy as np
+from scipy import linalg, optimize
+
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, OF_A_WHEEL, mean_of, of_the_damper
 
@@ -23,6 +29,7 @@ MOST: Final = 4.0  # scales that a feature counts at most: no good damper is fur
 WORN: Final = 0.4  # oil level of a worn damper, the lower one of the paper's degraded states
 LIKELIER: Final = 0.5  # probability: below, a damper is likelier good than worn
 REFERENCE, FLEET = "reference", "fleet"
+DRIVEN: Final = ("speed", "level")  # of CONDITIONS: those that every drive shows
 AXLES: Final = {place: "front" if place[0] == "f" else "rear" for place in PLACES}
 # Which way a feature goes where damping is lost.
 SIGNS: Final = {
@@ -58,13 +65,15 @@ class Table:
     """The weights of an axle: log odds = intercept + sum of weight * difference / scale, each within +-MOST.
 
     A scale is the standard deviation of good dampers. `limit` [1] is the probability that at most 1 in 100 good dampers
-    of the training passes.
+    of the training passes, `far` the distance. Below `fine` lie at most 1 in 20 worn ones, and none that is likelier worn.
     """
 
     intercept: float
     weights: Mapping[str, float]
     scales: Mapping[str, float]
     limit: float
+    fine: float = LIKELIER
+    far: float = math.inf
 
     def parts(self, difference: Mapping[str, float]) -> dict[str, float]:
         """What each feature adds to the log odds."""
@@ -85,19 +94,49 @@ class Usual:
 
 
 @dataclass(frozen=True)
+class Known:
+    """What the training showed at the wheels of an axle, in the order of `names`, all features and DRIVEN.
+
+    `wear` (3, n) is what a worn damper adds to the differences: that of the wheel itself, that of the other wheel of the
+    axle, those of the other axle. `covariance` (n, n) is that of the rest in good cars; `scatter` (n, n) in cars with worn
+    dampers, as no two cars answer to wear alike.
+    """
+
+    names: tuple[str, ...]
+    wear: tuple[tuple[float, ...], ...]
+    covariance: tuple[tuple[float, ...], ...]
+    scatter: tuple[tuple[float, ...], ...]
+
+    def distance(self, difference: Mapping[str, float], sensors: str) -> float:
+        """How far a difference is from good dampers and any wear, in standard deviations of good ones, root of the sum."""
+        names = (*names_of(sensors), *DRIVEN)
+        which = [self.names.index(name) for name in names]
+        own, more = (np.array(each)[np.ix_(which, which)] for each in (self.covariance, self.scatter))
+        wear, seen = np.array(self.wear)[:, which].T, np.array([difference[name] for name in names])
+        amounts, distance = np.zeros(len(self.wear)), 0.0
+        # The more wear there is, the more it scatters: first how much, then how far.
+        for _ in range(2):
+            root = linalg.cholesky(own + amounts @ amounts * more, lower=True)
+            amounts, distance = optimize.nnls(*(linalg.solve_triangular(root, each, lower=True) for each in (wear, seen)))
+        return float(distance)
+
+
+@dataclass(frozen=True)
 class Model:
-    """All tables: `usual` by axle and feature, `tables` by REFERENCE or FLEET, sensors and axle; `about` says of what."""
+    """All tables: `usual` by axle and feature, `known` by REFERENCE or FLEET and axle, `tables` by sensors besides.
+
+    `about` says of what they were made.
+    """
 
     middle: tuple[float, ...]  # of CONDITIONS in the training
-    lowest: tuple[float, ...]
-    highest: tuple[float, ...]
     usual: Mapping[str, Mapping[str, Usual]]
+    known: Mapping[str, Mapping[str, Known]]
     tables: Mapping[str, Mapping[str, Mapping[str, Table]]]
     about: Mapping[str, Any] = field(default_factory=dict)
 
     def at_middle(self, row: Mapping[str, float], place: str) -> dict[str, float]:
-        """The features of a damper as they would be at the middle of the conditions."""
-        away = [row[name] - middle for name, middle in zip(CONDITIONS, self.middle, strict=True)]
+        """The features of a damper as they would be at the middle of the conditions; what is not known is taken for it."""
+        away = [row.get(name, middle) - middle for name, middle in zip(CONDITIONS, self.middle, strict=True)]
         own = of_the_damper(row, place)
         return {
             name: own[name] - sum(a * b for a, b in zip(usual.slopes, away, strict=True))
@@ -108,33 +147,30 @@ class Model:
     def difference(
         self, rows: Sequence[Mapping[str, float]], place: str, reference: Sequence[Mapping[str, float]] = ()
     ) -> dict[str, float]:
-        """By how much the features of a damper differ from what is usual; `rows` and `reference` are minutes."""
+        """By how much the features of a damper differ from what is usual, and DRIVEN from the middle.
+
+        `rows` and `reference` are minutes.
+        """
         here = mean_of([self.at_middle(row, place) for row in rows])
         if reference:
             usual = mean_of([self.at_middle(row, place) for row in reference])
         else:
             usual = {name: each.value for name, each in self.usual[AXLES[place]].items()}
-        return {name: value - usual[name] for name, value in here.items() if name in usual}
+        driven = {name: float(np.mean([row[name] for row in rows])) - self.middle[CONDITIONS.index(name)] for name in DRIVEN}
+        return driven | {name: value - usual[name] for name, value in here.items() if name in usual}
 
     def table(self, way: str, sensors: str, place: str) -> Table:
         """The weights for REFERENCE or FLEET, a set of sensors and a damper."""
         return self.tables[way][sensors][AXLES[place]]
 
-    def outside(self, rows: Sequence[Mapping[str, float]]) -> str:
-        """Which conditions of a drive lie outside those of the training, in words; empty where none does."""
-        words = {"speed": "slower or faster", "level": "smoother or rougher"}
-        mean = mean_of([dict(row) for row in rows])
-        found = [
-            words[name]
-            for name, low, high in zip(CONDITIONS, self.lowest, self.highest, strict=True)
-            if not low <= mean[name] <= high
-        ]
-        return listed(found)
+    def distance(self, way: str, sensors: str, place: str, difference: Mapping[str, float]) -> float:
+        """How far the difference of a damper is from all that was trained."""
+        return self.known[way][AXLES[place]].distance(difference, sensors)
 
 
 def to_json(model: Model) -> str:
     """The model as text, with the digits that count."""
-    return json.dumps(rounded(asdict(model)), indent=1) + "\n"
+    return json.dumps(rounded(asdict(model)), indent=None, separators=(", ", ": ")).replace("}, ", "},\n") + "\n"
 
 
 def rounded(value: Any) -> Any:
@@ -157,8 +193,14 @@ def from_json(text: str) -> Model:
         way: {sensors: {axle: Table(**each) for axle, each in axles.items()} for sensors, axles in some.items()}
         for way, some in content["tables"].items()
     }
-    middle, lowest, highest = (tuple(content[name]) for name in ("middle", "lowest", "highest"))
-    return Model(middle, lowest, highest, usual, tables, content["about"])
+    known = {
+        way: {
+            axle: Known(tuple(each["names"]), *(tuple(map(tuple, each[name])) for name in ("wear", "covariance", "scatter")))
+            for axle, each in axles.items()
+        }
+        for way, axles in content["known"].items()
+    }
+    return Model(tuple(content["middle"]), usual, known, tables, content["about"])
 
 
 @lru_cache

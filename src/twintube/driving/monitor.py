@@ -19,8 +19,9 @@ from twintube.errors import InputError
 REPLACE: Final = 0.99  # probability: of a hundred dampers replaced, one is good
 FINE, UNCLEAR, WATCH, WORN_OUT = "fine", "cannot tell", "watch", "replace"
 STATES: Final = {
-    FINE: "likelier good than worn: below 50 %",
-    UNCLEAR: "likelier worn than good, but more than 1 in 100 good dampers look the same: 50 % to the limit",
+    FINE: "damps more than 95 of 100 worn dampers, and is likelier good than worn: at most 50 %",
+    UNCLEAR: "unlike the good and the worn dampers of the training, further off than 99 of 100 good ones; or between: more "
+    "than 1 in 20 worn dampers and more than 1 in 100 good ones look the same",
     WATCH: "damps less than 99 of 100 good dampers: above the limit",
     WORN_OUT: "has lost its damping: above the limit, and 99 % or more",
 }
@@ -36,11 +37,21 @@ class Watched:
     damping: float  # damping ratio of wheel hop over that of the reference or the fleet
     parts: dict[str, float]  # what each feature adds to the log odds
     difference: dict[str, float]  # from what is usual
+    distance: float = 0.0  # from all that was trained, in standard deviations
+    far: float = np.inf  # that 1 in 100 good dampers passes
+    fine: float = LIKELIER  # below it lie at most 1 in 20 worn dampers
+
+    @property
+    def unlike(self) -> bool:
+        """Whether it is neither like the good dampers nor like the worn ones of the training."""
+        return self.distance > self.far
 
     @property
     def state(self) -> str:
         """One of STATES."""
-        if self.probability < LIKELIER:
+        if self.unlike:
+            return UNCLEAR
+        if self.probability < self.fine:
             return FINE
         if self.probability <= self.limit:
             return UNCLEAR
@@ -59,8 +70,8 @@ class Answer:
     all_windows: int
     left_out: dict[str, int]
     speed: float  # [m/s] mean
-    coherence: float  # front to rear
-    outside: str  # conditions that the training did not have
+    coherence: float  # front to rear, at wheel hop
+    delay: tuple[float, float]  # [s] from front to rear wheels: by wheelbase over speed, and as seen
     frequency: Array  # [Hz]
     density: dict[str, Array]  # of the wheel speed over its mean, by place
     usual: dict[str, Array]  # the same of the reference; empty without one
@@ -69,6 +80,11 @@ class Answer:
     def worst(self) -> Watched:
         """The damper with the highest probability."""
         return max(self.dampers, key=lambda each: each.probability)
+
+    @property
+    def unlike(self) -> list[Watched]:
+        """The dampers that are too far from the training to be judged."""
+        return [each for each in self.dampers if each.unlike]
 
     def of(self, state: str) -> list[Watched]:
         """The dampers in a state."""
@@ -84,13 +100,15 @@ class Answer:
             "windows": {"usable": self.windows, "all": self.all_windows, "left_out": self.left_out},
             "mean_speed_m_per_s": self.speed,
             "front_rear_coherence": self.coherence,
-            "outside_of_training": self.outside,
+            "front_rear_delay_s": dict(zip(("expected", "seen"), self.delay, strict=True)),
             "dampers": {
                 each.place: {
                     "name": NAMES[each.place].replace("wheel", "damper"),
                     "state": each.state,
                     "probability_worn": each.probability,
                     "limit": each.limit,
+                    "fine_below": each.fine,
+                    "distance": {"value": each.distance, "limit": each.far},
                     "damping_ratio_over_usual": each.damping,
                     "features": {
                         name: {
@@ -165,13 +183,16 @@ def watch(
             Watched(
                 place, table.probability(difference), table.limit, float(np.exp(difference["speed_damping"])),
                 table.parts(difference), {name: difference[name] for name in SIGNS if name in difference},
+                known.distance(way, sensors, place, difference), table.far, table.fine,
             )
         )  # fmt: skip
+    expected = float(np.mean(some.delay))
     power = {place: density(some.amplitude[f"speed_{place}"]) for place in PLACES}
     beside = {
         place: np.mean([shown_at(some.frequency, each, place) for each in others], axis=0) for place in PLACES if others
     }
     return Answer(
         tuple(dampers), way, sensors, 2.0 * (len(some) + 1), len(some), some.all_windows, dict(some.left_out),
-        float(np.mean(some.speed)), coherence(some, "speed"), known.outside(rows), some.frequency, power, beside,
+        float(np.mean(some.speed)), coherence(some, "speed"), (expected, expected / plausible.followed(some)),
+        some.frequency, power, beside,
     )  # fmt: skip

@@ -18,13 +18,14 @@ from twintube.driving.signals import Signals
 from twintube.driving.spectra import (
     BETWEEN,
     HOP,
-    MOST_BRAKE,
     SENSORS,
     WINDOW,
     Spectra,
+    braked,
     coherence,
     cross,
     density,
+    swing,
     taken,
     thinned,
     windows,
@@ -33,6 +34,9 @@ from twintube.driving.spectra import (
 from twintube.errors import InputError
 
 LEAST_COHERENCE: Final = 0.25  # of front and rear wheel: the road then makes half of the power of each, 0.5 squared
+# Wheel hop over the noise of the sensor below which that noise alone makes so little coherence. Above it a wheel swings so
+# that it leaves the road, and then front and rear wheels differ: no smooth road, but lost damping.
+LEAST_SWING: Final = 1.0 / (1.0 - LEAST_COHERENCE**0.5)
 # Numbers of a wheel speed over those in rad/s, times the radius.
 UNITS: Final = {name: 1.0 / size for name, size in SPEEDS.items()}
 FACTORS: Final = np.geomspace(
@@ -42,6 +46,7 @@ ENOUGH: Final = 150  # windows, 5 minutes, that show the delay
 # Resonances of unequal front and rear dampers pass for a delay of a quarter period: 20 ms of the 50 that 200 km/h leaves.
 GROSS: Final = 2.5
 SURE: Final = 4.0  # standard errors
+FEWEST_BLOCKS: Final = 4  # of a second, for a slope with an error
 LEAST_GAIN: Final = 0.2  # [m/s2] root mean square: below, the wheels' own noise has a part in what they gain
 DIFFERS: Final = 0.08  # of the speed: tyres are worn and pressed by 4 %, km/h for rad/s is 12 %
 ORDERS: Final = (1, 2, 3, 4)  # of a wheel: at 90 km/h below the Nyquist frequency of 10 ms
@@ -98,20 +103,29 @@ def check_units(signals: Signals) -> None:
     wheel = {place: blocks(signals.values[f"wheel_speed_{place}_rad_per_s"] * radius, count) for place in PLACES}
     if len(wheel["fl"]) < 4:
         return
-    braked = blocks(signals.values["brake_pressure_pa"], count) > MOST_BRAKE
+    off = blocks(braked(signals.values).astype(float), count) > 0.0
     gained = np.diff(np.mean(list(wheel.values()), axis=0)) / (count * signals.interval)
     along = blocks(signals.values["accel_x_m_per_s2"], count)
     along = 0.5 * (along[1:] + along[:-1])
-    free = ~(braked[1:] | braked[:-1])
-    # The sensor shows the slope of the road and its own noise besides, the wheels neither: it is fitted to them.
-    if free.any():
-        moved = gained[free] - gained[free].mean()
-        share, error = slope(along[free], moved)
-        if np.sqrt(np.mean(moved**2)) > LEAST_GAIN and abs(share - 1.0) > max(DIFFERS, SURE * error):
-            raise InputError(
-                f"wheel speeds: they gain {1.0 / share:.2f} times the speed that accel_x_m_per_s2 says"
-                f"{unit_of(1.0 / share, radius)}; must be rad/s and m/s2"
-            )
+    free = ~(off[1:] | off[:-1])
+    if np.count_nonzero(free) < FEWEST_BLOCKS:
+        return
+    gained, along = (each[free] - each[free].mean() for each in (gained, along))
+    if np.sqrt(np.mean(gained**2)) <= LEAST_GAIN:
+        return
+    # On a hill the sensor shows the slope of the road besides. A driver who holds his speed lets the sensor show more than
+    # the wheels do, one who holds the throttle less: how many times too much the wheels gain lies between the two slopes.
+    (low, low_error), (share, share_error) = slope(gained, along), slope(along, gained)
+    if share < -SURE * share_error:
+        raise InputError("accel_x_m_per_s2 falls where the wheels gain speed: it must be positive where the car gains speed")
+    high, high_error = (1.0 / share, share_error / share**2) if share > 0.0 else (np.inf, 0.0)
+    too_fast = low - 1.0 > max(DIFFERS, SURE * low_error)
+    if too_fast or 1.0 - high > max(DIFFERS, SURE * high_error):
+        factor = low if too_fast else high
+        raise InputError(
+            f"wheel speeds: they gain {factor:.2f} times the speed that accel_x_m_per_s2 says{unit_of(factor, radius)}; "
+            "must be rad/s and m/s2"
+        )
 
 
 def turned(signals: Signals, order: Order = AS_NAMED) -> list[tuple[int, int]]:
@@ -194,7 +208,7 @@ def check_length(some: Spectra) -> None:
 def check_road(some: Spectra) -> None:
     """Raise InputError where front and rear wheels do not show one road, or show it at another speed."""
     shared = {sensor: coherence(some, sensor) for sensor in some.sensors}
-    if max(shared.values()) < LEAST_COHERENCE:
+    if max(shared.values()) < LEAST_COHERENCE and max(swing(some, sensor) for sensor in some.sensors) < LEAST_SWING:
         raise InputError(
             f"drive too smooth: front and rear wheels share {shared['speed']:.2f} of what they show at wheel hop (coherence "
             f"of {HOP[0]:g} to {HOP[1]:g} Hz): must be at least {LEAST_COHERENCE:g}; drive over a rougher road"

@@ -9,12 +9,13 @@ import numpy as np
 from twintube.core.checks import outside
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, condition
+from twintube.dampers.temperature import at_temperature
 from twintube.driving.channels import PLACES
 from twintube.driving.drives import Bushings, Scene
 from twintube.driving.sensors import Encoder
 from twintube.driving.sheet import IN_A_FILE
 from twintube.errors import InputError
-from twintube.inspection.scatter import ROOM, warm
+from twintube.inspection.scatter import KELVIN, ROOM
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.full.car import Wheel
 from twintube.vehicle.full.maneuvers import Road
@@ -73,6 +74,9 @@ class Conditions:
     pressures: Sequence[float] = (PRESSURE,) * 4  # [Pa]
     temperature: float = ROOM  # [degC] of oil and gas
     random: int = 1  # of driver and sensors
+    ambient: float = ROOM  # [degC] of the air
+    hills: float = 0.0  # grade [1], root mean square
+    apart: float = 1.0  # of the tracks, as in `Road`
 
 
 @dataclass(frozen=True)
@@ -117,7 +121,7 @@ def inflated(wheel: Wheel, usual: float, pressure: float) -> Wheel:
 
 def damper_of(vehicle: Vehicle, i: int, temperature: float, wear: Wear) -> Damper:
     """The damper of wheel `i`, as made, as warm and as worn as it is."""
-    made = warm(scaled(vehicle.front if i < 2 else vehicle.rear, vehicle.made[i]), temperature)
+    made = at_temperature(scaled(vehicle.front if i < 2 else vehicle.rear, vehicle.made[i]), temperature + KELVIN)
     intact = wear.oil_level[i] == 1.0 and wear.gas_preload[i] == 1
     return condition(made, wear.oil_level[i], wear.gas_preload[i], DEFAULT if intact else wear.model)
 
@@ -134,9 +138,10 @@ def scene(vehicle: Vehicle, conditions: Conditions, wear: Wear, labels: Mapping[
     random = np.random.default_rng(vehicle.seed)
     encoders = tuple(Encoder.drawn(random, vehicle.tooth, vehicle.runout) for _ in PLACES)
     return Scene(
-        car, Bushings(stiff, soft), encoders, Road(conditions.road_class, conditions.road_seed), conditions.scale,
+        car, Bushings(stiff, soft), encoders,
+        Road(conditions.road_class, conditions.road_seed, apart=conditions.apart), conditions.scale,
         conditions.speed_kmh, conditions.seconds, conditions.random, vehicle.sheet,
-        truth(vehicle, conditions, wear) | dict(labels or {}),
+        truth(vehicle, conditions, wear) | dict(labels or {}), conditions.hills, conditions.ambient,
     )  # fmt: skip
 
 
@@ -150,5 +155,6 @@ def truth(vehicle: Vehicle, conditions: Conditions, wear: Wear) -> dict[str, Any
         "wheels": wheels, "model": wear.model, "car": vehicle.car.name, "tyre": vehicle.tyre,
         "road_class": conditions.road_class, "road_seed": conditions.road_seed, "road_scale": conditions.scale,
         "speed_kmh": conditions.speed_kmh, "persons": conditions.persons, "luggage_kg": conditions.luggage,
-        "temperature_degC": conditions.temperature,
+        "temperature_degC": conditions.temperature, "ambient_degC": conditions.ambient, "hills": conditions.hills,
+        "apart": conditions.apart,
     }  # fmt: skip

@@ -28,6 +28,7 @@ TEETH: Final = 48
 CLOCK: Final = 1e-6  # [s] by which the controller counts the time of a tooth: assumed
 WHEEL_SPEED: Final = 0.0075 / 3.6  # [m/s] resolution of the bus, by the rolling radius of the data sheet
 STEERING: Final = np.radians(0.1) / 16.0  # [rad] at the wheels: 0.1 deg at the hand wheel, ratio 16 (assumed)
+OUTSIDE: Final = 0.5  # [K] resolution of the air's temperature on the bus: assumed
 ORDER: Final = 2  # of the sensors' filters: assumed
 
 
@@ -109,6 +110,7 @@ def resolutions(radius: float, names: Mapping[str, object]) -> dict[str, dict[st
     known = {
         **{f"wheel_speed_{place}_rad_per_s": (RASTER, WHEEL_SPEED / radius) for place in PLACES},
         "steering_angle_rad": (RASTER, float(STEERING)),
+        "ambient_temperature_degC": (RASTER, OUTSIDE),
         **{name: (sensor.interval, float(sensor.resolution)) for name, sensor in (INERTIAL | VERTICAL).items()},
     }
     return {name: {"sample_interval_s": known[name][0], "resolution": known[name][1]} for name in names}

@@ -6,7 +6,7 @@ errors of the encoder's teeth.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -26,6 +26,7 @@ MOST_LATERAL: Final = 2.0  # [m/s2]: a fifth of the load moves to the outer whee
 COARSEST: Final = 0.025  # [s]: its Nyquist frequency is 20 Hz, above the highest wheel-hop frequency
 FINEST: Final = 0.008  # [s]: finer rasters are thinned out to about 100 Hz
 HOP: Final = (9.0, 16.0)  # [Hz] wheel hop of passenger cars
+ABOVE: Final = (17.0, 20.0)  # [Hz] above it, up to the Nyquist frequency of the coarsest raster
 BETWEEN: Final = (3.0, 7.0)  # [Hz] between the resonances of body and wheel
 BODY: Final = (0.8, 2.0)  # [Hz] bounce and pitch of the body
 ORDER_WIDTH: Final = 0.5  # [Hz] to either side: a Hann window's main lobe
@@ -45,6 +46,7 @@ class Spectra:
     speed: Array  # (windows,) [m/s]
     start: Array  # (windows,) [s]
     delay: Array  # (windows,) [s] from front to rear wheels
+    air: Array  # (windows,) [degC] outside, NaN where it is not known
     all_windows: int
     left_out: Mapping[str, int]  # windows, by what left them out first
 
@@ -91,6 +93,11 @@ def windows(values: Array, count: int) -> Array:
     return np.lib.stride_tricks.sliding_window_view(values, count)[:: count // 2]
 
 
+def braked(values: Mapping[str, Array]) -> Array:
+    """Where the car brakes; nowhere without the channel: then the change of speed must show it."""
+    return np.asarray(values.get("brake_pressure_pa", np.zeros(len(values["accel_x_m_per_s2"]))) > MOST_BRAKE)
+
+
 def spectra(signals: Signals) -> Spectra:
     """The spectra of a drive; raises InputError where the raster is too coarse, or the data sheet incomplete."""
     wheelbase, radius = (length(signals.car, name) for name in NEEDED)
@@ -108,7 +115,7 @@ def spectra(signals: Signals) -> Spectra:
     # First the reason that says most about the drive.
     reasons = {
         f"slower than {SLOWEST * 3.6:.0f} km/h": mean * radius < SLOWEST,
-        "braking": windows(values["brake_pressure_pa"], count).max(axis=1) > MOST_BRAKE,
+        "braking": windows(braked(values), count).any(axis=1),
         "turning": np.abs(windows(values["accel_y_m_per_s2"], count).mean(axis=1)) > MOST_LATERAL,
         "changing speed": change > MOST_CHANGE * mean,
     }
@@ -132,7 +139,10 @@ def spectra(signals: Signals) -> Spectra:
         each[hidden] = np.nan
     speed = mean[usable] * radius
     start = signals.time[0] + np.flatnonzero(usable) * half * interval
-    return Spectra(frequency, amplitude, speed, start, wheelbase / speed, len(mean), left_out)
+    air = np.full(len(speed), np.nan)
+    if (name := "ambient_temperature_degC") in values:
+        air = windows(values[name], count).mean(axis=1)[usable]
+    return Spectra(frequency, amplitude, speed, start, wheelbase / speed, air, len(mean), left_out)
 
 
 def amplitudes(values: Array, interval: float) -> Array:
@@ -161,6 +171,13 @@ def cross(front: Array, rear: Array, frequency: Array, delay: Array) -> Array:
     return mean_shown(np.conj(front) * rear * np.exp(2j * np.pi * frequency * delay[:, None]))
 
 
+def swing(some: Spectra, sensor: str) -> float:
+    """Power of the wheels at their hop over that above it, where the sensor's own noise is not below: the median wheel's."""
+    power = [density(some.amplitude[f"{sensor}_{place}"]) for place in PLACES]
+    at, above = ([np.nanmean(each[within(some.frequency, band)]) for each in power] for band in (HOP, ABOVE))
+    return float(np.median(np.array(at) / np.maximum(above, np.finfo(float).tiny)))
+
+
 def coherence(some: Spectra, sensor: str) -> float:
     """Coherence [1] at wheel hop of the rear wheels with the front wheels that ran over the same road; mean of the sides."""
     there = within(some.frequency, HOP)
@@ -175,6 +192,7 @@ def coherence(some: Spectra, sensor: str) -> float:
 def taken(some: Spectra, which: slice) -> Spectra:
     """Some of the windows."""
     amplitude = {name: each[which] for name, each in some.amplitude.items()}
-    return Spectra(
-        some.frequency, amplitude, some.speed[which], some.start[which], some.delay[which], some.all_windows, some.left_out
-    )
+    return replace(
+        some, amplitude=amplitude, speed=some.speed[which], start=some.start[which], delay=some.delay[which],
+        air=some.air[which],
+    )  # fmt: skip

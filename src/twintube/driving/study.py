@@ -15,7 +15,7 @@ from twintube.common.files import replacing
 from twintube.common.words import counted
 from twintube.dampers.freed_gas import DEFAULT, SCALAR, VARIED
 from twintube.driving.channels import PLACES
-from twintube.driving.draws import Drawn, draw
+from twintube.driving.draws import GROUPS, PER_CAR, REFERENCES, Drawn, draw
 from twintube.driving.drives import driven
 from twintube.driving.features import table
 from twintube.driving.scenes import scene
@@ -32,7 +32,7 @@ NAME: Final = "driving"
 FIXED: Final = {
     "drive": "1", "group": "", "car": "1", "reference": "bool", "model": "", "failed": "", "minute": "1",
     "road_class": "", "road_seed": "1", "road_scale": "1", "speed_kmh": "km/h", "persons": "1", "luggage_kg": "kg",
-    "temperature_degC": "degC",
+    "temperature_degC": "degC", "ambient_degC": "degC", "hills": "1", "apart": "1",
     **{f"{name}_{place}": unit for name, unit in (("oil_level", "1"), ("gas_preload", "1"), ("tyre_pressure", "Pa"))
        for place in PLACES},
 }  # fmt: skip
@@ -51,6 +51,8 @@ class Plan:
     seed: int = 1
     scalar: bool = False
     freed_gas: bool = False
+    group: str | None = None  # the cars of one group of `draws` alone
+    per_car: int = PER_CAR  # drives of each car, of which the first are its references
     signals: str | None = None  # folder that receives the signals of every drive
 
     def __post_init__(self) -> None:
@@ -60,9 +62,20 @@ class Plan:
                 raise StudyError(f"{name} = {value:g}: must be from {low:g} to {high:g}")
         if self.seed < 0:
             raise StudyError(f"seed = {self.seed}: must not be below 0")
+        if not REFERENCES < self.per_car <= PER_CAR:
+            raise StudyError(f"per_car = {self.per_car}: must be from {REFERENCES + 1} to {PER_CAR}")
+        if self.group is not None and self.group not in GROUPS:
+            raise StudyError(f"group {self.group}: must be one of {', '.join(GROUPS)}")
 
     def __len__(self) -> int:
         return self.drives * len(self.models)
+
+    def number(self, i: int) -> int:
+        """The number of the drive that is the `i`-th of this study."""
+        car, place = divmod(i, self.per_car)
+        if self.group is not None:
+            car = car * len(GROUPS) + GROUPS.index(self.group)
+        return car * PER_CAR + place
 
     @property
     def models(self) -> tuple[str, ...]:
@@ -92,8 +105,8 @@ def work(plan: Plan, start: int, stop: int, expected: str) -> list[list[dict[str
 
 def rows(plan: Plan, number: int) -> list[dict[str, Any]]:
     """A row for each minute of a case; one that says why where it could not be driven, none for a twin without wear."""
-    number, which = divmod(number, len(plan.models))
-    model = plan.models[which]
+    i, which = divmod(number, len(plan.models))
+    number, model = plan.number(i), plan.models[which]
     drawn = draw(number, 60.0 * plan.minutes, plan.seed, model)
     if model != DEFAULT and min(drawn.wear.oil_level) == 1.0 and min(drawn.wear.gas_preload) == 1:
         return []
@@ -123,7 +136,7 @@ def described(drawn: Drawn) -> dict[str, Any]:
         "drive": drawn.number, "group": drawn.group, "car": drawn.car, "reference": drawn.reference, "model": wear.model,
         "road_class": where.road_class, "road_seed": where.road_seed, "road_scale": where.scale,
         "speed_kmh": where.speed_kmh, "persons": where.persons, "luggage_kg": where.luggage,
-        "temperature_degC": where.temperature,
+        "temperature_degC": where.temperature, "ambient_degC": where.ambient, "hills": where.hills, "apart": where.apart,
         **{f"oil_level_{place}": float(level) for place, level in zip(PLACES, wear.oil_level, strict=True)},
         **{f"gas_preload_{place}": int(gas) for place, gas in zip(PLACES, wear.gas_preload, strict=True)},
         **{f"tyre_pressure_{place}": value for place, value in zip(PLACES, where.pressures, strict=True)},

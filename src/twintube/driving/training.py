@@ -4,7 +4,7 @@ Drives are those of `twintube study driving`, in the group `train`; those of the
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -14,11 +14,27 @@ from twintube.common.arrays import Array
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, of_the_damper
-from twintube.driving.model import AXLES, FLEET, LIKELIER, MOST, REFERENCE, SETS, SIGNS, WORN, Model, Table, Usual, names_of
+from twintube.driving.model import (
+    AXLES,
+    DRIVEN,
+    FLEET,
+    LIKELIER,
+    MOST,
+    REFERENCE,
+    SETS,
+    SIGNS,
+    WORN,
+    Known,
+    Model,
+    Table,
+    Usual,
+    names_of,
+)
 from twintube.errors import InputError
 
-LENGTHS: Final = (1, 5, 20)  # [min] of drives that are judged
+LENGTHS: Final = (1, 2, 5, 20)  # [min] of drives that are judged
 FALSE_ALARMS: Final = 0.01  # of the good dampers, for the limit of a table
+MISSED: Final = 0.05  # of the worn dampers, for what is said to be fine
 STRENGTHS: Final = (0.01, 0.1, 1.0, 10.0)  # of the weights against their penalty; the best one for cars left out is taken
 FOLDS: Final = 5  # groups of cars
 
@@ -56,7 +72,8 @@ def load(path: Path) -> list[Drive]:
     for row in pq.read_table(path).to_pylist():
         if row["minute"] > 0:
             found.setdefault((row["drive"], row["model"]), []).append(row)
-    return [of_rows(rows) for rows in found.values()]
+    # Cars have a number in each file.
+    return [replace(drive, car=f"{drive.car} of {path.name}") for drive in map(of_rows, found.values())]
 
 
 def of_rows(rows: Sequence[Mapping[str, Any]]) -> Drive:
@@ -70,12 +87,12 @@ def of_rows(rows: Sequence[Mapping[str, Any]]) -> Drive:
     return Drive(car, minutes, oil, gas, first["reference"], first["model"], first["group"])
 
 
-def references(drives: Iterable[Drive]) -> dict[str, list[Mapping[str, float]]]:
-    """The minutes of the reference drives by car."""
-    found: dict[str, list[Mapping[str, float]]] = {}
+def references(drives: Iterable[Drive]) -> dict[str, list[Drive]]:
+    """The reference drives by car."""
+    found: dict[str, list[Drive]] = {}
     for drive in drives:
         if drive.reference:
-            found.setdefault(drive.car, []).extend(drive.minutes)
+            found.setdefault(drive.car, []).append(drive)
     return found
 
 
@@ -113,17 +130,40 @@ def means(values: Array, group: Any) -> Array:
 def examples(
     model: Model, drives: Sequence[Drive], way: str, place: str, lengths: Sequence[int] = LENGTHS
 ) -> list[tuple[Drive, int, dict[str, float]]]:
-    """Drive, length [min] and differences of a damper, for all lengths that a drive has."""
-    known = references(drives)
-    found = []
+    """Drive, length [min] and differences of a damper, for all lengths that a drive has.
+
+    A reference is a drive, too: a good one, compared with the other references.
+    """
+    known, found = references(drives), []
     for drive in drives:
-        if drive.reference or (way == REFERENCE and drive.car not in known):
+        usual = [row for each in known.get(drive.car, ()) if each is not drive for row in each.minutes]
+        if way == REFERENCE and not usual:
             continue
         for length in lengths:
             if length <= len(drive.minutes):
-                usual = known[drive.car] if way == REFERENCE else ()
-                found.append((drive, length, model.difference(drive.minutes[:length], place, usual)))
+                minutes = drive.minutes[:length]
+                found.append((drive, length, model.difference(minutes, place, usual if way == REFERENCE else ())))
     return found
+
+
+def neighbours(place: str) -> tuple[tuple[str, ...], ...]:
+    """The wheel itself, the other wheel of its axle, and those of the other axle."""
+    side = place[0] + ("r" if place[1] == "l" else "l")
+    return (place,), (side,), tuple(other for other in PLACES if other not in (place, side))
+
+
+def known_of(rows: Sequence[tuple[Drive, str, Mapping[str, float]]]) -> Known:
+    """What drives showed: of drives whose dampers are all good or worn."""
+    sure = [each for each in rows if all(each[0].good(place) or each[0].worn(place) for place in PLACES)]
+    names = [name for name in SIGNS if all(name in each for _, _, each in sure)] + list(DRIVEN)
+    values = np.array([[each[name] for name in names] for _, _, each in sure])
+    worn = np.array([[np.mean([drive.worn(p) for p in some]) for some in neighbours(place)] for drive, place, _ in sure])
+    wear = np.linalg.lstsq(worn, values, rcond=None)[0]
+    # Wear moves neither speed nor road.
+    wear[:, len(names) - len(DRIVEN) :] = 0.0
+    rest, good = values - worn @ wear, ~worn.any(axis=1)
+    squares = [each.T @ each / max(1, len(each)) for each in (rest[good], rest[~good])]
+    return Known(tuple(names), *(tuple(map(tuple, each.tolist())) for each in (wear, *squares)))
 
 
 def fitted_table(
@@ -142,9 +182,8 @@ def fitted_table(
     while True:
         x = np.clip(values / scale, -MOST, MOST)[:, used]
         # Even odds, however many dampers of the training are worn.
-        search = GridSearchCV(
-            LogisticRegression(class_weight="balanced", max_iter=10_000), {"C": STRENGTHS}, scoring="neg_log_loss", cv=folds
-        ).fit(x, worn)
+        weighing = LogisticRegression(class_weight="balanced", solver="newton-cholesky")
+        search = GridSearchCV(weighing, {"C": STRENGTHS}, scoring="neg_log_loss", cv=folds).fit(x, worn)
         best = search.best_estimator_
         weights = best.coef_[0]
         wrong = [i for i, weight in zip(used, weights, strict=True) if weight * SIGNS[names[i]] <= 0.0]
@@ -157,39 +196,58 @@ def fitted_table(
     odds = cross_val_predict(best, x, worn, cv=folds, method="decision_function")[:, None]
     line = LogisticRegression(class_weight="balanced").fit(odds, worn)
     slope, offset = float(line.coef_[0, 0]), float(line.intercept_[0])
+    probability = line.predict_proba(odds)[:, 1]
     return Table(
         slope * float(best.intercept_[0]) + offset,
         {names[i]: slope * float(weight) for i, weight in zip(used, weights, strict=True)},
         {names[i]: float(scale[i]) for i in used},
         # A damper that is likelier good than worn is none to watch.
-        max(LIKELIER, float(np.quantile(line.predict_proba(odds)[~worn, 1], 1.0 - FALSE_ALARMS))),
+        max(LIKELIER, float(np.quantile(probability[~worn], 1.0 - FALSE_ALARMS))),
+        min(LIKELIER, float(np.quantile(probability[worn], MISSED))),
     )
+
+
+def trained_axle(model: Model, drives: Sequence[Drive], way: str, axle: str) -> tuple[Known, dict[str, Table]]:
+    """What the dampers of an axle showed, and its tables by sensors; raises InputError without good or worn dampers."""
+    rows = [
+        (drive, place, difference)
+        for place in PLACES
+        if AXLES[place] == axle
+        for drive, _, difference in examples(model, drives, way, place)
+        if drive.model == DEFAULT and (drive.good(place) or drive.worn(place))
+    ]
+    worn = np.array([drive.worn(place) for drive, place, _ in rows])
+    if worn.all() or not worn.any():
+        raise InputError(f"training: {np.count_nonzero(worn)} of {len(worn)} {axle} dampers are worn: must be some")
+    known, tables = known_of(rows), {}
+    for sensors in SETS:
+        names = list(names_of(sensors))
+        if not set(names) <= set(known.names):
+            continue
+        values = np.array([[each[name] for name in names] for _, _, each in rows])
+        table = fitted_table(values, worn, [drive.car for drive, _, _ in rows], names)
+        distances = [known.distance(each, sensors) for drive, place, each in rows if drive.good(place)]
+        tables[sensors] = replace(table, far=float(np.quantile(distances, 1.0 - FALSE_ALARMS)))
+    return known, tables
 
 
 def train(drives: Sequence[Drive], about: Mapping[str, Any]) -> Model:
     """All tables from drives; raises InputError where a set has no good or no worn dampers."""
     conditions = np.array([[row[name] for name in CONDITIONS] for drive in drives for row in drive.minutes])
     middle = tuple(map(float, np.mean(conditions, axis=0)))
-    lowest, highest = tuple(map(float, conditions.min(axis=0))), tuple(map(float, conditions.max(axis=0)))
-    model = Model(middle, lowest, highest, usual_values(drives, middle), {}, about)
+    model = Model(middle, usual_values(drives, middle), {}, {}, about)
+    # The air is not known to every car: a table must do without it. Where it is, the differences are the smaller.
+    unknown = [replace(drive, minutes=[without_air(row) for row in drive.minutes]) for drive in drives]
+    known: dict[str, dict[str, Known]] = {}
     tables: dict[str, dict[str, dict[str, Table]]] = {}
     for way in (REFERENCE, FLEET):
         for axle in ("front", "rear"):
-            rows = [
-                (drive, place, difference)
-                for place in PLACES
-                if AXLES[place] == axle
-                for drive, _, difference in examples(model, drives, way, place)
-                if drive.model == DEFAULT and (drive.good(place) or drive.worn(place))
-            ]
-            worn = np.array([drive.worn(place) for drive, place, _ in rows])
-            if worn.all() or not worn.any():
-                raise InputError(f"training: {np.count_nonzero(worn)} of {len(worn)} {axle} dampers are worn: must be some")
-            for sensors in SETS:
-                names = [name for name in names_of(sensors) if all(name in each for _, _, each in rows)]
-                if names != list(names_of(sensors)):
-                    continue
-                values = np.array([[each[name] for name in names] for _, _, each in rows])
-                table = fitted_table(values, worn, [drive.car for drive, _, _ in rows], names)
+            known.setdefault(way, {})[axle], own = trained_axle(model, unknown, way, axle)
+            for sensors, table in own.items():
                 tables.setdefault(way, {}).setdefault(sensors, {})[axle] = table
-    return Model(model.middle, model.lowest, model.highest, model.usual, tables, about)
+    return replace(model, known=known, tables=tables)
+
+
+def without_air(row: Mapping[str, float]) -> dict[str, float]:
+    """A minute of a car that does not say how cold it is."""
+    return {name: value for name, value in row.items() if name in DRIVEN or name not in CONDITIONS}

@@ -25,6 +25,7 @@ CAPTION = (
     "in a narrow, high peak. Gaps: frequencies of the wheel's own rotation."
 )
 UNSEEN = "Fine does not say that no oil is lost: a damper damps as new until its foot valve draws gas."
+ALONE = "Take references: drives of this car in its good state, over the year. Then judge this drive again."
 NEXT = {
     FINE: "Nothing to do. Judge the next drive in the same way.",
     UNCLEAR: "Judge a drive of 5 minutes or more, on a rougher road, with a reference of the same car.",
@@ -60,6 +61,11 @@ def sentence(answer: Answer) -> str:
     for state, one, several in SAID:
         if some := answer.of(state):
             parts.append(f"The {dampers(some)} {one if len(some) == 1 else several}.")
+    between = [each for each in answer.of(UNCLEAR) if not each.unlike]
+    for some, why in ((answer.unlike, "unlike all that was trained"), (between, "good and worn dampers look like that")):
+        if some:
+            who = "any damper" if len(some) == len(PLACES) else f"the {dampers(some)}"
+            parts.append(f"{UNTOLD[answer.way]} about {who}: {why}.")
     if not parts:
         return "All four dampers damp as good ones."
     if rest := len(answer.of(FINE)):
@@ -67,28 +73,38 @@ def sentence(answer: Answer) -> str:
     return " ".join(parts)
 
 
+UNTOLD = {REFERENCE: "Cannot tell from this drive", FLEET: "Cannot tell from one drive without references"}
 SAID = (  # of one damper and of several
     (WORN_OUT, "has lost its damping: replace", "have lost their damping: replace"),
     (WATCH, "damps less than usual: watch", "damp less than usual: watch"),
-    (
-        UNCLEAR,
-        "is likelier worn than good, but this drive cannot tell",
-        "are likelier worn than good, but this drive cannot tell",
-    ),
 )
 
 
 def worst_state(answer: Answer) -> str:
     """The state that decides about the car."""
-    return next((state for state, *_ in SAID if answer.of(state)), FINE)
+    return next((state for state in (WORN_OUT, WATCH, UNCLEAR) if answer.of(state)), FINE)
 
 
 def remark(answer: Answer) -> str:
     """Under which conditions the answer holds."""
-    said = [f"Compared with {BESIDE[answer.way]}, over {answer.seconds / 60:.1f} usable minutes."]
-    if answer.outside:
-        said.append(f"The drive was {answer.outside} than all of the training: the probabilities may be wrong.")
-    return " ".join([*said, UNSEEN])
+    said = f"Compared with {BESIDE[answer.way]}, over {answer.seconds / 60:.1f} usable minutes."
+    return f"{said} {seen(answer) if answer.of(UNCLEAR) else UNSEEN}"
+
+
+def seen(answer: Answer) -> str:
+    """What a drive showed, whatever it says of the dampers."""
+    expected, found = answer.delay
+    ratios = listed([f"{each.place} {each.damping:.1f}" for each in answer.dampers], 4)
+    return (
+        f"Seen: the rear wheels run over the road {found:.3f} s after the front wheels, {expected:.3f} s by wheelbase and "
+        f"speed; coherence {answer.coherence:.2f}; damping ratio of wheel hop, times the usual: {ratios}."
+    )
+
+
+def next_step(answer: Answer) -> str:
+    """What to do now."""
+    state = worst_state(answer)
+    return ALONE if state == UNCLEAR and answer.way == FLEET else NEXT[state]
 
 
 def spectra(answer: Answer, narrow: bool = False) -> Figure:
@@ -116,7 +132,7 @@ def summary(answer: Answer) -> Table:
     rows = [
         [
             damper(each.place), each.state, percent(each.probability), percent(each.limit), f"{each.damping:.2f}",
-            f"{np.exp(each.difference['speed_hop']):.1f}",
+            f"{np.exp(each.difference['speed_hop']):.1f}", f"{each.distance / each.far:.2f}",
         ]
         for each in answer.dampers
     ]  # fmt: skip
@@ -127,8 +143,10 @@ def summary(answer: Answer) -> Table:
         "called from",
         "damping ratio of wheel hop",
         "power at wheel hop",
+        "distance",
     )
-    return Table(head, rows, "The two last as factors of what is usual", numeric=(2, 3, 4, 5))
+    caption = "Damping ratio and power as factors of what is usual; distance from the training over the largest judged"
+    return Table(head, rows, caption, numeric=(2, 3, 4, 5, 6))
 
 
 def reasons(answer: Answer) -> Table:
@@ -149,7 +167,7 @@ def reason(each: Watched, name: str) -> str:
 def terminal(answer: Answer) -> str:
     """The answer as text."""
     table = summary(answer)
-    rows = [["damper", "state", "worn", "called from", "damping", "hop power"], *map(list, table.rows)]
+    rows = [["damper", "state", "worn", "called from", "damping", "hop power", "distance"], *map(list, table.rows)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
     return "\n".join([*lines, *(row for text in (sentence(answer), remark(answer)) for row in textwrap.wrap(text, 118))])
@@ -159,7 +177,7 @@ def page(answer: Answer, name: str, references: Sequence[str], about: str) -> Pa
     """The page; `about` says what the tables were made from."""
     state = worst_state(answer)
     head = Headline(
-        sentence(answer), state, MARKS[state], remark(answer), NEXT[state],
+        sentence(answer), state, MARKS[state], remark(answer), next_step(answer),
         Picture.drawn(partial(spectra, answer), CAPTION),
     )  # fmt: skip
     left = [f"{reason}: {counted(count, 'window')}" for reason, count in answer.left_out.items() if count]
@@ -167,7 +185,8 @@ def page(answer: Answer, name: str, references: Sequence[str], about: str) -> Pa
         ("Usable", f"{counted(answer.windows, 'window')} of 4 s among {answer.all_windows}"),
         ("Left out", listed(left, 4) if left else "none"),
         ("Mean speed", f"{3.6 * answer.speed:.0f} km/h"),
-        ("Coherence of front and rear wheels at wheel hop", f"{answer.coherence:.2f}; at least 0.25 is needed"),
+        ("Coherence of front and rear wheels at wheel hop", f"{answer.coherence:.2f}"),
+        ("Rear wheels after front wheels", f"{answer.delay[1]:.3f} s; {answer.delay[0]:.3f} s by wheelbase and speed"),
         ("Sensors", answer.sensors),
         ("References", listed(list(references), 5) if references else "none"),
     ]

@@ -27,13 +27,15 @@ SLOWEST, FASTEST = 1.0, 250.0  # [km/h]
 class Road:
     """Which road: smooth or a class of ISO 8608, its seed, whether left and right are equal, and their grips.
 
-    A grip is the factor of all tyre forces against those of the tyre's dry road.
+    A grip is the factor of all tyre forces against those of the tyre's dry road. `apart` is the distance of the tracks on an
+    isotropic surface over that on this road: below 1 left and right agree in shorter waves too.
     """
 
     kind: str = "D"
     seed: int = 1
     equal: bool = False
     grips: tuple[float, float] = (1.0, 1.0)
+    apart: float = 1.0
 
     def __post_init__(self) -> None:
         """Raises InputError for an unknown class and for a grip out of GRIPS."""
@@ -48,7 +50,7 @@ class Road:
         whole = length + car.body.wheelbase + 1.0
         if self.kind == SMOOTH:
             return np.zeros((2, int(whole / SPACING) + 2))
-        apart = float(np.mean([wheel.track for wheel in car.wheels]))
+        apart = self.apart * float(np.mean([wheel.track for wheel in car.wheels]))
         ground = tracks(whole, apart, road_class=self.kind, seed=self.seed, equal=self.equal)
         place = np.arange(ground.shape[1]) * SPACING
         heights: Array = (ground - ground[:, :1]) * np.clip(place / FADE, 0.0, 1.0)
