@@ -167,9 +167,9 @@ def test_one_drive_alone_of_an_unknown_car_says_what_was_seen() -> None:
     assert "Seen: the rear wheels run over the road 0.140 s after the front wheels, 0.140 s by wheelbase and speed" in text
 
 
-def climbing(holds: float) -> Signals:
+def climbing(holds: float, swing: float = 0.5) -> Signals:
     """A drive over hills: the driver gives way by `holds` of the grade, 0 holding his speed and 1 his throttle."""
-    drive = rolling(swing=0.5, seconds=180.0)
+    drive = rolling(swing=swing, seconds=180.0)
     grade = 0.03 * np.sin(0.11 * drive.time)
     lost = holds * 9.81 * np.cumsum(grade) * drive.interval
     values = {name: x - lost / SHEET["wheel_radius_m"] if "wheel_speed" in name else x for name, x in drive.values.items()}
@@ -188,7 +188,7 @@ def test_another_unit_is_seen_on_hills(holds: float) -> None:
         return values[name] * (SHEET["wheel_radius_m"] if "wheel_speed" in name else 1.0)
 
     with pytest.raises(InputError, match=r"wheel speeds: they gain 0\.\d\d times the speed that accel_x_m_per_s2 says"):
-        plausible.check_units(changed(climbing(holds), metres))
+        plausible.check_units(changed(climbing(holds, 2.0), metres))
 
 
 def backwards(name: str, values: dict[str, np.ndarray]) -> np.ndarray:
