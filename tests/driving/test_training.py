@@ -7,7 +7,7 @@ from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving import detection
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, OF_A_WHEEL
-from twintube.driving.model import SIGNS, from_json, shipped, to_json
+from twintube.driving.model import REFERENCE, SIGNS, from_json, shipped, to_json
 from twintube.driving.training import Drive, fitted_table, of_rows, usual_values
 from twintube.errors import InputError
 
@@ -35,14 +35,16 @@ def test_weights_have_the_sign_of_physics_and_good_dampers_stay_at_the_limit() -
 
 
 def row(change: dict[str, float], random: np.random.Generator) -> dict[str, float]:
-    """A minute of features that differ from what is usual by scales of the shipped model."""
+    """A minute of features that differ from what is usual as those of worn dampers do."""
     model, minute = shipped(), dict(zip(CONDITIONS, shipped().middle, strict=True))
     for place in PLACES:
         axle = "front" if place[0] == "f" else "rear"
         for sensor in ("speed", "accel"):
             for name in OF_A_WHEEL:
                 feature = f"{sensor}_{name}"
-                away = 0.1 * random.standard_normal() + change.get(place, 0.0) * SIGNS[feature]
+                known = model.known[REFERENCE][axle]
+                worn = known.wear[0][known.names.index(feature)]
+                away = 0.1 * random.standard_normal() + 0.5 * change.get(place, 0.0) * worn
                 minute[f"{feature}_{place}"] = model.usual[axle][feature].value + away
     return minute | {"cold": 0.0, "body_bounce": model.usual["front"]["body_bounce"].value}
 

@@ -114,9 +114,9 @@ class Known:
         own, more = (np.array(each)[np.ix_(which, which)] for each in (self.covariance, self.scatter))
         wear, seen = np.array(self.wear)[:, which].T, np.array([difference[name] for name in names])
         amounts, distance = np.zeros(len(self.wear)), 0.0
-        # The more wear there is, the more it scatters: first how much, then how far.
+        # The more wear there is, the more it scatters, up to that of the training: first how much, then how far.
         for _ in range(2):
-            root = linalg.cholesky(own + amounts @ amounts * more, lower=True)
+            root = linalg.cholesky(own + min(1.0, float(amounts @ amounts)) * more, lower=True)
             amounts, distance = optimize.nnls(*(linalg.solve_triangular(root, each, lower=True) for each in (wear, seen)))
         return float(distance)
 
