@@ -22,7 +22,7 @@ def parts(drive: Signals) -> dict[str, Columns]:
     """Wheel speeds of a bus whose messages jitter, and slower inertial signals."""
     random = np.random.default_rng(3)
     jitter = drive.time + 0.003 * random.uniform(-1.0, 1.0, len(drive))
-    slow = drive.time[::4]
+    slow = drive.time[::4].copy()
     inertial = ("accel_x_m_per_s2", "accel_y_m_per_s2", "yaw_rate_rad_per_s")
     return {
         "can.csv": {"time_s": jitter}

@@ -143,7 +143,7 @@ LENGTHS = {"wheelbase_m": 2.7, "wheel_radius_m": 0.31}
 OTHERS = {
     "time": ("ms", 1e-3), "wheel_speed": ("km/h", 1.0 / 3.6 / 0.31), "accel": ("g", 9.80665), "yaw_rate": ("°/s", np.pi / 180),
     "steering_angle": ("deg", np.pi / 180), "brake_pressure": ("bar", 1e5), "wheel_accel": ("m/s²", 1.0),
-    "body_accel_z": ("m/s^2", 1.0),
+    "body_accel_z": ("m/s^2", 1.0), "ambient_temperature": ("°C", 1.0),
 }  # fmt: skip
 
 
