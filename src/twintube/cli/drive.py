@@ -80,9 +80,9 @@ def join(
         one_of(CARS, "--car", metavar="CAR", help="Where the files do not say it: a car's file with wheelbase and radius."),
     ] = None,
 ) -> None:
-    """Join files of one drive that have rates of their own, as bus and inertial unit, on one even raster.
+    """Join the files of one drive, each with a rate of its own.
 
-    One file whose times jitter gets an even raster likewise.
+    Bus and inertial unit get one even raster. So does one file whose times jitter.
     """
     from twintube.driving import joining
     from twintube.driving.sheet import data_sheet
