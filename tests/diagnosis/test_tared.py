@@ -181,4 +181,3 @@ def test_a_stated_preload_that_only_a_constant_contradicts_may_be_right() -> Non
     p = alike(0.0, -100.0, 0.0, Stated(None, True))
     right, wrong = (1.0 - n.misstated) * n.tared, n.misstated * 0.5 * (1.0 - n.leaking) * (1.0 + n.tared)
     assert p.as_stated == pytest.approx(right / (right + wrong), rel=EDGE)
-    assert p.tared_as_stated == pytest.approx(1.0)

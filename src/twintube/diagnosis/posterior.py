@@ -53,7 +53,6 @@ class StatePosterior:
     free: tuple[float, float]  # share and level that fit best, whatever a file says
     # Probability of shares that the tolerance of the gas force does not cover, and which of them fits best, with its level.
     otherwise: tuple[float, float, float]
-    tared_as_stated: float  # probability that the load cell was set to zero with the damper in it, where the file is right
 
     @property
     def as_stated(self) -> float:
@@ -151,7 +150,7 @@ def posterior(found: Found, stated: Stated = NOTHING) -> StatePosterior:
     free, as_stated = (log_likelihood + log_prior(fine, some) for some in (NOTHING, stated))
     said = 1.0 - NUMBERS.misstated if stated.anything else 0.0
     both = logsumexp([free, as_stated], axis=0, b=[[[[1.0 - said]]], [[[said]]]])
-    probability, right = (np.exp(x - logsumexp(x)) for x in (both, as_stated))
+    probability = np.exp(both - logsumexp(both))
     any_zero = np.logaddexp(evidence[:, 0], evidence[:, 1])
     freely = any_zero + log_prior_fill()
     share, level = likeliest(any_zero + log_prior_fill(stated) + fitting(known, stated)[:, None], known)
@@ -161,7 +160,7 @@ def posterior(found: Found, stated: Stated = NOTHING) -> StatePosterior:
     other = float(probability[:, apart].sum()), *likeliest(np.where(apart, freely, -np.inf), known)
     return StatePosterior(
         fine, probability, simulated(found, share, level).sizes, best,
-        float(logsumexp(as_stated) - logsumexp(free)), likeliest(freely, known), other, float(right[ON_TARED].sum()),
+        float(logsumexp(as_stated) - logsumexp(free)), likeliest(freely, known), other,
     )  # fmt: skip
 
 

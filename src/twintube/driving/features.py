@@ -89,11 +89,6 @@ def table(signals: Signals) -> list[dict[str, float]]:
     return minutes(some) if len(some) else []
 
 
-def features(signals: Signals) -> dict[str, float]:
-    """The features of a drive: the means over its minutes; empty where no minute is usable. Raises InputError."""
-    return mean_of(table(signals))
-
-
 def mean_of(rows: list[dict[str, float]]) -> dict[str, float]:
     """Means over minutes."""
     return {name: float(np.nanmean([row[name] for row in rows])) for name in rows[0]} if rows else {}
