@@ -135,7 +135,7 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
         ax.set_ylabel("probability [%]")
         if len(answers) > 1:
             style.title(ax, listed(answer.records, 2))
-    style.legend_above(figure, axes[0, 0])
+    style.legend_above(figure, axes[0, 0], columns=3)
     axes[-1, 0].set_xlabel("oil level [% of the intact volume]")
     return figure
 
