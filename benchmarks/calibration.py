@@ -24,6 +24,7 @@ from twintube.diagnosis import changes as method
 from twintube.diagnosis.base import set_up
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.changes import NONE, UNKNOWN, changes, mechanisms
+from twintube.diagnosis.found import Fill
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.mechanisms import Mechanism
 from twintube.diagnosis.numbers import NUMBERS
@@ -31,7 +32,7 @@ from twintube.diagnosis.posterior import NOTHING, log_prior
 from twintube.diagnosis.records.noise import averaging_noise, noise
 from twintube.diagnosis.records.prepare import prepare
 from twintube.diagnosis.records.record import PreparedRecord
-from twintube.diagnosis.search import Fill, off_its_law
+from twintube.diagnosis.search import off_its_law
 from twintube.diagnosis.shares import SHARES
 from twintube.diagnosis.sizes import Sizes, log_weights
 from twintube.diagnosis.state import state

@@ -7,7 +7,7 @@ memory, sizes  noise with memory; how large the model's own errors are
 frame          the evidence of errors, all of this integrated out; heavy: under noise with heavy tails
 state          probability over oil level and share of the gas; shares: all of them from a simulation with one; posterior
 mechanisms     effects and faults, with what is known of their strengths
-search         the evidence of a mechanism
+search         the evidence of a mechanism; found: what is sought and found
 base           what always acts, and is no change
 changes        the probability of every hypothesis about what has happened since the reference
 heldout        what hypotheses are worth on records that they were not fitted to

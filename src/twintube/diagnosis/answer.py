@@ -17,6 +17,7 @@ from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.budget import LASTING, LAW, Budget, budget
 from twintube.diagnosis.changes import NONE, STATE, UNKNOWN, Changes, Hypothesis
 from twintube.diagnosis.channels import TARED
+from twintube.diagnosis.found import Found
 from twintube.diagnosis.heldout import HeldOut
 from twintube.diagnosis.measurement.faults import DROPOUTS, Fault
 from twintube.diagnosis.numbers import NUMBERS
@@ -24,7 +25,6 @@ from twintube.diagnosis.posterior import Stated, StatePosterior
 from twintube.diagnosis.predictive import Unlike
 from twintube.diagnosis.put_right import Measured
 from twintube.diagnosis.rules import RULES
-from twintube.diagnosis.search import Found
 from twintube.diagnosis.sizes import Sizes
 
 if TYPE_CHECKING:

@@ -4,10 +4,11 @@ import numpy as np
 
 from twintube.common.arrays import Array
 from twintube.diagnosis.bench import Bench
+from twintube.diagnosis.found import Fill, Found
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.mechanisms import Mechanism
 from twintube.diagnosis.numbers import NUMBERS
-from twintube.diagnosis.search import BETTER, SLOPE, Fill, Found, Search
+from twintube.diagnosis.search import BETTER, SLOPE, Search
 
 
 class Base:

@@ -12,13 +12,14 @@ from scipy.stats import chi2
 
 from twintube.common.arrays import Array
 from twintube.diagnosis.changes import headline
+from twintube.diagnosis.found import Found
 from twintube.diagnosis.frame import STILL, Frame, Part
 from twintube.diagnosis.heavy import without as without_columns
 from twintube.diagnosis.mechanisms import OPEN
 from twintube.diagnosis.memory import lasting
 from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.records.seen import DELAY
-from twintube.diagnosis.search import Found, Search
+from twintube.diagnosis.search import Search
 from twintube.diagnosis.sizes import Sizes, chance_of_more
 
 # Contributions by their columns: of those that all records share, and of those that a record has for itself.

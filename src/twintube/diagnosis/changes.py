@@ -17,10 +17,11 @@ from twintube.common.arrays import Array
 from twintube.diagnosis.base import Base
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.channels import TARED
+from twintube.diagnosis.found import Fill, Found
 from twintube.diagnosis.heavy import evidence
 from twintube.diagnosis.mechanisms import Mechanism, both, effects, faults
 from twintube.diagnosis.numbers import NUMBERS
-from twintube.diagnosis.search import Fill, Found, Search
+from twintube.diagnosis.search import Search
 
 NONE, STATE, UNKNOWN = "none", "state", "unknown"
 MOST = 6  # mechanisms of a base

@@ -7,11 +7,11 @@ import numpy as np
 from twintube.diagnosis.answer import Answer
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.changes import NONE, Hypothesis
+from twintube.diagnosis.found import Found
 from twintube.diagnosis.heldout import HeldOut
 from twintube.diagnosis.measurement.faults import Fault
 from twintube.diagnosis.mechanisms import Mechanism, unit_of
 from twintube.diagnosis.records.seen import TARE
-from twintube.diagnosis.search import Found
 
 HALF = 1.645  # standard deviations of half a 90 % interval
 

@@ -11,11 +11,11 @@ from scipy.stats import norm
 from twintube.dampers.freed_gas import DEFAULT, VARIED, has_own, values_of
 from twintube.diagnosis.answer import StateAnswer
 from twintube.diagnosis.bench import GAS, LEVEL, Bench
+from twintube.diagnosis.found import Fill
 from twintube.diagnosis.mechanisms import OPEN, Strength
 from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.posterior import StatePosterior, log_prior_fill
 from twintube.diagnosis.records.seen import DELAY
-from twintube.diagnosis.search import Fill
 from twintube.diagnosis.shares import nearest
 
 LEAST_LEVEL = 0.05  # [1] numerics

@@ -12,9 +12,10 @@ from scipy.special import softmax
 
 from twintube.common.arrays import Array
 from twintube.diagnosis.changes import Hypothesis
+from twintube.diagnosis.found import Found
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.heavy import tails, without
-from twintube.diagnosis.search import Found, Search
+from twintube.diagnosis.search import Search
 from twintube.diagnosis.sizes import Sizes
 
 UNSEEN = 1e6  # [N] noise of a record that is not to tell anything

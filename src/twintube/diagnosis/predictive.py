@@ -19,10 +19,11 @@ from scipy.special import digamma, polygamma
 from scipy.stats import norm, t
 
 from twintube.common.arrays import Array
+from twintube.diagnosis.found import Found
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.heavy import standardised
 from twintube.diagnosis.numbers import NUMBERS
-from twintube.diagnosis.search import Found, Search
+from twintube.diagnosis.search import Search
 
 
 @dataclass(frozen=True)

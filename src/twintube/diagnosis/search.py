@@ -1,8 +1,8 @@
 """Evidence of a mechanism: its best strengths and fill, and the volume about them (Laplace; MacKay 2003, chapter 27)."""
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import lsq_linear
@@ -11,9 +11,10 @@ from scipy.stats import norm
 from twintube.common.arrays import Array
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.discrepancy import late
+from twintube.diagnosis.found import NOTHING, Fill, Found, Trial
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.heavy import beyond, evidence, reweighted
-from twintube.diagnosis.mechanisms import Mechanism, Strength
+from twintube.diagnosis.mechanisms import Mechanism
 from twintube.diagnosis.numbers import NUMBERS
 from twintube.diagnosis.sizes import USUAL, Sizes
 
@@ -32,52 +33,6 @@ ENOUGH = 0.05  # of the logarithm of the evidence
 BETTER = 0.5  # the like that is worth another search
 SLOPE = 0.02  # step of a derivative, of the coordinate
 NO_FORCE = 1e-9  # [N] a change that is rounding
-
-NOTHING = Mechanism("none", "none", "none", ())
-
-
-@dataclass(frozen=True)
-class Fill:
-    """What a hypothesis takes for the fill: levels that are open, values that are not, and how likely that is."""
-
-    levels: tuple[Strength, ...] = ()
-    values: Mapping[str, float] = field(default_factory=dict)
-    log_prior: float = 0.0
-    name: str = "as_stated"
-    other: bool = False  # than stated
-
-    @property
-    def start(self) -> Array:
-        """Coordinates (k,) from which the levels are sought."""
-        return np.array([0.5 if s.kind == "half" else 0.0 for s in self.levels])
-
-
-@dataclass(frozen=True)
-class Trial:
-    """A mechanism at some coordinates (k,), the last of which are those of the levels."""
-
-    u: Array
-    base: Array  # (n,) [N] forces without the mechanism
-    force: Array  # (n,) [N]
-    values: Array  # (n, 1 + x) [N] errors, and what the mechanism may be off its law
-    slopes: list[Array] = field(default_factory=list, compare=False)  # once they are known
-
-
-@dataclass(frozen=True)
-class Found:
-    """A mechanism with its best strengths."""
-
-    mechanism: Mechanism
-    log_z: float
-    exact: bool  # whether its law is, or is off as laws are
-    at: Array  # (k,) coordinates of the strengths and levels
-    values: dict[str, float]
-    spread: dict[str, float]  # standard deviations
-    levels: dict[str, float]
-    sizes: Sizes
-    weights: Array  # (n,)
-    base: Array  # (n,) [N] without the mechanism, in the same fill
-    force: Array  # (n,) [N]
 
 
 class Search:
