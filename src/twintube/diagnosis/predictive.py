@@ -36,7 +36,7 @@ class Unlike:
 
 
 def unlike(search: Search, found: Found) -> Iterator[Unlike]:
-    """The records that a hypothesis does not explain: of right ones `implausible` of all answers have any."""
+    """The records that a hypothesis does not explain; a right one fails each check with the chance `implausible` at most."""
     bench, frame = search.bench, search.frame.weighted(found.weights)
     off = standardised(frame, search.trial(found.mechanism, found.at, found.exact).values, found.sizes)
     for record, span in zip(bench.records, bench.slices, strict=True):
