@@ -1,15 +1,15 @@
 """Shares, bands and curves of the detection, on figures that are known and on the benches."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from twintube.core import model
-from twintube.core.outputs import total_force
 from twintube.dampers import load
 from twintube.dampers.freed_gas import VARIED
-from twintube.engine.simulate import InputError, at_rest, simulate
+from twintube.engine.simulate import InputError, simulate
 from twintube.inspection import METHODS, Condition, Detection, conditions, first_seen, study
-from twintube.inspection.scatter import AMBIENT, FADE, KELVIN, RANGES, ROOM, samples, warm
+from twintube.inspection.scatter import RANGES, samples
 from twintube.rig.signals import harmonic_block
 from twintube.vehicle.cars import load_car
 
@@ -63,28 +63,15 @@ def test_draws_are_within_their_ranges_and_a_longer_list_begins_with_a_shorter_o
     assert samples(5, seed=4) != drawn[:5]
 
 
-def test_a_temperature_acts_as_the_measured_temperature_of_the_package_does():
-    """The same damper in the kernel's own way: the temperature in the state, its laws in the parameters."""
-    damper, degC = load("SA8"), 40.0
+def test_cars_of_the_scatter_are_as_warm_as_the_law_of_their_damper_says() -> None:
+    """A sample at 40 degC is the damper of its own tolerance that `simulate` has at 40 degC."""
+    damper, block = load("SA8"), harmonic_block(0.524)
+    (sample,) = samples(1, seed=3)
+    share = sample.values["force"]
     p = damper.parameters
-    ambient = AMBIENT * np.pi / 4 * p.D_PR**2
-    rising = (1 + ambient / p.F_0) / (ROOM + KELVIN)
-    acting = damper.with_(fade_kelvin=FADE, gas_kelvin=rising)
-    block = harmonic_block(0.524)
-    forces = []
-    for each, kelvin in ((acting, degC - ROOM), (warm(damper, degC), 0.0)):
-        q, d, s, f = at_rest(each, 0.0)
-        s.warm = kelvin
-        model.start(q, d, s, float(block.stroke[0]))
-        s.warm = kelvin
-        before, found = float(block.velocity[0]), []
-        for z, v in zip(block.stroke[:2000].tolist(), block.velocity[:2000].tolist(), strict=True):
-            assert model.advance(q, d, s, f, z, before, v, 1e-3)
-            before = v
-            found.append(total_force(s))
-        forces.append(found)
-    assert forces[1] == pytest.approx(forces[0], abs=1e-6 * max(forces[0]))
-    assert max(forces[1]) < 0.97 * max(simulate(damper, block.stroke, block.velocity, block.time).force)
+    made = damper.with_(F_re=[share * F for F in p.F_re], F_co=[share * F for F in p.F_co])
+    warm = replace(sample, values={**sample.values, "temperature_degC": 40.0}).made(damper)
+    assert simulate(warm, block).force == pytest.approx(simulate(made, block, temperature=313.15).force, abs=1e-6)
 
 
 def test_the_study_sees_30_percent_oil_and_not_90():

@@ -23,7 +23,6 @@ from twintube.driving.sensors import (
 from twintube.driving.signals import Signals
 from twintube.engine import compiled
 from twintube.errors import InputError
-from twintube.inspection.scatter import ROOM
 from twintube.vehicle.full.car import WHEELS
 from twintube.vehicle.full.maneuvers import Road, checked_speed
 from twintube.vehicle.full.rolling import ROLL_COLUMNS, ROLL_STATES
@@ -31,6 +30,7 @@ from twintube.vehicle.full.run import DT, CarRun, FullCar, Underway, together
 from twintube.vehicle.quarter_car import GRAVITY
 from twintube.vehicle.road import CONTACT_LENGTH, SPACING
 
+ROOM: Final = 23.0  # [degC] at which F-v curve, friction and gas of the parameter sets hold (assumed)
 SETTLED: Final = 5.0  # [s] that a drive begins before its signals do
 STRETCH: Final = 60.0  # [s] computed at a time
 # The driver: assumed, a calm drive on a country road.

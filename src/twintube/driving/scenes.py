@@ -11,11 +11,11 @@ from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, condition
 from twintube.dampers.temperature import at_temperature
 from twintube.driving.channels import PLACES
-from twintube.driving.drives import Bushings, Scene
+from twintube.driving.drives import ROOM, Bushings, Scene
 from twintube.driving.sensors import Encoder
 from twintube.driving.sheet import IN_A_FILE
 from twintube.errors import InputError
-from twintube.inspection.scatter import KELVIN, ROOM
+from twintube.inspection.scatter import KELVIN
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.full.car import Wheel
 from twintube.vehicle.full.maneuvers import Road
@@ -72,7 +72,7 @@ class Conditions:
     persons: int = 2
     luggage: float = 0.0  # [kg]
     pressures: Sequence[float] = (PRESSURE,) * 4  # [Pa]
-    temperature: float = ROOM  # [degC] of oil and gas
+    temperature: float = ROOM  # [degC] of oil, seals and gas
     random: int = 1  # of driver and sensors
     ambient: float = ROOM  # [degC] of the air
     hills: float = 0.0  # grade [1], root mean square

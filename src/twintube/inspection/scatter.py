@@ -3,7 +3,6 @@
 All ranges are uniform and independent. They describe one type of car on testers of one kind, not the whole traffic.
 """
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Final
@@ -11,16 +10,15 @@ from typing import Final
 import numpy as np
 
 from twintube.dampers import Damper
+from twintube.dampers.temperature import at_temperature
 from twintube.inspection import tiring
 from twintube.inspection.benches import Setting
 from twintube.inspection.plate import Plate
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.quarter_car import Car
 
-FADE: Final = 0.003  # [1/K] of the fluid force, which falls as that of warm oil does (assumed), over the seasons
-ROOM: Final = 23.0  # [degC] at which F-v curve and preload are those of the parameter set (assumed)
+FADE: Final = 0.003  # [1/K] of the fluid force by the heat of a run (assumed)
 KELVIN: Final = 273.15  # [K] at 0 degC
-AMBIENT: Final = 1.013e5  # [Pa]
 
 
 @dataclass(frozen=True)
@@ -45,7 +43,7 @@ BENCHES: Final = (
           "0 to 150 N in the default car"),
     Range("force", "F-v curve over the parameter set's", 0.9, 1.1, "", "assumed", "tolerance of new dampers"),
     Range("temperature_degC", "temperature of oil and gas", 0.0, 40.0, "degC", "assumed",
-          "winter to summer; fluid force 0.3 % weaker per kelvin (assumed), ideal gas"),
+          "winter to summer, by the law of the damper (docs/temperature.md)"),
     Range("amplitude", "amplitude of the plate", 2.9e-3, 3.1e-3, "m",
           "3 mm sourced (EUSAMA), tolerance assumed", "wear of the crank"),
     Range("top", "highest frequency of the plate", 24.0, 26.0, "Hz",
@@ -74,21 +72,6 @@ OF_TIRING: Final = (
 RANGES: Final = (*BENCHES, *OF_TIRING)
 
 
-def warm(damper: Damper, degC: float) -> Damper:
-    """The damper at a temperature: thinner oil, higher pressure of the enclosed gas; raises ParameterError.
-
-    The laws are those of the effect that the package has for measured temperatures (Reynolds' viscosity, ideal gas). The
-    reserve's gas presses on the cross-section of the rod: F_0 is that of its pressure above the ambient one.
-    """
-    p, kelvin = damper.parameters, degC - ROOM
-    fluid = math.exp(-FADE * kelvin)
-    ambient = AMBIENT * math.pi / 4 * p.D_PR**2
-    gas = 1.0 + kelvin / (ROOM + KELVIN) * (1.0 + ambient / p.F_0) if p.F_0 > 0.0 else 1.0
-    return damper.with_(
-        F_re=[fluid * F for F in p.F_re], F_co=[fluid * F for F in p.F_co], F_0=gas * p.F_0, c_gas=gas * p.c_gas
-    )
-
-
 @dataclass(frozen=True)
 class Sample:
     """One car on one tester: the values of RANGES by name, and the seed of the sensors' noise."""
@@ -109,7 +92,7 @@ class Sample:
         share = self.values["force"]
         p = damper.parameters
         made = damper.with_(F_re=[share * F for F in p.F_re], F_co=[share * F for F in p.F_co])
-        return warm(made, self.values["temperature_degC"])
+        return at_temperature(made, KELVIN + self.values["temperature_degC"])
 
     def setting(self, plates: Iterable[Plate] = tiring.PLATES) -> Setting:
         """The benches of this tester, `plates` being those of `tiring` as they are meant to move."""
