@@ -135,11 +135,14 @@ class Model:
     about: Mapping[str, Any] = field(default_factory=dict)
 
     def at_middle(self, row: Mapping[str, float], place: str) -> dict[str, float]:
-        """The features of a damper as they would be at the middle of the conditions; what is not known is taken for it."""
-        away = [row.get(name, middle) - middle for name, middle in zip(CONDITIONS, self.middle, strict=True)]
+        """The features of a damper as they would be at the middle of the conditions, and DRIVEN from there.
+
+        A condition that is not known is taken for the middle.
+        """
+        away = {name: row.get(name, middle) - middle for name, middle in zip(CONDITIONS, self.middle, strict=True)}
         own = of_the_damper(row, place)
-        return {
-            name: own[name] - sum(a * b for a, b in zip(usual.slopes, away, strict=True))
+        return {name: away[name] for name in DRIVEN} | {
+            name: own[name] - sum(a * b for a, b in zip(usual.slopes, away.values(), strict=True))
             for name, usual in self.usual[AXLES[place]].items()
             if name in own
         }
@@ -151,13 +154,15 @@ class Model:
 
         `rows` and `reference` are minutes.
         """
-        here = mean_of([self.at_middle(row, place) for row in rows])
-        if reference:
-            usual = mean_of([self.at_middle(row, place) for row in reference])
-        else:
-            usual = {name: each.value for name, each in self.usual[AXLES[place]].items()}
-        driven = {name: float(np.mean([row[name] for row in rows])) - self.middle[CONDITIONS.index(name)] for name in DRIVEN}
-        return driven | {name: value - usual[name] for name, value in here.items() if name in usual}
+        return self.apart([self.at_middle(row, place) for row in rows], place, [self.at_middle(x, place) for x in reference])
+
+    def apart(
+        self, rows: Sequence[Mapping[str, float]], place: str, reference: Sequence[Mapping[str, float]] = ()
+    ) -> dict[str, float]:
+        """As `difference`, of minutes that are `at_middle`."""
+        fleet = {name: each.value for name, each in self.usual[AXLES[place]].items()}
+        usual = (mean_of(reference) if reference else fleet) | dict.fromkeys(DRIVEN, 0.0)
+        return {name: value - usual[name] for name, value in mean_of(rows).items() if name in usual}
 
     def table(self, way: str, sensors: str, place: str) -> Table:
         """The weights for REFERENCE or FLEET, a set of sensors and a damper."""

@@ -134,15 +134,15 @@ def examples(
 
     A reference is a drive, too: a good one, compared with the other references.
     """
-    known, found = references(drives), []
+    known, found = references(drives) if way == REFERENCE else {}, []
+    minutes = {id(drive): [model.at_middle(row, place) for row in drive.minutes] for drive in drives}
     for drive in drives:
-        usual = [row for each in known.get(drive.car, ()) if each is not drive for row in each.minutes]
+        usual = [row for each in known.get(drive.car, ()) if each is not drive for row in minutes[id(each)]]
         if way == REFERENCE and not usual:
             continue
         for length in lengths:
             if length <= len(drive.minutes):
-                minutes = drive.minutes[:length]
-                found.append((drive, length, model.difference(minutes, place, usual if way == REFERENCE else ())))
+                found.append((drive, length, model.apart(minutes[id(drive)][:length], place, usual)))
     return found
 
 
@@ -209,6 +209,8 @@ def fitted_table(
 
 def trained_axle(model: Model, drives: Sequence[Drive], way: str, axle: str) -> tuple[Known, dict[str, Table]]:
     """What the dampers of an axle showed, and its tables by sensors; raises InputError without good or worn dampers."""
+    from sklearn.model_selection import StratifiedGroupKFold
+
     rows = [
         (drive, place, difference)
         for place in PLACES
@@ -219,14 +221,19 @@ def trained_axle(model: Model, drives: Sequence[Drive], way: str, axle: str) -> 
     worn = np.array([drive.worn(place) for drive, place, _ in rows])
     if worn.all() or not worn.any():
         raise InputError(f"training: {np.count_nonzero(worn)} of {len(worn)} {axle} dampers are worn: must be some")
-    known, tables = known_of(rows), {}
+    known, tables, cars = known_of(rows), {}, [drive.car for drive, _, _ in rows]
+    # How far the good dampers of cars are that had no part in what is known.
+    strange = [
+        (known_of([rows[i] for i in others]), [rows[i] for i in left if rows[i][0].good(rows[i][1])])
+        for others, left in StratifiedGroupKFold(FOLDS).split(rows, worn, cars)
+    ]
     for sensors in SETS:
         names = list(names_of(sensors))
         if not set(names) <= set(known.names):
             continue
         values = np.array([[each[name] for name in names] for _, _, each in rows])
-        table = fitted_table(values, worn, [drive.car for drive, _, _ in rows], names)
-        distances = [known.distance(each, sensors) for drive, place, each in rows if drive.good(place)]
+        table = fitted_table(values, worn, cars, names)
+        distances = [other.distance(each, sensors) for other, some in strange for _, _, each in some]
         tables[sensors] = replace(table, far=float(np.quantile(distances, 1.0 - FALSE_ALARMS)))
     return known, tables
 
