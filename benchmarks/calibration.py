@@ -27,7 +27,7 @@ from twintube.diagnosis.changes import NONE, UNKNOWN, changes, mechanisms
 from twintube.diagnosis.found import Fill
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.mechanisms import Mechanism
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.posterior import NOTHING, log_prior
 from twintube.diagnosis.records.noise import averaging_noise, noise
 from twintube.diagnosis.records.prepare import prepare
@@ -73,7 +73,7 @@ def planned(rng: RNG, names: Sequence[str]) -> tuple[Bench, Array]:
 
 def drawn_sizes(rng: RNG) -> Sizes:
     """Sizes of the model's own errors, from their priors."""
-    n = NUMBERS
+    n = numbers()
     grids = ((n.law_sizes, n.law_usual), (n.own_sizes, n.own_usual), (n.lasting_sizes, n.lasting_usual))
     return Sizes(*(int(rng.choice(len(grid), p=np.exp(log_weights(grid, scale)))) for grid, scale in grids))
 
@@ -104,14 +104,14 @@ def of_state(seed: int) -> dict[str, Any]:
     """A state that nobody knows: where the truth lies in its posterior."""
     rng = np.random.default_rng([seed, 1])
     bench, white = planned(rng, ["now"])
-    levels = np.arange(NUMBERS.level_low, 1.0 + 1e-9, 0.0025)
+    levels = np.arange(numbers().level_low, 1.0 + 1e-9, 0.0025)
     prior = np.exp(log_prior(levels, NOTHING))
     j, i = divmod(int(rng.choice(prior.size, p=prior.ravel() / prior.sum())), len(levels))
     gas = float(SHARES[j])
-    read = float(np.clip(levels[i] + rng.normal(0.0, NUMBERS.level_tolerance), 0.0, 1.0))
+    read = float(np.clip(levels[i] + rng.normal(0.0, numbers().level_tolerance), 0.0, 1.0))
     states = bench.states.copy()
     states[:, 0], states[:, 1] = read, gas
-    bench.noisy(np.hypot(white, NUMBERS.degraded * bench.peak))
+    bench.noisy(np.hypot(white, numbers().degraded * bench.peak))
     sizes = drawn_sizes(rng)
     force = bench.with_states(states) + drawn_errors(bench, Frame(bench, states), sizes, rng)
     seen = Bench(bench.given, measured(bench, force))
@@ -155,7 +155,7 @@ def drawn(several: Sequence[Mechanism], bench: Bench, base: dict[str, float], wh
 
 def drawn_kind(rng: RNG) -> str:
     """Nothing, something unknown, one cause or two; another fill is not asked for."""
-    n = NUMBERS
+    n = numbers()
     any_cause = 1.0 - n.unchanged - n.other - n.misstated
     odds = np.array([n.unchanged, n.other, (1.0 - n.two) * any_cause, n.two * any_cause])
     return str(rng.choice([NONE, UNKNOWN, *CAUSES], p=odds / odds.sum()))
@@ -168,7 +168,7 @@ def of_changes(seed: int) -> dict[str, Any]:
     bench.noisy(white)
     acting = np.concatenate([np.full(len(r.time), r.name.startswith("after")) for r in bench.records])
     several = [m for m in mechanisms(bench) if m.effect in EFFECTS]
-    n, always, force = NUMBERS, {}, bench.forces({})
+    n, always, force = numbers(), {}, bench.forces({})
     if rng.random() < n.lacking:
         hidden = drawn(several, bench, {}, np.ones(len(acting)), rng)
         always, force = hidden.mechanism.values(hidden.at), force + hidden.change
@@ -202,7 +202,7 @@ def of_changes(seed: int) -> dict[str, Any]:
 
 def named(bench: Bench, causes: Sequence[Hidden]) -> str:
     """What is true: what changes forces by less than the zero of a load cell is nothing."""
-    least = NUMBERS.zero * bench.peak
+    least = numbers().zero * bench.peak
     return "+".join(sorted(c.mechanism.effect for c in causes if float(np.sqrt(np.mean(c.change**2))) > least)) or NONE
 
 

@@ -21,7 +21,7 @@ from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.contract import as_json
 from twintube.diagnosis.measurement.faults import read
 from twintube.diagnosis.mechanisms import Mechanism, Strength
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.put_right import Measured
 from worlds.bench.files import write_truth
 from worlds.makers import WORLDS, Job
@@ -70,7 +70,7 @@ def varied(variant: Variant, put_right: Callable[..., Measured]) -> Iterator[Non
     def several(bench: Bench, catalogue: Collection[str] | None = None) -> list[Mechanism]:
         return [scaled(m, variant.strengths) for m in usual(bench, catalogue)]
 
-    usual, law = changes.mechanisms, NUMBERS.law_usual
+    usual, law = changes.mechanisms, numbers().law_usual
     with (
         patch.object(changes, "mechanisms", several),
         patch.object(answering, "put_right", put_right),

@@ -14,7 +14,7 @@ from twintube.diagnosis import Answer, answer
 from twintube.diagnosis.contract import as_json
 from twintube.diagnosis.heavy import tails, weights_of
 from twintube.diagnosis.memory import lasting
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.report.diagnosis.page import lines
 
 SPEEDS = (0.3, 0.6, 1.0)  # [m/s]
@@ -26,7 +26,7 @@ def test_a_weighted_gaussian_with_its_tails_is_students_distribution() -> None:
     w = weights_of(r)
     several = [-0.5 * weight * x**2 + 0.5 * np.log(weight) for x, weight in zip(r, w, strict=True)]
     found = [one + tails(r[[i]], w[[i]]) for i, one in enumerate(several)]
-    law = student(NUMBERS.freedom).logpdf
+    law = student(numbers().freedom).logpdf
     assert found == pytest.approx(law(r) - law(0.0), abs=1e-12)
 
 

@@ -13,7 +13,7 @@ from twintube.data import LoadedDataset, Record
 from twintube.diagnosis import Answer, answer
 from twintube.diagnosis.changes import UNKNOWN, Hypothesis
 from twintube.diagnosis.contract import as_json
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.predictive import chance
 from twintube.report.diagnosis.page import lines
 
@@ -33,9 +33,9 @@ def answered(records: list[Record], effect: str = "valve_wear") -> Answer:
 
 def test_noise_has_any_chance_alike() -> None:
     rng = np.random.default_rng(1)
-    several = np.array([chance(rng.standard_t(NUMBERS.freedom, 500)) for _ in range(1000)])
+    several = np.array([chance(rng.standard_t(numbers().freedom, 500)) for _ in range(1000)])
     assert np.quantile(several, [0.1, 0.5, 0.9]) == pytest.approx([0.1, 0.5, 0.9], abs=0.05)
-    assert chance(2.0 * rng.standard_t(NUMBERS.freedom, 500)) < 1e-6
+    assert chance(2.0 * rng.standard_t(numbers().freedom, 500)) < 1e-6
 
 
 def test_single_intervals_are_named_with_their_times_and_change_no_answer(good: list[Record]) -> None:

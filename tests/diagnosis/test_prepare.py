@@ -42,7 +42,7 @@ def per_sample(record: PreparedRecord) -> float:
 
 def test_intervals_keep_the_impulse_of_the_force(runs: list[small.Run]) -> None:
     record = small.record(runs[0])
-    ready = prepared(record, 0.1)
+    ready = prepared(record, 0.1, 23.0)
     whole = impulse(record.time, record.force)
     assert len(ready.time) < len(record.time) / 2
     assert np.sum(np.diff(ready.time) * ready.force[1:]) == pytest.approx(whole[-1], rel=1e-9)
@@ -78,14 +78,14 @@ def test_a_change_of_speed_is_a_kick_and_a_triangle_is_none() -> None:
     triangle = 0.045 * 2 / np.pi * np.arcsin(np.sin(2 * np.pi * time - np.pi / 2))
     record, _, spoilt = driven(triangle, time)
     assert not spoilt.any()
-    assert prepared(record, 0.1).judged.mean() > 0.95
+    assert prepared(record, 0.1, 23.0).judged.mean() > 0.95
     assert not driven(-0.045 * np.cos(2 * np.pi * time), time)[2].any()
     # A slow ramp to the middle, at 1 s a sine at full velocity, at 1.25 s its first reversal.
     kick = np.where(time < 1.0, 0.045 * (time - 1.0), 0.045 * np.sin(2 * np.pi * (time - 1.0)))
     record, ends, spoilt = driven(kick, time)
     assert 0.95 < ends[spoilt].min() <= 1.03
     assert 1.2 < ends[spoilt].max() <= 1.3
-    assert not prepared(record, 0.1).judged[spoilt].any()
+    assert not prepared(record, 0.1, 23.0).judged[spoilt].any()
 
 
 def test_a_coarsely_sampled_sine_has_no_kicks() -> None:
@@ -106,7 +106,7 @@ def test_samples_that_are_not_usable_are_not_compared(runs: list[small.Run]) -> 
     record = small.record(runs[0])
     usable = np.ones(len(record.time), dtype=bool)
     usable[500:520] = False
-    ready = prepared(replace(record, usable=usable), 0.1)
+    ready = prepared(replace(record, usable=usable), 0.1, 23.0)
     inside = (ready.time >= record.time[500]) & (ready.time <= record.time[519])
     assert inside.any() and not ready.judged[inside].any()
 

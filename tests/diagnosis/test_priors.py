@@ -5,17 +5,17 @@ from pathlib import Path
 import pytest
 
 from twintube.diagnosis import priors
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.errors import InputError
 
 
 def test_other_numbers_hold_as_long_as_something_is_asked(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text("law_usual = 0.05\nlaw_lags = [1e-3, 4e-3]\n", encoding="utf-8")
-    usual = NUMBERS.law_usual, NUMBERS.law_lags
+    usual = numbers().law_usual, numbers().law_lags
     with priors(file):
-        assert (NUMBERS.law_usual, NUMBERS.law_lags) == (0.05, (1e-3, 4e-3))
-    assert usual == (NUMBERS.law_usual, NUMBERS.law_lags)
+        assert (numbers().law_usual, numbers().law_lags) == (0.05, (1e-3, 4e-3))
+    assert usual == (numbers().law_usual, numbers().law_lags)
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from twintube.dampers import load
 from twintube.data import LoadedDataset, UnknownFillError, load_dataset
 from twintube.diagnosis import Answer, StateAnswer, states
 from twintube.diagnosis.memory import innovations, lagged
-from twintube.diagnosis.numbers import NUMBERS, listed
+from twintube.diagnosis.numbers import listed, numbers
 from twintube.diagnosis.sizes import LARGEST, Sizes, log_weights
 from twintube.identification import identify_dataset
 
@@ -136,7 +136,7 @@ def test_a_lag_keeps_what_is_steady() -> None:
 
 
 def test_prior_weights_of_the_sizes_sum_to_one() -> None:
-    n = NUMBERS
+    n = numbers()
     for grid, scale in ((n.law_sizes, n.law_usual), (n.own_sizes, n.own_usual), (n.lasting_sizes, n.lasting_usual)):
         assert np.exp(log_weights(grid, scale)).sum() == pytest.approx(1.0)
     assert len(Sizes(0, 0, 0).beside(LARGEST)) == 4

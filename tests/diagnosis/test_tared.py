@@ -15,7 +15,7 @@ from twintube.data import LoadedDataset, Record
 from twintube.diagnosis import Answer, StateAnswer, answer
 from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.contract import as_json
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.posterior import NOTHING, PARTLY, Stated, StatePosterior, posterior
 from twintube.diagnosis.shares import SHARES, Zeroed, log_share
 from twintube.diagnosis.sizes import USUAL
@@ -130,13 +130,13 @@ def alike(lost: float, right: float, tared: float, stated: Stated = NOTHING) -> 
     log_z = np.full((2, len(SHARES)), -100.0)  # no share in between
     log_z[:, 0], log_z[:, -1] = lost, (right, tared)
     log_z += np.array([[log_share(False)], [log_share(True)]])
-    levels: Array = np.arange(NUMBERS.level_low, 1.005, 0.01)
+    levels: Array = np.arange(numbers().level_low, 1.005, 0.01)
     return posterior({(1.0, float(x)): Zeroed(log_z, USUAL) for x in levels}, stated)
 
 
 def test_where_only_a_constant_tells_the_odds_are_those_before_the_records() -> None:
     p = alike(0.0, -100.0, 0.0)
-    assert p.gas_lost / p.tared == pytest.approx(1.0 / NUMBERS.tared, rel=EDGE)
+    assert p.gas_lost / p.tared == pytest.approx(1.0 / numbers().tared, rel=EDGE)
     answers = [StateAnswer("1", ("a",), NOTHING, p)]
     (text,) = state.sentences(answers)
     assert (
@@ -177,7 +177,7 @@ def test_what_the_records_decide_is_said_as_decided(evidence: tuple[float, float
 
 def test_a_stated_preload_that_only_a_constant_contradicts_may_be_right() -> None:
     """Of those that a file calls right nine in ten are; one in ten cells is tared."""
-    n = NUMBERS
+    n = numbers()
     p = alike(0.0, -100.0, 0.0, Stated(None, True))
     right, wrong = (1.0 - n.misstated) * n.tared, n.misstated * 0.5 * (1.0 - n.leaking) * (1.0 + n.tared)
     assert p.as_stated == pytest.approx(right / (right + wrong), rel=EDGE)

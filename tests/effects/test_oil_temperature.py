@@ -8,6 +8,7 @@ import pytest
 
 from twintube.common.arrays import Array
 from twintube.dampers import load
+from twintube.dampers.temperature import at_temperature
 from twintube.engine.simulate import simulate
 from twintube.fitting.simulation import SimulatedRecords
 from twintube.rig.signals import harmonic_block
@@ -64,48 +65,50 @@ def test_only_the_laminar_part_of_the_force_knows_the_viscosity() -> None:
 
 @dataclass
 class Warmed:
-    """A record of the intact damper, `warm` [K] beyond the temperature of its parameters."""
+    """A record of the intact damper at measured temperatures `kelvins` [K]."""
 
     time: Array
     stroke: Array
     velocity: Array
-    warm: Array
+    kelvins: Array
     oil_level: float = 1.0
     gas_preload: int = 1
 
 
 def means(warm: float, **changes: float) -> Array:
-    """Mean forces [N] of a slow triangle at a temperature that is measured."""
+    """Mean forces [N] of a slow triangle, `warm` [K] beyond the temperature of the F-v curve."""
     z = np.concatenate([np.linspace(-0.03, 0.03, 61), np.linspace(0.03, -0.03, 61)[1:]])
     v = np.where(np.arange(121) < 60, 0.2, -0.2)
-    record = Warmed(np.arange(121) * 5e-3, z, v, np.full(121, warm))
-    problem = SimulatedRecords(load("SA8", as_published=True), [record], parts=4, failed=np.inf)
+    damper = load("SA8", as_published=True)
+    record = Warmed(np.arange(121) * 5e-3, z, v, np.full(121, damper.parameters.T_curve + warm))
+    problem = SimulatedRecords(damper, [record], parts=4, failed=np.inf)
     return problem.run(problem.rows(), changes.items())[0][5:55]
 
 
-def test_a_measured_temperature_acts_on_oil_friction_and_gas() -> None:
-    frictionless = {"F_FrS": 0.0, "gas_kelvin": 0.0}
-    plain = means(0.0, **frictionless, fade_kelvin=0.01)
+def test_records_and_simulate_take_the_same_temperature() -> None:
+    """What diagnosis compares at a measured temperature is the damper that `at_temperature` makes of it."""
+    warm = 20.0
+    damper = load("SA8", as_published=True)
+    hot = at_temperature(damper, damper.parameters.T_curve + warm).parameters
+    changed = {name: getattr(hot, name) for name in ("F_re", "F_co", "F_FrS", "sigma_0", "F_0", "c_gas", "c_gas_lost")}
+    assert means(warm) == pytest.approx(means(0.0, **changed), rel=1e-9)
+    assert np.max(np.abs(means(warm) - means(0.0))) > 5.0
+
+
+def test_a_damper_may_fade_and_ease_beyond_the_law() -> None:
+    gas = means(20.0, F_FrS=0.0, k_cold=1.0, k_hot=1.0) - means(0.0, F_FrS=0.0)
+    lawless = {"F_FrS": 0.0, "k_cold": 1.0, "k_hot": 1.0}
     p = load("SA8", as_published=True).parameters
-    gas = p.c_gas * (np.linspace(-0.03, 0.03, 61)[5:55] - 0.0005) - p.F_0
-    assert means(20.0, **frictionless, fade_kelvin=0.01) - gas == pytest.approx(math.exp(-0.2) * (plain - gas), rel=1e-3)
-    # The pressure of an enclosed gas goes with its absolute temperature.
-    enclosed = means(29.6, fade_kelvin=1e-9) - means(0.0, fade_kelvin=1e-9)
-    assert enclosed == pytest.approx(0.1 * gas, rel=2e-3)
-    rubbing = means(0.0) - means(0.0, F_FrS=0.0)
-    eased = means(20.0, friction_kelvin=0.01, gas_kelvin=0.0) - means(0.0)
+    spring = p.c_gas * (np.linspace(-0.03, 0.03, 61)[5:55] - 0.0005) - p.F_0 + gas
+    plain = means(20.0, **lawless) - spring
+    for fade in (0.01, -0.01):
+        assert means(20.0, **lawless, fade_kelvin=fade) - spring == pytest.approx(math.exp(-20.0 * fade) * plain, rel=2e-3)
+    rubbing = means(20.0) - means(20.0, F_FrS=0.0)
+    eased = means(20.0, friction_kelvin=0.01) - means(20.0)
     assert eased == pytest.approx((math.exp(-0.2) - 1.0) * rubbing, rel=1e-6)
 
 
-def test_heat_at_the_start_is_a_temperature_where_temperatures_are_measured() -> None:
-    """Records usually begin at another temperature than that of the F-v curve: 7000 J are 10 K."""
-    for changes in ({"fade_kelvin": 0.01}, {"friction_kelvin": 0.01}):
-        hotter = means(15.0, **changes, gas_kelvin=0.0)
-        assert means(5.0, **changes, gas_kelvin=0.0, H_start=7000.0) == pytest.approx(hotter, rel=1e-12)
-
-
-def test_a_temperature_is_nothing_to_a_damper_without_the_effect() -> None:
-    assert np.array_equal(means(40.0), means(0.0))
+def test_a_law_of_its_own_is_nothing_at_the_temperature_of_the_curve() -> None:
     assert np.array_equal(means(0.0, fade_kelvin=0.02, friction_kelvin=0.02)[5:], means(0.0, fade_kelvin=1e-12)[5:])
 
 

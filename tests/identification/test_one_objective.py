@@ -9,6 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from twintube.cli import app
+from twintube.core.checks import KELVIN
 from twintube.dampers import Damper, load, to_toml
 from twintube.dampers.freed_gas import as_published
 from twintube.dampers.gas_spring import at_pressure, gas_factors
@@ -66,6 +67,9 @@ def test_both_report_the_error_of_the_records_a_set_was_identified_from(
 ) -> None:
     folder = bench(tmp_path / "bench", truth, keys, noise)
     result = identify(folder)
+    # The F-v curve is that of the temperature the records say, and the law of temperature begins there.
+    curve = result.identification.damper.parameters.T_curve
+    assert curve == pytest.approx(61.0 + KELVIN if "start_temperature" in keys else truth.parameters.T_curve)
     (folder / "identified.toml").write_text(to_toml(result.identification.damper))
     dataset = folder / "dataset.toml"
     dataset.write_text(dataset.read_text().replace("start.toml", "identified.toml"))

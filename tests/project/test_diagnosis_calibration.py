@@ -7,7 +7,7 @@ from benchmarks.calibration_figures import alike, of_changes, told
 from benchmarks.priors import Variant, scaled, summary, varied
 from twintube.diagnosis import changes
 from twintube.diagnosis.mechanisms import faults
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 
 
 def test_probabilities_that_are_too_sure() -> None:
@@ -28,11 +28,11 @@ def test_two_causes_are_the_same_in_either_order() -> None:
 
 
 def test_other_priors_hold_only_inside() -> None:
-    law, usual = NUMBERS.law_usual, changes.mechanisms
+    law, usual = numbers().law_usual, changes.mechanisms
     with varied(Variant("D doubled", law=2.0), lambda *_: None):
-        assert NUMBERS.law_usual == 2.0 * law
+        assert numbers().law_usual == 2.0 * law
         assert changes.mechanisms is not usual
-    assert NUMBERS.law_usual == law
+    assert numbers().law_usual == law
     assert changes.mechanisms is usual
     gain = faults(1000.0, 10.0, 0.1)[0]
     assert scaled(gain, 0.5).strengths[0].scale == 0.5 * gain.strengths[0].scale

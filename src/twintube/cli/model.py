@@ -114,15 +114,15 @@ def simulate(
     chosen, state = simulated.filled(simulated.named(damper, record, entry), entry, oil_level, gas_lost, gas)
     chosen = as_published(chosen) if published else chosen
     state += simulated.in_words(temperature)
-    typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}" if entry else f"{chosen.name}, {state}")
     motion, findings = (
         (simulated.block_motion(velocity, amplitude_mm), ())
         if record is None
         else simulated.driven_by(chosen, entry, record, block)
     )
+    kelvins = simulated.kelvins(temperature, motion, record)
+    typer.echo(f"{record}, as its dataset.toml says: {chosen.name}, {state}" if entry else f"{chosen.name}, {state}")
     for finding in findings:
         typer.echo(str(finding))
-    kelvins = simulated.kelvins(temperature, motion, record)
     result = simulated.run(chosen, motion, kelvins)
     simulated.warn(chosen, motion, result, record)
     text = simulated.as_csv(result, motion, kelvins, for_fmu=for_fmu)

@@ -12,7 +12,6 @@ from twintube.errors import InputError
 if TYPE_CHECKING:
     from twintube.dampers import Damper
 
-KELVIN = 273.15  # [K] at 0 degC
 GAS = "--gas-lost/--gas-kept"
 OIL_LEVEL = Annotated[
     float | None,
@@ -59,7 +58,7 @@ def worn_preload(gas_lost: bool | None, gas: float | None) -> float:
 
 def in_kelvins(degC: float, name: str = "--temperature") -> float:
     """A temperature [K] that is given in degC; raises InputError, in degC too, where the model has none."""
-    from twintube.core.checks import TEMPERATURE, outside
+    from twintube.core.checks import KELVIN, TEMPERATURE, outside
 
     low, high = (TEMPERATURE[end] - KELVIN for end in ("lower", "upper"))
     if message := outside(name, degC, low, high, "degC"):

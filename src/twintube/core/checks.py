@@ -20,6 +20,7 @@ from twintube.core.variables import Derived, Inputs, blank, fmi_name
 LARGEST = sys.float_info.max  # within it a number is finite
 INPUTS = {item.name: item.metadata for item in fields(Inputs)}
 VELOCITY, TEMPERATURE = INPUTS["velocity"], INPUTS["temperature"]
+KELVIN = 273.15  # [K] at 0 degC
 
 
 def outside(name: str, value: float, lower: float | None, upper: float | None, unit: str) -> str:

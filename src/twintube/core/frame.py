@@ -33,8 +33,6 @@ class Frame(State):
     F_mean: float = var("frame", "F_Fl", "N", "mean of the fluid force over the time of the step", default=0.0)
     k_mean: float = var("frame", "k_degr", "1", "mean of k_degr over the step, all effects", default=1.0)
     W_step: float = var("frame", "W", "J", "work dissipated in the step", default=0.0)
-    warm: float = var("frame", "", "K", "measured temperature beyond that of the parameter set, set from outside; 0 unknown",
-                      default=0.0)  # fmt: skip
     duration: float = var("frame", "", "s", "duration of the step", default=0.0)
     elapsed: float = var("frame", "t", "s", "time since the start", default=0.0)
 

@@ -40,3 +40,9 @@ def at_temperature(damper: Damper, kelvins: float) -> Damper:
         c_gas=gas * p.c_gas,
         c_gas_lost=gas * p.c_gas_lost,
     )
+
+
+def held_at(damper: Damper, kelvins: float) -> Damper:
+    """The damper with the same law, its F-v curve, friction and gas being those measured at a temperature [K]."""
+    p, share = damper.parameters, math.exp(thickness(damper.parameters, kelvins))
+    return damper.with_(T_curve=kelvins, k_cold=p.k_cold / share, k_hot=p.k_hot / share)

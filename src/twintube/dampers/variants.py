@@ -1,9 +1,9 @@
 """Variants of the model: parts switched off (variants 2 and 3 of Section 3.4), a scalar factor, another F-v curve."""
 
-from twintube.core.effects.oil_temperature import CAPACITY
 from twintube.dampers.curve import BRANCHES, continued
 from twintube.dampers.damper import Damper
 
+CAPACITY = 700.0  # [J/K] of a damper (assumed)
 NO_FOAM = {"S_BV": 0.0, "S_PV": 0.0}
 NO_CAVITATION = {"Y_Co_cav": 0.0, "Y_Re_cav": 0.0}
 

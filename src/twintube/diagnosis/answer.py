@@ -20,7 +20,7 @@ from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.found import Found
 from twintube.diagnosis.heldout import HeldOut
 from twintube.diagnosis.measurement.faults import DROPOUTS, Fault
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.posterior import Stated, StatePosterior
 from twintube.diagnosis.predictive import Unlike
 from twintube.diagnosis.put_right import Measured
@@ -146,11 +146,11 @@ class Answer:
         if any(name not in self.weights for name in credible):  # a free change predicts nothing
             return ()
         agreeing = sum(share for name, share in self.weights.items() if agrees(name, credible))
-        if agreeing >= 1.0 - NUMBERS.credible:
+        if agreeing >= 1.0 - numbers().credible:
             return ()
         ordered = sorted(self.weights, key=lambda name: -self.weights[name])
         total = np.cumsum([self.weights[name] for name in ordered])
-        return tuple(n for n in ordered[: int(np.searchsorted(total, NUMBERS.credible)) + 1] if n not in credible)
+        return tuple(n for n in ordered[: int(np.searchsorted(total, numbers().credible)) + 1] if n not in credible)
 
     @property
     def doubted(self) -> bool:

@@ -7,7 +7,7 @@ from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.found import Fill, Found
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.mechanisms import Mechanism
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.search import BETTER, SLOPE, Search
 
 
@@ -78,7 +78,7 @@ def slopes_of(bench: Bench, joint: Mechanism, at: Array) -> Array:
 
 def set_up(bench: Bench, acting: Array) -> Array:
     """What the samples `acting` (n,) have of their own day: zero, gain, temperature; (n, 3) [N] of size one."""
-    force, n = bench.forces({}), NUMBERS
+    force, n = bench.forces({}), numbers()
     fluid = bench.fluid(force, bench.full(bench.states)[1], bench.states)
     day = np.column_stack([np.full(len(force), n.zero * bench.peak), n.gain * force, n.begun * fluid])
     return np.asarray(acting[:, None] * day)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.diagnosis.discrepancy import Discrepancy, degraded, discrepancy
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.records.noise import colour, noise
 from twintube.diagnosis.records.record import PreparedRecord
 from twintube.diagnosis.records.seen import BENDS, DELAY, REMEMBERED, SeenRecords
@@ -46,8 +46,8 @@ class Bench(SeenRecords):
             self.fills |= {f"{LEVEL}:{name}": (0, which), f"{GAS}:{name}": (1, which)}
         self.measured = np.concatenate([r.force for r in records])
         self.peak = max(r.peak for r in records)
-        self.delayed = float(np.hypot(NUMBERS.late, NUMBERS.skew * np.median([r.period for r in records])))
-        self.zero = NUMBERS.zero * self.peak
+        self.delayed = float(np.hypot(numbers().late, numbers().skew * np.median([r.period for r in records])))
+        self.zero = numbers().zero * self.peak
         self.slices = [slice(a, b) for a, b in zip(self.starts[:-1], self.starts[1:], strict=True)]
         self.noisy(np.concatenate([r.noise for r in records]))
         self.days = np.zeros((len(self.z), 0))  # [N] friction, each time the cell was set to zero with the damper in it
@@ -62,7 +62,7 @@ class Bench(SeenRecords):
     def noisy(self, noise: Array) -> None:
         """Take `noise` (n,) [N] for that of the mean forces."""
         edges = np.concatenate([r.edges for r in self.records])
-        self.sigma = np.sqrt(noise**2 + edges**2 + (NUMBERS.model_noise * self.peak) ** 2)
+        self.sigma = np.sqrt(noise**2 + edges**2 + (numbers().model_noise * self.peak) ** 2)
 
     def with_edges(self, edges: Sequence[Array]) -> None:
         """Take errors (n,) [N] at the steps of the force of each record for further noise."""
@@ -134,7 +134,7 @@ class Bench(SeenRecords):
         now, by = self.usual.get(DELAY, 0.0), self.delayed
         late, early = (self.observed(*self.simulate(self.damping({DELAY: now + x}), states), {}) for x in (by, -by))
         parts = self.parts_of_samples(mean, point)
-        sampling = [UNIFORM * parts["sample_mean"], *(NUMBERS.filtered * parts[name] for name in BENDS)]
+        sampling = [UNIFORM * parts["sample_mean"], *(numbers().filtered * parts[name] for name in BENDS)]
         return np.column_stack([0.5 * (late - early), *sampling])
 
     def loss(self, states: Array) -> Array:
@@ -194,7 +194,7 @@ class Bench(SeenRecords):
         fluid = self.fluid(whole + loss, friction, states)
         turn = np.clip(1.0 - np.abs(loss) / np.maximum(self.intact, TURNED * self.peak), 0.0, 1.0)
         p = self.damper.parameters
-        rubs = float(np.hypot(NUMBERS.rubbing * p.F_FrS, NUMBERS.side * self.peak))
+        rubs = float(np.hypot(numbers().rubbing * p.F_FrS, numbers().side * self.peak))
         out = []
         for at in self.slices:
             z, v = (0.5 * (x[at] + np.concatenate([x[at][:1], x[at][:-1]])) for x in (self.z, self.v))
@@ -203,9 +203,9 @@ class Bench(SeenRecords):
             one, rubbing = np.ones_like(F), np.tanh(v / TURN)
             rub = rubs / p.F_FrS * friction[at]
             # Without preload some gas is left, too.
-            gas = NUMBERS.preload * np.column_stack([p.c_gas * z - p.F_0, p.c_gas * z])
+            gas = numbers().preload * np.column_stack([p.c_gas * z - p.F_0, p.c_gas * z])
             lost = degraded(self.z[at], v, loss[at])
-            n = NUMBERS
+            n = numbers()
             zero = self.zero
             channel = channels[at].copy()
             if not known:

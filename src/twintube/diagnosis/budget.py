@@ -17,7 +17,7 @@ from twintube.diagnosis.frame import STILL, Frame, Part
 from twintube.diagnosis.heavy import without as without_columns
 from twintube.diagnosis.mechanisms import OPEN
 from twintube.diagnosis.memory import lasting
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.search import Search
 from twintube.diagnosis.sizes import Sizes, chance_of_more
@@ -92,7 +92,7 @@ def budget(stated: Search, search: Search, found: Found) -> Budget:
         ratio, finding = usual(far)
         if name in (LAW, LASTING):  # their size is sought
             grid, at, scale = size_of(name, found.sizes)
-            finding = chance_of_more(grid, at, scale) < 1.0 - NUMBERS.credible
+            finding = chance_of_more(grid, at, scale) < 1.0 - numbers().credible
             ratio = grid[at] / scale
         lines.append(Line(name, rms(force[used]), float(ratio), bool(finding)))
     lines = [line for line in lines if line.force > 0.0]
@@ -123,7 +123,7 @@ def causes(search: Search, found: Found, errors: Array) -> Iterator[tuple[str, A
 
 def size_of(name: str, sizes: Sizes) -> tuple[tuple[float, ...], int, float]:
     """Sizes tried of an own error of the model, which is the best, and what is usual."""
-    n = NUMBERS
+    n = numbers()
     if name == LAW:
         return n.law_sizes, sizes.law_at, n.law_usual
     return n.lasting_sizes, sizes.lasting_at, n.lasting_usual
@@ -145,7 +145,7 @@ def contributions(frame: Frame, errors: Array, sizes: Sizes) -> dict[str, tuple[
             if len(mine) and name != LAW:
                 sizes_seen[name].append(b[mine, 0])
         left = errors[part.rows] - part.columns @ expected
-        size = NUMBERS.lasting_sizes[sizes.lasting_at]
+        size = numbers().lasting_sizes[sizes.lasting_at]
         if size > 0.0:
             out[LASTING][part.rows] = lasting(left, part.sigma, size * part.lasts, part.kept)
     return {name: (force, np.concatenate([np.zeros(0), *sizes_seen[name]])) for name, force in out.items()}
@@ -155,7 +155,7 @@ def usual(parts: Array) -> tuple[float, bool]:
     """Root mean square of parts (k,) in standard deviations, and whether they are more than nine of ten have."""
     if not len(parts):
         return 0.0, False
-    return rms(parts), bool(parts @ parts > chi2.ppf(NUMBERS.credible, len(parts)))
+    return rms(parts), bool(parts @ parts > chi2.ppf(numbers().credible, len(parts)))
 
 
 def named_shared(first: int, frame: Frame) -> Iterator[tuple[str, Array]]:

@@ -20,7 +20,7 @@ from twintube.diagnosis.channels import TARED
 from twintube.diagnosis.found import Fill, Found
 from twintube.diagnosis.heavy import evidence
 from twintube.diagnosis.mechanisms import Mechanism, both, effects, faults
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.search import Search
 
 NONE, STATE, UNKNOWN = "none", "state", "unknown"
@@ -55,7 +55,7 @@ class Changes:
     def credible(self) -> tuple[str, ...]:
         """The fewest hypotheses that hold 90 %."""
         total = np.cumsum([h.probability for h in self.hypotheses])
-        return tuple(h.name for h in self.hypotheses[: int(np.searchsorted(total, NUMBERS.credible)) + 1])
+        return tuple(h.name for h in self.hypotheses[: int(np.searchsorted(total, numbers().credible)) + 1])
 
 
 def mechanisms(bench: Bench, catalogue: Collection[str] | None = None) -> list[Mechanism]:
@@ -121,7 +121,7 @@ def beside_a_base(
     bench: Bench, acting: Array, fills: Sequence[Fill], causes: Sequence[Mechanism], progress: Callable[[str], None]
 ) -> tuple[list[Search], Base, list[Found]]:
     """The searches in each fill beside what always acts, and what was found in the likeliest."""
-    always = float(np.log(NUMBERS.lacking / (1.0 - NUMBERS.lacking) / max(1, len({m.effect for m in causes}))))
+    always = float(np.log(numbers().lacking / (1.0 - numbers().lacking) / max(1, len({m.effect for m in causes}))))
     base, every = Base(bench, acting, fills[0]), np.ones(len(acting), dtype=bool)
     while True:
         searches = in_fills(base, fills)
@@ -197,7 +197,7 @@ def headline(stated: Search, search: Search, found: Found) -> str:
         sizes[part.effect] = max(sizes.get(part.effect, 0.0), rms(search, with_it - without))
         begin = end
     noise = float(np.sqrt(np.mean(search.bench.sigma[search.acting & search.bench.used] ** 2)))
-    least = NUMBERS.slight * max(noise, *sizes.values())
+    least = numbers().slight * max(noise, *sizes.values())
     return "+".join(name for name, size in sizes.items() if name != NONE and size >= least) or NONE
 
 
@@ -259,7 +259,7 @@ def free(search: Search) -> float:
     fixed = search.frame.fixed_shared(shared.shape[1])
     errors = bench.measured - none.force
     found = []
-    for size in NUMBERS.change_sizes:
+    for size in numbers().change_sizes:
         columns = shared * search.acting[:, None] * np.where(fixed, 1.0, size)
         found.append(evidence(search.weighted, np.column_stack([errors, columns]), none.sizes).log_z)
     alone = evidence(search.weighted, errors[:, None], none.sizes).log_z
@@ -268,7 +268,7 @@ def free(search: Search) -> float:
 
 def priors(names: Sequence[str]) -> Callable[[str], float]:
     """Prior probability of a hypothesis; `names` are single mechanisms, all others two of them. Fills have their own."""
-    n = NUMBERS
+    n = numbers()
     singles = [name for name in names if name != TARED]
     rest = 1.0 - n.unchanged - n.other
     tared = n.tared if TARED in names else 0.0  # of what is else as it was

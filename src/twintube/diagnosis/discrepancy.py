@@ -10,7 +10,7 @@ import numpy as np
 
 from twintube.common.arrays import Array
 from twintube.diagnosis.memory import lagged
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 
 KNOTS = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2])  # [m/s] octaves of the speed
 FINE = np.array([0.035, 0.07, 0.14, 0.28, 0.57, 1.13])  # [m/s] between them
@@ -29,7 +29,7 @@ class Discrepancy:
         """Root (q, q) of the correlation of neighbouring knots."""
         octaves = np.log2(np.maximum(self.knots, KNOTS[1] / 2.0))
         apart = octaves[:, None] - octaves
-        correlation = np.exp(-0.5 * (apart / NUMBERS.law_octaves) ** 2) + 1e-9 * np.eye(len(octaves))
+        correlation = np.exp(-0.5 * (apart / numbers().law_octaves) ** 2) + 1e-9 * np.eye(len(octaves))
         return np.linalg.cholesky(correlation)
 
     def size(self, speed: Array, fluid: Array, turn: Array) -> Array:
@@ -53,23 +53,23 @@ class Discrepancy:
         rows = np.eye(len(inner))[np.isin(inner, FINE)]
         between = np.column_stack([np.interp(np.abs(speed), inner, row) for row in rows])
         z = stroke / self.span
-        along = [np.ones_like(z), *(NUMBERS.law_stroke * p for p in (z, 1.5 * z**2 - 0.5, 2.5 * z**3 - 1.5 * z))]
+        along = [np.ones_like(z), *(numbers().law_stroke * p for p in (z, 1.5 * z**2 - 0.5, 2.5 * z**3 - 1.5 * z))]
         size = self.size(speed, fluid, turn)
         passed, gone = (np.abs(np.diff(x, prepend=x[0])) for x in (time, stroke))
-        late = [lagged(fluid, np.exp(-passed / tau)) - fluid for tau in NUMBERS.law_lags]
-        late += [lagged(fluid, np.exp(-gone / way)) - fluid for way in NUMBERS.law_ways]
+        late = [lagged(fluid, np.exp(-passed / tau)) - fluid for tau in numbers().law_lags]
+        late += [lagged(fluid, np.exp(-gone / way)) - fluid for way in numbers().law_ways]
         parts: list[Array] = []
         for side in (speed >= 0.0, speed < 0.0):
             parts += [hats * (side * size * p)[:, None] for p in along]
-            parts += [between * (side * size * NUMBERS.law_knee)[:, None], (side * size * NUMBERS.law_whole)[:, None]]
-            parts += [(side * x / NUMBERS.law_late)[:, None] for x in late]
+            parts += [between * (side * size * numbers().law_knee)[:, None], (side * size * numbers().law_whole)[:, None]]
+            parts += [(side * x / numbers().law_late)[:, None] for x in late]
         return np.hstack(parts)
 
 
 def degraded(stroke: Array, speed: Array, loss: Array) -> Array:
     """Contributions (n, 6) [N] of size one to a loss of force (n,) [N]: it is larger or smaller, and comes gradually."""
     gone = np.abs(np.diff(stroke, prepend=stroke[0]))
-    several = [NUMBERS.loss * loss, *(lagged(loss, np.exp(-gone / way)) - loss for way in NUMBERS.law_ways)]
+    several = [numbers().loss * loss, *(lagged(loss, np.exp(-gone / way)) - loss for way in numbers().law_ways)]
     return np.column_stack([side * some for side in (speed >= 0.0, speed < 0.0) for some in several])
 
 
@@ -82,5 +82,5 @@ def discrepancy(speeds: Array, span: float, floor: float) -> Discrepancy:
 def late(stroke: Array, time: Array, change: Array) -> Array:
     """Contributions (n, k) [N] of size one to a force that changes by (n,) [N]: the change comes later."""
     gone, passed = (np.abs(np.diff(x, prepend=x[0])) for x in (stroke, time))
-    several = [np.exp(-gone / way) for way in NUMBERS.cause_ways] + [np.exp(-passed / lag) for lag in NUMBERS.cause_lags]
+    several = [np.exp(-gone / way) for way in numbers().cause_ways] + [np.exp(-passed / lag) for lag in numbers().cause_lags]
     return np.column_stack([lagged(change, kept) - change for kept in several])

@@ -13,7 +13,7 @@ from twintube.diagnosis.answer import StateAnswer
 from twintube.diagnosis.bench import GAS, LEVEL, Bench
 from twintube.diagnosis.found import Fill
 from twintube.diagnosis.mechanisms import OPEN, Strength
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.posterior import StatePosterior, log_prior_fill
 from twintube.diagnosis.records.seen import DELAY
 from twintube.diagnosis.shares import nearest
@@ -42,7 +42,7 @@ def as_filled(
         if label in other:
             values[f"{GAS}:{label}"] = gas
         if level < 1.0 or label in other:
-            scale = (wide or {}).get(label, NUMBERS.level_tolerance)
+            scale = (wide or {}).get(label, numbers().level_tolerance)
             levels.append(Strength(f"{LEVEL}:{label}", "normal", scale, level, LEAST_LEVEL, 1.0))
     delay = Strength(DELAY, "normal", bench.delayed, 0.0, -MOST_DELAY, MOST_DELAY)
     return Fill((*levels, delay, *OPEN), values, log_prior, name)
@@ -51,7 +51,7 @@ def as_filled(
 def spread(known: StatePosterior) -> float:
     """Standard deviation of a level that the records tell, no less than the tolerance of a fill."""
     low, high = known.interval()
-    return max(NUMBERS.level_tolerance, (high - low) / (2.0 * float(norm.ppf(0.95))))
+    return max(numbers().level_tolerance, (high - low) / (2.0 * float(norm.ppf(0.95))))
 
 
 def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill]:
@@ -59,7 +59,7 @@ def likely_fills(bench: Bench, several: Sequence[StateAnswer] = ()) -> list[Fill
 
     Nobody has measured that. Where the parameter set states it, it is as stated.
     """
-    n = NUMBERS
+    n = numbers()
     told = [one for one in several if one.stated.anything]
     doubtful = [one for one in told if one.posterior.as_stated < n.credible]
     wide = {one.state: spread(one.posterior) for one in several if not one.stated.anything}

@@ -20,7 +20,7 @@ from scipy.linalg import block_diag, cho_solve, cholesky, solve_triangular
 from twintube.common.arrays import Array
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.memory import innovations, lasting
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.sizes import LARGEST, USUAL, Sizes
 
 STILL = 17  # shared columns of friction, gas, degradation, zero and channels, before those of D
@@ -83,7 +83,7 @@ class Part:
         """Values (n, c) [N] without noise, and half the logarithm of its determinant."""
         some = np.ascontiguousarray(values)
         out = np.empty_like(some)
-        log_noise = innovations(some, self.sigma, NUMBERS.lasting_sizes[lasting_at] * self.lasts, self.kept, out)
+        log_noise = innovations(some, self.sigma, numbers().lasting_sizes[lasting_at] * self.lasts, self.kept, out)
         return out, float(log_noise)
 
     def white(self, lasting_at: int) -> White:
@@ -280,7 +280,7 @@ class Frame:
     def standardised(self, errors: Array, sizes: Sizes) -> Array:
         """Errors (n,) [N] without all that is expected of the contributions and of what lasts, over the noise."""
         left, out = self.left(errors, sizes), np.zeros(len(errors))
-        size = NUMBERS.lasting_sizes[sizes.lasting_at]
+        size = numbers().lasting_sizes[sizes.lasting_at]
         for part in self.parts:
             some = left[part.rows]
             if size > 0.0:

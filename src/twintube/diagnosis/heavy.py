@@ -1,4 +1,4 @@
-r"""Noise with heavy tails: Student's distribution of NUMBERS.freedom degrees of freedom (Lange, Little and Taylor 1989).
+r"""Noise with heavy tails: Student's distribution of numbers().freedom degrees of freedom (Lange, Little and Taylor 1989).
 
 Where a force steps by hundreds of newtons, a step that is misplaced by a tenth of a millimetre leaves tens of standard
 deviations in one interval. Under a Gaussian such a sample decides everything. Under Student's noise a sample that is r
@@ -16,7 +16,7 @@ import numpy as np
 
 from twintube.common.arrays import Array
 from twintube.diagnosis.frame import Frame
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.sizes import USUAL, Sizes
 
 SETTLED = 0.1  # of the logarithm of the evidence; numerics
@@ -34,13 +34,13 @@ class Heavy:
 
 def weights_of(standardised: Array) -> Array:
     """How much samples (n,) count that are so many standard deviations off."""
-    nu = NUMBERS.freedom
+    nu = numbers().freedom
     return np.asarray((nu + 1.0) / (nu + standardised**2))
 
 
 def tails(standardised: Array, weights: Array) -> float:
     """What Student's distribution has beyond the Gaussian with these weights, at samples (n,) so many deviations off."""
-    nu, r2 = NUMBERS.freedom, standardised**2
+    nu, r2 = numbers().freedom, standardised**2
     return float(np.sum(-0.5 * (nu + 1.0) * np.log1p(r2 / nu) + 0.5 * weights * r2 - 0.5 * np.log(weights)))
 
 

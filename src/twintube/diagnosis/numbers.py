@@ -4,6 +4,8 @@ None of them is a threshold. The verdict follows from the posterior; what stands
 """
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from typing import Any, TypeVar
 
@@ -17,7 +19,7 @@ def declared(value: T, unit: str, meaning: str, source: str, most: float = math.
 
 @dataclass(frozen=True)
 class Numbers:
-    """All numbers of the method; read `NUMBERS`."""
+    """All numbers of the method; those in force are `numbers()`."""
 
     # The model's own error D
     law_sizes: tuple[float, ...] = declared(
@@ -169,7 +171,25 @@ class Numbers:
     level_low: float = declared(0.2, "1", "least oil level sought", "below it no damper works", most=0.99)
 
 
-NUMBERS = Numbers()
+class InForce:
+    """The numbers that the diagnosis has now."""
+
+    now = Numbers()
+
+
+def numbers() -> Numbers:
+    """Those in force: the usual ones, or what `priors` has put in their place."""
+    return InForce.now
+
+
+@contextmanager
+def in_force(other: Numbers) -> Iterator[None]:
+    """Within it the diagnosis of the whole process has other numbers."""
+    before, InForce.now = InForce.now, other
+    try:
+        yield
+    finally:
+        InForce.now = before
 
 
 def listed() -> list[dict[str, Any]]:
@@ -177,8 +197,8 @@ def listed() -> list[dict[str, Any]]:
     return [
         {
             "name": item.name,
-            "value": getattr(NUMBERS, item.name),
+            "value": getattr(numbers(), item.name),
             **{k: item.metadata[k] for k in ("unit", "meaning", "source")},
         }
-        for item in fields(NUMBERS)
+        for item in fields(Numbers)
     ]

@@ -10,7 +10,7 @@ from scipy.special import expit, logsumexp
 from scipy.stats import norm
 
 from twintube.common.arrays import Array
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.shares import SHARES, Zeroed, nearest
 from twintube.diagnosis.shares import TARED as ON_TARED
 from twintube.diagnosis.sizes import Sizes
@@ -57,7 +57,7 @@ class StatePosterior:
     @property
     def as_stated(self) -> float:
         """Probability that what a file says is right."""
-        return float(expit(self.log_odds_stated + np.log(1.0 / NUMBERS.misstated - 1.0)))
+        return float(expit(self.log_odds_stated + np.log(1.0 / numbers().misstated - 1.0)))
 
     @property
     def rather_misstated(self) -> bool:
@@ -113,7 +113,7 @@ class StatePosterior:
 
 def covered(share: float, deviations: float = COVERED) -> NDArray[np.bool_]:
     """The shares (s,) that lie within the tolerance of the gas force about one."""
-    return np.asarray(np.abs(SHARES - share) <= deviations * NUMBERS.preload)
+    return np.asarray(np.abs(SHARES - share) <= deviations * numbers().preload)
 
 
 def shortest(values: Array, mass: Array, share: float) -> tuple[float, float]:
@@ -145,10 +145,10 @@ def posterior(found: Found, stated: Stated = NOTHING) -> StatePosterior:
     """Probabilities from the evidence of share and oil level, and from what a file says of them."""
     known = np.array(sorted({level for _, level in found}))
     evidence = np.array([at_level(found, level) for level in known])  # (k, 2, s)
-    fine = np.arange(NUMBERS.level_low, 1.0 + 1e-9, SHOWN)
+    fine = np.arange(numbers().level_low, 1.0 + 1e-9, SHOWN)
     log_likelihood = to_tolerance(known, evidence, fine)
     free, as_stated = (log_likelihood + log_prior(fine, some) for some in (NOTHING, stated))
-    said = 1.0 - NUMBERS.misstated if stated.anything else 0.0
+    said = 1.0 - numbers().misstated if stated.anything else 0.0
     both = logsumexp([free, as_stated], axis=0, b=[[[[1.0 - said]]], [[[said]]]])
     probability = np.exp(both - logsumexp(both))
     any_zero = np.logaddexp(evidence[:, 0], evidence[:, 1])
@@ -181,7 +181,7 @@ def to_tolerance(known: Array, evidence: Array, fine: Array) -> Array:
     What the force tells is the level to a tolerance: geometry and fill of a damper are no better known.
     """
     step = SHOWN / 2.0
-    wide = int(np.ceil(WIDEST * NUMBERS.level_tolerance / step))
+    wide = int(np.ceil(WIDEST * numbers().level_tolerance / step))
     read = fine[0] + step * np.arange(-wide, 2 * (len(fine) - 1) + wide + 1)
     # A level that was not looked at has the evidence of the line between its neighbours.
     place = np.interp(read, known, np.arange(len(known), dtype=float))
@@ -189,23 +189,23 @@ def to_tolerance(known: Array, evidence: Array, fine: Array) -> Array:
     after = np.minimum(i + 1, len(known) - 1)
     by = (place - i)[:, None, None]
     at = np.where((read < known[0])[:, None, None], evidence.min(), (1.0 - by) * evidence[i] + by * evidence[after])
-    tolerance = norm.logpdf(step * np.arange(-wide, wide + 1), 0.0, NUMBERS.level_tolerance) + np.log(step)
+    tolerance = norm.logpdf(step * np.arange(-wide, wide + 1), 0.0, numbers().level_tolerance) + np.log(step)
     return np.asarray(logsumexp(sliding_window_view(at, 2 * wide + 1, axis=0)[::2] + tolerance, axis=-1).transpose(1, 2, 0))
 
 
 def fitting(levels: Array, stated: Stated) -> Array:
     """Logarithm (l,) of the odds of levels against that which a file states."""
     apart = np.zeros(len(levels)) if stated.oil_level is None else levels - stated.oil_level
-    return np.asarray(-0.5 * (apart / NUMBERS.level_tolerance) ** 2)
+    return np.asarray(-0.5 * (apart / numbers().level_tolerance) ** 2)
 
 
 def log_prior(levels: Array, stated: Stated) -> Array:
     """Logarithm of the probability (s, l) of shares of the gas and oil levels (l,) where a file is right about them."""
     if stated.oil_level is None:
-        level = np.full(len(levels), np.log((1.0 - NUMBERS.full) / (len(levels) - 1)))
-        level[-1] = np.log(NUMBERS.full)
+        level = np.full(len(levels), np.log((1.0 - numbers().full) / (len(levels) - 1)))
+        level[-1] = np.log(numbers().full)
     else:
-        level = norm.logpdf(levels, stated.oil_level, NUMBERS.level_tolerance)
+        level = norm.logpdf(levels, stated.oil_level, numbers().level_tolerance)
         level -= logsumexp(level)
     return np.asarray(log_prior_gas(stated)[:, None] + level)
 
@@ -214,8 +214,8 @@ def log_prior_gas(stated: Stated) -> Array:
     """Logarithm of the probability (s,) of shares of the gas: lost and nominal as likely, the rest even between."""
     if stated.gas_preload is not None:
         return np.where(np.arange(len(SHARES)) == nearest(stated.gas_preload), 0.0, -np.inf)
-    out = np.full(len(SHARES), np.log(NUMBERS.leaking / (len(SHARES) - 2)))
-    out[[0, -1]] = np.log(0.5 * (1.0 - NUMBERS.leaking))
+    out = np.full(len(SHARES), np.log(numbers().leaking / (len(SHARES) - 2)))
+    out[[0, -1]] = np.log(0.5 * (1.0 - numbers().leaking))
     return out
 
 
@@ -223,5 +223,5 @@ def log_prior_fill(stated: Stated = NOTHING) -> Array:
     """Logarithm (s,) of the probability that a damper has a share of its gas, to the tolerance of the gas force."""
     if stated.gas_preload is not None:
         return log_prior_gas(stated)
-    out = log_prior_gas(stated) + np.log(np.sqrt(2.0 * np.pi) * NUMBERS.preload / (SHARES[1] - SHARES[0]))
+    out = log_prior_gas(stated) + np.log(np.sqrt(2.0 * np.pi) * numbers().preload / (SHARES[1] - SHARES[0]))
     return np.where((SHARES > 0.0) & (SHARES < 1.0), out, log_prior_gas(stated))

@@ -22,7 +22,7 @@ from twintube.common.arrays import Array
 from twintube.diagnosis.found import Found
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.heavy import standardised
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.search import Search
 
 
@@ -43,7 +43,7 @@ def unlike(search: Search, found: Found) -> Iterator[Unlike]:
         inside = span.start + np.flatnonzero(frame.used[span])
         if not len(inside):
             continue
-        if chance(off[inside]) * len(bench.records) < NUMBERS.implausible:
+        if chance(off[inside]) * len(bench.records) < numbers().implausible:
             yield Unlike(record.name, "whole", ())
             continue
         times: dict[Literal["spike", "step"], list[float]] = {"spike": [], "step": []}
@@ -58,7 +58,7 @@ def unlike(search: Search, found: Found) -> Iterator[Unlike]:
 
 def seldom(off: Array, frame: Frame) -> NDArray[np.bool_]:
     """Whether samples (n,) so many standard deviations off are in no right answer."""
-    return np.asarray(2.0 * t.sf(np.abs(off), NUMBERS.freedom) * frame.used.sum() < NUMBERS.implausible)
+    return np.asarray(2.0 * t.sf(np.abs(off), numbers().freedom) * frame.used.sum() < numbers().implausible)
 
 
 def outside(force: Array, run: NDArray[np.int64]) -> Array:
@@ -71,7 +71,7 @@ def outside(force: Array, run: NDArray[np.int64]) -> Array:
 
 def chance(off: Array) -> float:
     """The chance that samples (n,) of the noise are as many standard deviations off, or more."""
-    nu = NUMBERS.freedom
+    nu = numbers().freedom
     mean = digamma((nu + 1.0) / 2.0) - digamma(nu / 2.0)
     variance = polygamma(1, nu / 2.0) - polygamma(1, (nu + 1.0) / 2.0)
     return float(norm.sf((np.log1p(off**2 / nu) - mean).sum() / np.sqrt(len(off) * variance)))

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import fields
+from dataclasses import fields, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -12,10 +12,10 @@ from twintube.common.reading import ReadError, read_toml
 from twintube.common.words import shown
 from twintube.dampers.damper import suggestion
 from twintube.dampers.toml import line_of
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import Numbers, in_force, numbers
 from twintube.errors import InputError
 
-KNOWN = {item.name: item for item in fields(NUMBERS)}
+KNOWN = {item.name: item for item in fields(Numbers)}
 
 
 @contextmanager
@@ -26,12 +26,8 @@ def priors(values: Mapping[str, Any] | str | Path) -> Iterator[None]:
     names the line of the file, where a name is unknown or a value out of its range.
     """
     other = checked(values, "") if isinstance(values, Mapping) else of_file(Path(values))
-    before = {name: getattr(NUMBERS, name) for name in other}
-    setting(other)
-    try:
+    with in_force(replace(numbers(), **other)):
         yield
-    finally:
-        setting(before)
 
 
 def of_file(path: Path) -> dict[str, Any]:
@@ -50,7 +46,7 @@ def checked(values: Mapping[str, Any], where: str, text: str = "") -> dict[str, 
         place = f"{where}{line_of(text, '', name)}"
         if name not in KNOWN:
             raise InputError(f"{place}unknown {name}{suggestion(name, KNOWN)}")
-        usual, most = getattr(NUMBERS, name), KNOWN[name].metadata["most"]
+        usual, most = getattr(numbers(), name), KNOWN[name].metadata["most"]
         several = value if isinstance(value, (list, tuple)) else [value]
         right = all(isinstance(x, (int, float)) and not isinstance(x, bool) and math.isfinite(x) for x in several)
         if not isinstance(usual, tuple):
@@ -62,7 +58,7 @@ def checked(values: Mapping[str, Any], where: str, text: str = "") -> dict[str, 
         if not rises or len(several) != len(usual):
             raise InputError(f"{place}{name} = {shown(value)}: must be {len(usual)} numbers of 0 or more that rise")
         out[name] = tuple(float(x) for x in several)
-    some = {name: out.get(name, getattr(NUMBERS, name)) for name in ("unchanged", "other")}
+    some = {name: out.get(name, getattr(numbers(), name)) for name in ("unchanged", "other")}
     if sum(some.values()) >= 1.0:
         raise InputError(f"{where}unchanged + other = {sum(some.values()):g}: must be below 1, the causes have the rest")
     return out
@@ -71,9 +67,3 @@ def checked(values: Mapping[str, Any], where: str, text: str = "") -> dict[str, 
 def upto(most: float) -> str:
     """The end of a range in words."""
     return "" if math.isinf(most) else f" up to {most:g}"
-
-
-def setting(values: Mapping[str, Any]) -> None:
-    """Let NUMBERS have some values; it is frozen: nothing else changes them."""
-    for name, value in values.items():
-        object.__setattr__(NUMBERS, name, value)

@@ -21,7 +21,7 @@ from twintube.diagnosis.heldout import asked, changed, held_out, predicted, weig
 from twintube.diagnosis.measurement.edges import with_edges
 from twintube.diagnosis.measurement.faults import Fault, read
 from twintube.diagnosis.mechanisms import check
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.posterior import Stated
 from twintube.diagnosis.predictive import unlike
 from twintube.diagnosis.problem import Problem
@@ -191,7 +191,7 @@ def lacking(dataset: LoadedDataset, measured: Measured, progress: Progress, cata
     several = [alone(measured, records, own, progress) for own in fillings(records)]
     doubted = bench.states.copy()
     for one in several:
-        if one.posterior.as_stated < NUMBERS.credible:
+        if one.posterior.as_stated < numbers().credible:
             doubted[bench.labels[one.state], :2] = one.posterior.free[::-1]
     # Where the steps of the force lie in another fill is open, too.
     bench.with_edges([np.maximum(r.edges, other) for r, other in zip(bench.records, edges(bench, doubted), strict=True)])

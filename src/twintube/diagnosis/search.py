@@ -15,7 +15,7 @@ from twintube.diagnosis.found import NOTHING, Fill, Found, Trial
 from twintube.diagnosis.frame import Frame
 from twintube.diagnosis.heavy import beyond, evidence, reweighted
 from twintube.diagnosis.mechanisms import Mechanism
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.sizes import USUAL, Sizes
 
 # Numerics.
@@ -272,4 +272,4 @@ def off_its_law(bench: Bench, change: Array) -> Array:
     z, t = bench.z / bench.law.span, bench.elapsed / max(1e-9, float(bench.elapsed.max()))
     sides = [hats @ bench.law.mixing * (side * change)[:, None] for side in (bench.v >= 0.0, bench.v < 0.0)]
     along = np.column_stack([change * z, change * t, change * (1.5 * z**2 - 0.5)])
-    return np.asarray(NUMBERS.law_of_cause * np.hstack([*sides, along]))
+    return np.asarray(numbers().law_of_cause * np.hstack([*sides, along]))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from twintube.common.arrays import Array
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.frame import Frame
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.sizes import Sizes
 
 SHARES = np.linspace(0.0, 1.0, 51)  # of the nominal gas pressure; numerics
@@ -35,7 +35,7 @@ class Zeroed:
 
 def log_share(tared: bool) -> float:
     """Logarithm of the probability that the load cell was set to zero with the damper in it, or was not."""
-    return float(np.log(NUMBERS.tared if tared else 1.0 - NUMBERS.tared))
+    return float(np.log(numbers().tared if tared else 1.0 - numbers().tared))
 
 
 def nearest(share: float) -> int:

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 from scipy.stats import halfnorm, norm
 
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 
 
 @dataclass(frozen=True)
@@ -20,22 +20,22 @@ class Sizes:
     @property
     def law(self) -> float:
         """Of D, which all records share."""
-        return NUMBERS.law_sizes[self.law_at]
+        return numbers().law_sizes[self.law_at]
 
     @property
     def own(self) -> float:
         """Of what a record has for itself."""
-        return NUMBERS.own_sizes[self.own_at]
+        return numbers().own_sizes[self.own_at]
 
     @property
     def lasting(self) -> float:
         """Of what lasts for a part of an oscillation and does not come again."""
-        return NUMBERS.lasting_sizes[self.lasting_at]
+        return numbers().lasting_sizes[self.lasting_at]
 
     @property
     def log_prior(self) -> float:
         """Logarithm of its prior probability."""
-        n = NUMBERS
+        n = numbers()
         return float(
             log_weights(n.law_sizes, n.law_usual)[self.law_at]
             + log_weights(n.own_sizes, n.own_usual)[self.own_at]
@@ -65,4 +65,4 @@ def chance_of_more(grid: tuple[float, ...], at: int, scale: float) -> float:
 
 
 USUAL = Sizes(2, 2, 3)
-LARGEST = Sizes(len(NUMBERS.law_sizes) - 1, len(NUMBERS.own_sizes) - 1, len(NUMBERS.lasting_sizes) - 1)
+LARGEST = Sizes(len(numbers().law_sizes) - 1, len(numbers().own_sizes) - 1, len(numbers().lasting_sizes) - 1)

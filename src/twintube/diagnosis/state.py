@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from twintube.common.arrays import Array
 from twintube.diagnosis.bench import Bench
 from twintube.diagnosis.frame import Frame
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.posterior import NOTHING, Stated, StatePosterior, at_level, log_prior_fill, posterior
 from twintube.diagnosis.shares import SHARES, Asked, Zeroed, log_share, nearest, ways
 from twintube.diagnosis.sizes import LARGEST, Sizes
@@ -146,7 +146,7 @@ def state(
 
     def sketches() -> dict[Key, Array]:
         """Evidence over the whole grid of oil levels, of more shares than the ends where these differ."""
-        levels = np.arange(1.0, NUMBERS.level_low - 1e-9, -COARSE)
+        levels = np.arange(1.0, numbers().level_low - 1e-9, -COARSE)
         wanted = [(gas, round(float(x), 5)) for gas in (1.0, 0.0) for x in levels]
         rough: dict[Key, Array] = {}
         while wanted:
@@ -166,7 +166,7 @@ def state(
 
     # What a wrong state leaves seldom repeats from oscillation to oscillation: its errors hold more than noise.
     repeats = np.min(list(bench.threads.map(noise, likely)), axis=0)
-    bench.noisy(np.hypot(repeats, NUMBERS.degraded * bench.peak))
+    bench.noisy(np.hypot(repeats, numbers().degraded * bench.peak))
     progress("comparing oil levels and shares of the gas")
     coarsely = looked_at(sketches(), stated)
     close = sorted({(gas, round(min(1.0, x + by), 5)) for gas, x in coarsely for by in WITHIN})

@@ -3,11 +3,11 @@
 from functools import lru_cache
 from typing import Final
 
+from twintube.core.checks import KELVIN
 from twintube.core.kernel.temperature import thickness
 from twintube.core.variables import Parameters
 from twintube.dampers import load
 
-KELVIN: Final = 273.15  # [K] at 0 degC
 WARMER: Final = 12.0  # [K] of the oil over the air, assumed: between a cold start and an hour on a rough road
 
 

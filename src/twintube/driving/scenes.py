@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from twintube.core.checks import outside
+from twintube.core.checks import KELVIN, outside
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, condition
 from twintube.dampers.temperature import at_temperature
@@ -15,7 +15,6 @@ from twintube.driving.drives import ROOM, Bushings, Scene
 from twintube.driving.sensors import Encoder
 from twintube.driving.sheet import IN_A_FILE
 from twintube.errors import InputError
-from twintube.inspection.scatter import KELVIN
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.full.car import Wheel
 from twintube.vehicle.full.maneuvers import Road

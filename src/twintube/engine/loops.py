@@ -31,7 +31,7 @@ class Records(NamedTuple):
     t: Vector  # (n,) [s]
     z: Vector  # (n,) [m]
     v: Vector  # (n,) [m/s]
-    warm: Vector  # (n,) [K] how much warmer the damper is than at the temperature of its parameters, 0 where unknown
+    temperature: Vector  # (n,) [K] of the damper, or around one that keeps its heat
     samples: Counts  # (n,) measured samples of the interval that ends here, 0 where unknown
     parts: int  # steps of an interval
 
@@ -135,8 +135,8 @@ def record_means(p: Parameters, d: Derived, s: State, f: Flow, records: Records,
     f.k_mean = 1.0
     last = total_force(s)
     for i in range(first, records.starts[r + 1]):
-        s.warm = records.warm[i]
         before = max(first, i - 1)
+        s.temperature = records.temperature[before]
         # By the samples alone, so that all models see the same of them.
         gaps = samples[i] if samples[i] <= 2 * records.parts else 0
         done, force, point, last = interval_means(

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from twintube.core.checks import tube_limit
+from twintube.core.checks import KELVIN, tube_limit
 from twintube.core.effects import EFFECTS, Parameters
 from twintube.core.variables import fmi_name
 from twintube.dampers import Damper, load, names
@@ -25,7 +25,6 @@ from twintube.vehicle.drive import CONDITIONING_STEP
 
 ROAD_LENGTH = 300.0  # [m]; the drive ends where it ends
 ROAD_SEED = 1
-KELVIN = 273.15  # [K] at 0 degC
 RAMPS = (0.001, 0.01, 0.05, 0.1, 0.25, 0.5, 1.0)  # [m/s]
 # Of effects beyond the paper for a first look: a parameter file of one's own says better.
 STRENGTHS: Mapping[str, Mapping[str, float]] = tomllib.loads(

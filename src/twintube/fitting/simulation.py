@@ -67,8 +67,8 @@ class SimulatedRecords:
         )
         self.t, self.z, self.v = (np.concatenate([getattr(r, n) for r in records]) for n in ("time", "stroke", "velocity"))
         self.samples = np.concatenate([getattr(r, "samples", np.zeros(len(r.time), dtype=np.int64)) for r in records])
-        # How much warmer than the parameter set [K], of records that know it; 0 elsewhere.
-        self.warm = np.concatenate([getattr(r, "warm", np.zeros(len(r.time))) for r in records])
+        usual = damper.parameters.T_curve
+        self.temperature = np.concatenate([getattr(r, "kelvins", np.full(len(r.time), usual)) for r in records])
         self.workers = os.cpu_count() or 1
         self.threads = ThreadPoolExecutor(self.workers)
         # Records that run side by side are shared out by their samples.
@@ -116,7 +116,7 @@ class SimulatedRecords:
             """Drive the records from `first` to before `last`; returns how many it could."""
             a, b = self.starts[first], self.starts[last]
             records = Records(
-                given[first:last], self.starts[first : last + 1] - a, t[a:b], z[a:b], v[a:b], self.warm[a:b],
+                given[first:last], self.starts[first : last + 1] - a, t[a:b], z[a:b], v[a:b], self.temperature[a:b],
                 self.samples[a:b], self.parts,
             )  # fmt: skip
             own = [row.copy() for row in rows] if side_by_side else rows

@@ -22,6 +22,7 @@ from twintube.fitting.strokes import quiet
 from twintube.identification.optimise import DEFAULT
 from twintube.identification.pressure import at_one_pressure
 from twintube.identification.remarks import EQUAL_SPEEDS, SINGLE, continuation, noisy, reach, signs
+from twintube.identification.temperature import at_their_temperature
 from twintube.identification.validation import Validated, intact, validate_drives, validate_harmonic
 from twintube.identification.workflow import PAPER, Budget, Identification, identify_damper
 
@@ -134,7 +135,10 @@ def identify_dataset(
         [h for h in fitted if h.intact], [r for r in slow if intact(r) and r.split != "heldout"]
     )
     remarks += told
-    dataset = replace(dataset, damper=replace(dataset.damper, gas_pressure=pressure)) if whole else dataset
+    if whole:
+        fitted_names = {h.name for h in whole} | {r.name for r in still}
+        base, said = at_their_temperature(dataset.damper, (r for r in dataset.records if r.name in fitted_names))
+        dataset, remarks = replace(dataset, damper=replace(base, gas_pressure=pressure)), remarks + said
     result = identify_damper(
         dataset.damper,
         next(map(loop, still), None),

@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from twintube.core.checks import KELVIN
 from twintube.dampers import Damper
 from twintube.dampers.temperature import at_temperature
 from twintube.inspection import tiring
@@ -18,7 +19,6 @@ from twintube.vehicle.cars import CarSet
 from twintube.vehicle.quarter_car import Car
 
 FADE: Final = 0.003  # [1/K] of the fluid force by the heat of a run (assumed)
-KELVIN: Final = 273.15  # [K] at 0 degC
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,8 @@ the F-v curve. Heat capacity and viscosity index act only through their ratio `f
 of a passage is laminar by 1 / (1 + turbulence |v|), turbulence being b / (a mu); the rest goes with the density, of which
 `thin_density` is what viscosity loses, in logarithms.
 
-Where the temperature is measured, `s.warm` [K], set from outside, is what it is beyond the usual one at the beginning of
-a record, of which H_start says how far it is from that of the F-v curve: H_start / CAPACITY. Both act by fade_kelvin and
-friction_kelvin in the same exponential way. The gas is enclosed: force and stiffness of the preload rise by
-gas_kelvin per kelvin, which is 1 / 296 K of the absolute pressure and more of the pressure above ambient. Where nothing is
+Where the temperature is measured it is the input, and the law of the damper makes the forces of it (kernel/temperature.py).
+What a damper does beyond that law are fade_kelvin and friction_kelvin, in the same exponential way. Where nothing is
 measured gas_heat makes the gas follow the retained heat.
 
 With `warm_heat` [K/J] the heat store has a temperature: that from outside plus warm_heat H. Fluid force, friction and gas
@@ -31,7 +29,6 @@ ABSENCE = "The measured fluid force falls below the model's while the damper get
 DECIDES = "the tube's temperature, or a rest of ten minutes within a record: heat goes, lost oil does not come back"
 NEEDS_TIME = True
 ORDER = 120
-CAPACITY = 700.0  # [J/K] that H_start counts by where the temperature is measured
 THICKEST = 2.0  # logarithm of the force of cold oil over that of the F-v curve, at most
 
 
@@ -47,13 +44,12 @@ class Parameters(variables.Parameters):
     H_start: float = var("oil_temperature", "", "J", "heat at the start beyond the F-v curve's",
                          lower=-2e4, upper=6e4, source="700 J/K", default=0.0,
                          role="start")  # fmt: skip
-    fade_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of fluid force per kelvin measured", lower=0,
-                             upper=0.08, source="Reynolds 1886 (viscosity)", default=0.0, role="strength")  # fmt: skip
-    friction_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of friction per kelvin measured", lower=0,
-                                 upper=0.03, source="seals soften, the film thins", default=0.0,
+    fade_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of fluid force per kelvin, beyond the law",
+                             lower=-0.02, upper=0.08, source="Reynolds 1886 (viscosity)", default=0.0,
+                             role="strength")  # fmt: skip
+    friction_kelvin: float = var("oil_temperature", "", "1/K", "relative loss of friction per kelvin, beyond the law",
+                                 lower=-0.02, upper=0.03, source="seals soften, the film thins", default=0.0,
                                  role="strength")  # fmt: skip
-    gas_kelvin: float = var("oil_temperature", "", "1/K", "relative rise of the preload per kelvin measured", lower=0,
-                            upper=0.01, source="ideal gas, enclosed: 1/296 K", default=0.00338, role="scale")  # fmt: skip
     turbulence: float = var("oil_temperature", "", "s/m", "turbulent over laminar pressure drop per velocity",
                             lower=0, upper=20, source="Hagen-Poiseuille, Bernoulli",
                             default=0.0, role="law")  # fmt: skip
@@ -86,7 +82,7 @@ def oil_temperature_warming(p: Parameters, s: State) -> float:
 
 def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
     """Share of the fluid force that is left [1]."""
-    kelvin = s.warm + p.H_start / CAPACITY
+    kelvin = s.T - p.T_curve
     thin = math.exp(min(THICKEST, -p.fade_heat * (p.H_start + s.heat) - p.fade_kelvin * kelvin))
     laminar = 1.0 / (1.0 + p.turbulence * abs(v))
     return laminar * thin + (1.0 - laminar) * math.pow(thin, p.thin_density)
@@ -94,12 +90,12 @@ def oil_temperature_scale_fluid(p: Parameters, s: State, v: float) -> float:
 
 def oil_temperature_scale_friction(p: Parameters, s: State, z: float, v: float) -> float:
     """Share of the friction that is left [1]."""
-    return math.exp(-p.friction_kelvin * (s.warm + p.H_start / CAPACITY))
+    return math.exp(-p.friction_kelvin * (s.T - p.T_curve))
 
 
 def oil_temperature_elastic(p: Parameters, s: State, z: float) -> float:
     """Force [N] by which that of the preload changes at the stroke `z` [m]."""
-    hotter = p.gas_kelvin * s.warm + p.gas_heat * (p.H_start + s.heat)
+    hotter = p.gas_heat * (p.H_start + s.heat)
     return p.gas_preload * hotter * (gas_rise(p, p.F_0, p.c_gas, z) - p.F_0)
 
 

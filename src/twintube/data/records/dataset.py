@@ -2,12 +2,15 @@
 
 import hashlib
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from twintube.common.reading import ReadError, read_toml
 from twintube.common.words import listed, printable
+from twintube.core.checks import KELVIN
 from twintube.dampers import Damper, ParameterError, load, names
 from twintube.data.check.quality import no_preconditioning
 from twintube.data.check.reference import check_references
@@ -135,6 +138,7 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None, 
     check_preconditioning(records, notes)
     if damper is not None:
         check_signs(entries, records, damper, notes)
+        findings += list(beyond_law(records, damper))
     return Dataset(manifest.title, damper, records, notes.findings + findings)
 
 
@@ -167,6 +171,19 @@ def check_preconditioning(records: Sequence[Record], notes: Notes) -> None:
             f"no preconditioning in {listed(files, 5)}: they begin at the speed of their blocks; {PRECONDITIONING} "
             f"oscillations at {V_PRECONDITIONING:g} m/s before would bring a damper without its oil to a known state"
         )
+
+
+def beyond_law(records: Sequence[Record], damper: Damper) -> Iterator[Finding]:
+    """A warning for each record that is colder or hotter than the law of the damper's temperature reaches."""
+    ends = [kelvins - KELVIN for kelvins in (damper.parameters.T_cold, damper.parameters.T_hot)]
+    for record in records:
+        along = record.start_temperature if record.temperature is None else record.temperature
+        if along is not None and (np.min(along) < ends[0] or np.max(along) > ends[1]):
+            message = (
+                f"temperature from {np.min(along):.3g} to {np.max(along):.3g} degC: the law of {damper.name} holds from "
+                f"{ends[0]:.3g} to {ends[1]:.3g} degC, beyond it fluid force and friction stay as at its end"
+            )
+            yield Finding("warning", record.file, "temperature", None, message)
 
 
 def missing_manifest(path: Path) -> str:

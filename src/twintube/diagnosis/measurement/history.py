@@ -133,7 +133,8 @@ def conditioned(record: PreparedRecord, count: int, over: tuple[float, float] | 
     time, stroke, velocity = joined([slow, back], [dt]) if moves else slow
     n = len(time)
     time = time - time[-1] + record.time[0] - RULES.history_rest
-    empty = {"noise": record.peak, "edges": 0.0, "warm": 0.0, "force": 0.0, "samples": 0, "judged": False, "cycle": -1}
+    empty = {"noise": record.peak, "edges": 0.0, "kelvins": record.kelvins[0], "force": 0.0, "samples": 0, "judged": False,
+             "cycle": -1}  # fmt: skip
     arrays: dict[str, Any] = {name: np.concatenate([np.full(n, value, getattr(record, name).dtype), getattr(record, name)])
               for name, value in empty.items()}  # fmt: skip
     moved: dict[str, Any] = {

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
-from twintube.core.checks import tube_limit
+from twintube.core.checks import KELVIN, tube_limit
 from twintube.data import LoadedDataset, Record
 from twintube.data.check.defects import resolution
 from twintube.diagnosis.records.noise import noise
@@ -23,7 +23,7 @@ from twintube.fitting.strokes import quiet
 def prepare(dataset: LoadedDataset) -> list[PreparedRecord]:
     """All records of a dataset; raises InputError where a stroke leaves the tube."""
     begins = [x for x in (beginning_temperature(record) for record in dataset.records) if x is not None]
-    usual = float(np.median(begins)) if begins else 0.0
+    usual = float(np.median(begins)) if begins else dataset.damper.parameters.T_curve - KELVIN
     ready = [prepared(record, tube_limit(dataset.damper.parameters), usual) for record in dataset.records]
     before = np.cumsum([0.0, *(np.ptp(record.time) for record in ready[:-1])])
     return [replace(record, before=float(past)) for record, past in zip(ready, before, strict=True)]
@@ -34,8 +34,8 @@ def beginning_temperature(record: Record) -> float | None:
     return float(record.temperature[0]) if record.temperature is not None else record.start_temperature
 
 
-def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord:
-    """A record prepared; `usual` [degC] is where the records begin, the temperature of the parameter set.
+def prepared(record: Record, limit: float, usual: float) -> PreparedRecord:
+    """A record prepared; `usual` [degC] is its temperature where it says none.
 
     Raises InputError where its stroke exceeds `limit` [m].
     """
@@ -50,6 +50,8 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
     # What nobody knows is sought; full until then.
     oil_level = 1.0 if record.oil_level is None else record.oil_level
     gas_preload = 1.0 if record.gas_preload is None else float(record.gas_preload)
+    begin = beginning_temperature(record)
+    along = record.temperature[at] if record.temperature is not None else np.full(len(at), usual if begin is None else begin)
     ready = PreparedRecord(
         name=record.name, measurement=record.measurement, oil_level=oil_level, gas_preload=gas_preload,
         top_speed=top_speed, path=path, stroke_noise=noise_of_stroke(record.stroke)[0],
@@ -58,12 +60,10 @@ def prepared(record: Record, limit: float, usual: float = 0.0) -> PreparedRecord
         peak=peak, resolution=levels[0] if levels else 0.0, period=float(np.median(np.diff(record.time))),
         samples=np.zeros(len(at), dtype=np.int64),
         judged=comparable(record, at, stretch), edges=np.zeros(len(at)),
-        warm=np.zeros(len(at)), gas_pressure=record.gas_pressure if gas_preload else None,
+        kelvins=KELVIN + along, gas_pressure=record.gas_pressure if gas_preload else None,
     )  # fmt: skip
     held = np.maximum(1, np.diff(at, prepend=at[0] - 1))  # measured samples per interval
-    begin = beginning_temperature(record)
-    along = record.temperature[at] if record.temperature is not None else np.full(len(at), usual if begin is None else begin)
-    ready = replace(ready, samples=held, warm=along - usual)
+    ready = replace(ready, samples=held)
     return replace(ready, noise=noise(ready, ready.force))
 
 

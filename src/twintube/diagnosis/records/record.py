@@ -33,7 +33,7 @@ class PreparedRecord:
     samples: NDArray[np.int64]  # measured samples of each interval, 0 where it was not recorded
     judged: NDArray[np.bool_]  # intervals that are compared
     edges: Array  # (n,) standard deviation [N] from what the model's own steps leave open
-    warm: Array  # (n,) [K] warmer than records usually begin, 0 where no temperature is known
+    kelvins: Array  # (n,) temperature [K]: measured, else the usual one of the other records, else T_curve
     gas_pressure: float | None  # gauge [Pa], where known
     colour: float = 0.0  # correlation of the noise of neighbouring samples of the force
     averaged: float = 0.0  # [s] of the moving mean that the force channel went through

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from twintube.common.words import listed
 from twintube.diagnosis import StateAnswer
 from twintube.diagnosis.channels import TARED as TARED_CELL
-from twintube.diagnosis.numbers import NUMBERS
+from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.posterior import LOST, PARTLY, TARED, THERE, StatePosterior
 from twintube.report.common import style
 from twintube.report.common.html_page import Headline, Picture, Section, Table
@@ -121,7 +121,7 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
         low, high = p.interval()
         end = high if high < 1.0 else 1.0 + 2 * BAR  # beyond it stands the bar of a damper that has lost nothing
         ax.axvspan(100 * low, 100 * end, color=style.FAINT, alpha=0.35, lw=0, label="90 % interval")
-        edges = np.arange(NUMBERS.level_low, 1.0 - 1e-9, BAR)
+        edges = np.arange(numbers().level_low, 1.0 - 1e-9, BAR)
         bars = [np.histogram(p.levels[:-1], [*edges, 1.0 + 1e-9], weights=row[:-1])[0] for row in p.by_gas]
         middles = np.concatenate([100 * (edges + BAR / 2), [100 * (1.0 + BAR)]])  # the last: nothing lost
         bottom = np.zeros(len(middles))
@@ -129,7 +129,7 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
             height = 100 * np.concatenate([bars[row], p.by_gas[row, -1:]])
             ax.bar(middles, height, 90 * BAR, bottom, color=colour, label=label)
             bottom += height
-        ax.set_xlim(100 * NUMBERS.level_low, 100 * (1.0 + 2 * BAR))
+        ax.set_xlim(100 * numbers().level_low, 100 * (1.0 + 2 * BAR))
         ax.set_xticks([20, 40, 60, 80, 100 * (1.0 + BAR)], ["20", "40", "60", "80", "full"])
         ax.set_ylim(0, 1.05 * float(bottom.max()))
         ax.set_ylabel("probability [%]")
