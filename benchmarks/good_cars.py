@@ -66,7 +66,7 @@ def counts(model: Model, file: Path) -> list[dict[str, Any]]:
         for drive, length, difference in examples(model, drives, REFERENCE, place):
             for sensors in model.tables[REFERENCE]:
                 table = model.table(REFERENCE, sensors, place)
-                if all(name in difference for name in table.weights):
+                if all(name in difference.values for name in table.weights):
                     beyond = table.probability(difference) > table.limit
                     key = (length, sensors, AXLES[place])
                     seen[key] += beyond

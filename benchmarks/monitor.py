@@ -51,13 +51,18 @@ def main(
     model_file: Annotated[
         Path | None, typer.Option("--model", metavar="FILE", help=f"Write the tables, as {FILE} of the package.")
     ] = None,
+    others: Annotated[
+        list[Path] | None,
+        typer.Option("--others", metavar="FILE", help="Cars of another kind, for which the limits without references hold."),
+    ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all figures to this file.")] = None,
 ) -> None:
     """Make the monitor's tables from the cars of the training, and judge the drives of the others."""
     loaded = [drive for path in drives for drive in load(path)]
     training = [drive for drive in loaded if drive.group == "train"]
     test = [drive for drive in loaded if drive.group != "train"]
-    model = from_json(to_json(train(training, trained(training))))
+    strange = [drive for path in others or [] for drive in load(path)]
+    model = from_json(to_json(train(training, trained(training), strange)))
     if model_file is not None:
         model_file.write_text(to_json(model), encoding="utf-8")
     if not test:

@@ -75,7 +75,7 @@ def baseline_limits(model: Model, training: Sequence[Drive]) -> dict[tuple[str, 
         for axle in ("front", "rear"):
             places = [place for place in PLACES if AXLES[place] == axle]
             falls = [
-                -difference["speed_damping"]
+                -difference.values["speed_damping"]
                 for place in places
                 for drive, _, difference in examples(model, training, way, place)
                 if drive.good(place)
@@ -90,12 +90,12 @@ def judged(model: Model, drives: Sequence[Drive], limits: dict[tuple[str, str], 
     for way in (REFERENCE, FLEET):
         for place in PLACES:
             for drive, length, difference in examples(model, drives, way, place):
-                fall = -difference["speed_damping"]
+                fall = -difference.values["speed_damping"]
                 limit = limits[way, AXLES[place]]
                 found.append(Judged(drive, place, length, way, "bus", BASELINE, fall, limit))
                 for sensors in model.tables[way]:
                     table = model.table(way, sensors, place)
-                    if all(name in difference for name in table.weights):
+                    if all(name in difference.values for name in table.weights):
                         unlike = model.distance(way, sensors, place, difference) > table.far
                         score = table.probability(difference)
                         found.append(Judged(drive, place, length, way, sensors, MONITOR, score, table.limit, unlike))

@@ -1,9 +1,9 @@
 """From features to the probability that a damper is worn: a table of weights, each of a feature with a meaning.
 
-What counts is by how much a feature differs from what is usual: for the car in its good state, where a reference is given,
-else for the fleet of the training. What is usual moves with speed and road, by slopes that all cars share. The sum of
-weight times difference over scale is the logarithm of the odds against a good damper, a worn one taken as likely as a good
-one before the drive.
+What counts is by how much a feature differs from what is usual: for the car in its good state, where references are given,
+else for the fleet of the training (`usual.py`). The sum of weight times difference over scale is the logarithm of the odds
+against a good damper, a worn one taken as likely as a good one before the drive. It counts the less the less is known of
+what is usual.
 
 That says which of two kinds a damper is likelier of, and nothing of whether it is of either. So there is a distance, too: of
 all features, and of speed and road, to what good dampers show plus any amount of what wear adds, at this wheel, at the other
@@ -23,6 +23,7 @@ from scipy import linalg, optimize
 
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, OF_A_WHEEL, mean_of, of_the_damper
+from twintube.driving.usual import Usual
 
 FILE: Final = "monitor.json"
 MOST: Final = 4.0  # scales that a feature counts at most: no good damper is further off, and no damper is surer worn
@@ -61,6 +62,14 @@ def clipped(value: float) -> float:
 
 
 @dataclass(frozen=True)
+class Difference:
+    """By how much a drive differs from what is usual, by feature and DRIVEN, and the variance of that by feature."""
+
+    values: Mapping[str, float]
+    variance: Mapping[str, float]
+
+
+@dataclass(frozen=True)
 class Table:
     """The weights of an axle: log odds = intercept + sum of weight * difference / scale, each within +-MOST.
 
@@ -75,22 +84,26 @@ class Table:
     fine: float = LIKELIER
     far: float = math.inf
 
-    def parts(self, difference: Mapping[str, float]) -> dict[str, float]:
+    def sure(self, difference: Difference) -> float:
+        """How well what is usual is known, over how well it was in the training: variances of the log odds."""
+        parts = {name: weight**2 for name, weight in self.weights.items()}
+        return sum(parts.values()) / sum(x * difference.variance[name] / self.scales[name] ** 2 for name, x in parts.items())
+
+    def parts(self, difference: Difference) -> dict[str, float]:
         """What each feature adds to the log odds."""
-        return {name: weight * clipped(difference[name] / self.scales[name]) for name, weight in self.weights.items()}
+        sure = self.sure(difference)
+        return {
+            name: sure * weight * clipped(difference.values[name] / self.scales[name])
+            for name, weight in self.weights.items()
+        }
 
-    def probability(self, difference: Mapping[str, float]) -> float:
+    def odds(self, difference: Difference) -> float:
+        """Their logarithm, that the damper is worn rather than good."""
+        return self.sure(difference) * self.intercept + sum(self.parts(difference).values())
+
+    def probability(self, difference: Difference) -> float:
         """That the damper is worn [1]."""
-        odds = self.intercept + sum(self.parts(difference).values())
-        return 1.0 / (1.0 + math.exp(-odds))
-
-
-@dataclass(frozen=True)
-class Usual:
-    """What is usual for the dampers of an axle: value at the middle of the conditions, and slopes over CONDITIONS."""
-
-    value: float
-    slopes: tuple[float, ...]
+        return 1.0 / (1.0 + math.exp(-self.odds(difference)))
 
 
 @dataclass(frozen=True)
@@ -107,12 +120,12 @@ class Known:
     covariance: tuple[tuple[float, ...], ...]
     scatter: tuple[tuple[float, ...], ...]
 
-    def distance(self, difference: Mapping[str, float], sensors: str) -> float:
+    def distance(self, difference: Difference, sensors: str) -> float:
         """How far a difference is from good dampers and any wear, in standard deviations of good ones, root of the sum."""
         names = (*names_of(sensors), *DRIVEN)
         which = [self.names.index(name) for name in names]
         own, more = (np.array(each)[np.ix_(which, which)] for each in (self.covariance, self.scatter))
-        wear, seen = np.array(self.wear)[:, which].T, np.array([difference[name] for name in names])
+        wear, seen = np.array(self.wear)[:, which].T, np.array([difference.values[name] for name in names])
         amounts, distance = np.zeros(len(self.wear)), 0.0
         # The more wear there is, the more it scatters, up to that of the training: first how much, then how far.
         for _ in range(2):
@@ -148,27 +161,30 @@ class Model:
         }
 
     def difference(
-        self, rows: Sequence[Mapping[str, float]], place: str, reference: Sequence[Mapping[str, float]] = ()
-    ) -> dict[str, float]:
+        self, rows: Sequence[Mapping[str, float]], place: str, references: Sequence[Sequence[Mapping[str, float]]] = ()
+    ) -> Difference:
         """By how much the features of a damper differ from what is usual, and DRIVEN from the middle.
 
-        `rows` and `reference` are minutes.
+        `rows` are the minutes of the drive, `references` those of drives of the same car in its good state.
         """
-        return self.apart([self.at_middle(row, place) for row in rows], place, [self.at_middle(x, place) for x in reference])
+        here, *there = (mean_of([self.at_middle(row, place) for row in some]) for some in (rows, *references))
+        return self.apart(here, place, there)
 
-    def apart(
-        self, rows: Sequence[Mapping[str, float]], place: str, reference: Sequence[Mapping[str, float]] = ()
-    ) -> dict[str, float]:
-        """As `difference`, of minutes that are `at_middle`."""
-        fleet = {name: each.value for name, each in self.usual[AXLES[place]].items()}
-        usual = (mean_of(reference) if reference else fleet) | dict.fromkeys(DRIVEN, 0.0)
-        return {name: value - usual[name] for name, value in mean_of(rows).items() if name in usual}
+    def apart(self, here: Mapping[str, float], place: str, there: Sequence[Mapping[str, float]] = ()) -> Difference:
+        """As `difference`, of means of minutes that are `at_middle`."""
+        driven, known = (np.array([[some[name] for name in DRIVEN] for some in several]) for several in ((here,), there))
+        values, variance = {name: here[name] for name in DRIVEN}, {}
+        for name, usual in self.usual[AXLES[place]].items():
+            if name in here:
+                mean, variance[name] = usual.expected(driven[0], known, np.array([some[name] for some in there]))
+                values[name] = here[name] - mean
+        return Difference(values, variance)
 
     def table(self, way: str, sensors: str, place: str) -> Table:
         """The weights for REFERENCE or FLEET, a set of sensors and a damper."""
         return self.tables[way][sensors][AXLES[place]]
 
-    def distance(self, way: str, sensors: str, place: str, difference: Mapping[str, float]) -> float:
+    def distance(self, way: str, sensors: str, place: str, difference: Difference) -> float:
         """How far the difference of a damper is from all that was trained."""
         return self.known[way][AXLES[place]].distance(difference, sensors)
 
@@ -191,7 +207,7 @@ def from_json(text: str) -> Model:
     """The model of a text that `to_json` wrote."""
     content = json.loads(text)
     usual = {
-        axle: {name: Usual(each["value"], tuple(each["slopes"])) for name, each in some.items()}
+        axle: {name: Usual(**each | {key: tuple(each[key]) for key in ("slopes", "moves")}) for name, each in some.items()}
         for axle, some in content["usual"].items()
     }
     tables = {

@@ -172,8 +172,8 @@ def watch(
     others = [prepared(each, name) for each, name in zip(references, names[1:], strict=True)]
     for each, name in zip(references, names[1:], strict=True):
         check_same_car(dict(signals.car), dict(each.car), name)
-    rows, usual = minutes(some), [row for other in others for row in minutes(other)]
-    sensors = sensors_of([*rows, *usual])
+    rows, usual = minutes(some), [minutes(other) for other in others]
+    sensors = sensors_of([*rows, *(row for each in usual for row in each)])
     way = REFERENCE if usual else FLEET
     dampers = []
     for place in PLACES:
@@ -181,8 +181,8 @@ def watch(
         table = known.table(way, sensors, place)
         dampers.append(
             Watched(
-                place, table.probability(difference), table.limit, float(np.exp(difference["speed_damping"])),
-                table.parts(difference), {name: difference[name] for name in SIGNS if name in difference},
+                place, table.probability(difference), table.limit, float(np.exp(difference.values["speed_damping"])),
+                table.parts(difference), {name: difference.values[name] for name in SIGNS if name in difference.values},
                 known.distance(way, sensors, place, difference), table.far, table.fine,
             )
         )  # fmt: skip

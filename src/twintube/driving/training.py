@@ -13,7 +13,7 @@ import numpy as np
 from twintube.common.arrays import Array
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving.channels import PLACES
-from twintube.driving.features import CONDITIONS, of_the_damper
+from twintube.driving.features import CONDITIONS, mean_of, of_the_damper
 from twintube.driving.model import (
     AXLES,
     DRIVEN,
@@ -24,12 +24,13 @@ from twintube.driving.model import (
     SETS,
     SIGNS,
     WORN,
+    Difference,
     Known,
     Model,
     Table,
-    Usual,
     names_of,
 )
+from twintube.driving.usual import Usual, fitted
 from twintube.errors import InputError
 
 LENGTHS: Final = (1, 2, 5, 20)  # [min] of drives that are judged
@@ -106,9 +107,12 @@ def usual_values(drives: Sequence[Drive], middle: Sequence[float]) -> dict[str, 
     for axle in ("front", "rear"):
         found[axle] = {}
         places = [place for place in PLACES if AXLES[place] == axle]
-        rows = [(drive.car, place, row) for drive in good for row in drive.minutes for place in places]
+        rows = [(i, place, row) for i, drive in enumerate(good) for row in drive.minutes for place in places]
         x = np.array([[row[name] for name in CONDITIONS] for _, _, row in rows]) - np.array(middle)
-        group = np.unique([f"{car} {place}" for car, place, _ in rows], return_inverse=True)[1]
+        group = np.unique([f"{good[i].car} {place}" for i, place, _ in rows], return_inverse=True)[1]
+        drive = np.unique([f"{i} {place}" for i, place, _ in rows], return_inverse=True)[1]
+        car = group[np.unique(drive, return_index=True)[1]]  # of each drive
+        driven = np.column_stack([np.bincount(drive, column) / np.bincount(drive) for column in x[:, : len(DRIVEN)].T])
         own = [of_the_damper(row, place) for _, place, row in rows]
         for name in SIGNS:
             if any(name not in each for each in own):
@@ -116,7 +120,13 @@ def usual_values(drives: Sequence[Drive], middle: Sequence[float]) -> dict[str, 
             y = np.array([each[name] for each in own])
             within_x, within_y = x - means(x, group), y - means(y[:, None], group)[:, 0]
             slopes = np.linalg.lstsq(within_x, within_y, rcond=None)[0]
-            found[axle][name] = Usual(float(np.mean(y - x @ slopes)), tuple(map(float, slopes)))
+            value = float(np.mean(y - x @ slopes))
+            # The air is not known to every car.
+            level = y - x[:, : len(DRIVEN)] @ slopes[: len(DRIVEN)]
+            each = np.bincount(drive, level) / np.bincount(drive)
+            found[axle][name] = fitted(
+                value, list(map(float, slopes)), [(driven[car == i], each[car == i]) for i in range(car.max() + 1)]
+            )
     return found
 
 
@@ -129,7 +139,7 @@ def means(values: Array, group: Any) -> Array:
 
 def examples(
     model: Model, drives: Sequence[Drive], way: str, place: str, lengths: Sequence[int] = LENGTHS
-) -> list[tuple[Drive, int, dict[str, float]]]:
+) -> list[tuple[Drive, int, Difference]]:
     """Drive, length [min] and differences of a damper, for all lengths that a drive has.
 
     A reference is a drive, too: a good one, compared with the other references.
@@ -137,12 +147,12 @@ def examples(
     known, found = references(drives) if way == REFERENCE else {}, []
     minutes = {id(drive): [model.at_middle(row, place) for row in drive.minutes] for drive in drives}
     for drive in drives:
-        usual = [row for each in known.get(drive.car, ()) if each is not drive for row in minutes[id(each)]]
+        usual = [mean_of(minutes[id(each)]) for each in known.get(drive.car, ()) if each is not drive]
         if way == REFERENCE and not usual:
             continue
         for length in lengths:
             if length <= len(drive.minutes):
-                found.append((drive, length, model.apart(minutes[id(drive)][:length], place, usual)))
+                found.append((drive, length, model.apart(mean_of(minutes[id(drive)][:length]), place, usual)))
     return found
 
 
@@ -152,11 +162,11 @@ def neighbours(place: str) -> tuple[tuple[str, ...], ...]:
     return (place,), (side,), tuple(other for other in PLACES if other not in (place, side))
 
 
-def known_of(rows: Sequence[tuple[Drive, str, Mapping[str, float]]]) -> Known:
+def known_of(rows: Sequence[tuple[Drive, str, Difference]]) -> Known:
     """What drives showed: of drives whose dampers are all good or worn."""
     sure = [each for each in rows if all(each[0].good(place) or each[0].worn(place) for place in PLACES)]
-    names = [name for name in SIGNS if all(name in each for _, _, each in sure)] + list(DRIVEN)
-    values = np.array([[each[name] for name in names] for _, _, each in sure])
+    names = [name for name in SIGNS if all(name in each.values for _, _, each in sure)] + list(DRIVEN)
+    values = np.array([[each.values[name] for name in names] for _, _, each in sure])
     worn = np.array([[np.mean([drive.worn(p) for p in some]) for some in neighbours(place)] for drive, place, _ in sure])
     wear = np.linalg.lstsq(worn, values, rcond=None)[0]
     # Wear moves neither speed nor road.
@@ -167,15 +177,16 @@ def known_of(rows: Sequence[tuple[Drive, str, Mapping[str, float]]]) -> Known:
 
 
 def fitted_table(
-    values: Array, worn: np.ndarray[Any, np.dtype[np.bool_]], cars: Sequence[str], names: Sequence[str]
+    differences: Sequence[Difference], worn: np.ndarray[Any, np.dtype[np.bool_]], cars: Sequence[str], names: Sequence[str]
 ) -> Table:
-    """The weights (features with the sign that physics gives alone) and the limit, from differences (n, features).
+    """The weights (features with the sign that physics gives alone) and the limit, from differences.
 
     A feature whose weight has the wrong sign says nothing that the others do not; it is left out, and the rest fitted anew.
     """
     from sklearn.linear_model import LogisticRegression
     from sklearn.model_selection import GridSearchCV, StratifiedGroupKFold, cross_val_predict
 
+    values = np.array([[each.values[name] for name in names] for each in differences])
     scale = np.std(values[~worn], axis=0)
     used = list(range(len(names)))
     folds = list(StratifiedGroupKFold(FOLDS).split(values, worn, cars))
@@ -192,32 +203,43 @@ def fitted_table(
         used = [i for i in used if i not in wrong]
         if not used:
             raise InputError(f"training: none of {', '.join(names)} goes the way that lost damping moves it")
-    # The penalty makes probabilities too even: a line through the log odds of cars left out puts that right (Platt).
-    odds = cross_val_predict(best, x, worn, cv=folds, method="decision_function")[:, None]
-    line = LogisticRegression(class_weight="balanced").fit(odds, worn)
-    slope, offset = float(line.coef_[0, 0]), float(line.intercept_[0])
-    probability = line.predict_proba(odds)[:, 1]
-    return Table(
-        slope * float(best.intercept_[0]) + offset,
-        {names[i]: slope * float(weight) for i, weight in zip(used, weights, strict=True)},
+    table = Table(
+        float(best.intercept_[0]),
+        {names[i]: float(weight) for i, weight in zip(used, weights, strict=True)},
         {names[i]: float(scale[i]) for i in used},
+        LIKELIER,
+    )
+    # The penalty makes probabilities too even: a factor of the log odds of cars left out puts that right (Platt).
+    odds = cross_val_predict(best, x, worn, cv=folds, method="decision_function")
+    odds = np.array([[table.sure(each) * x] for each, x in zip(differences, odds, strict=True)])
+    line = LogisticRegression(class_weight="balanced", fit_intercept=False).fit(odds, worn)
+    slope, probability = float(line.coef_[0, 0]), line.predict_proba(odds)[:, 1]
+    return Table(
+        slope * table.intercept,
+        {name: slope * weight for name, weight in table.weights.items()},
+        table.scales,
         # A damper that is likelier good than worn is none to watch.
         max(LIKELIER, float(np.quantile(probability[~worn], 1.0 - FALSE_ALARMS))),
         min(LIKELIER, float(np.quantile(probability[worn], MISSED))),
     )
 
 
-def trained_axle(model: Model, drives: Sequence[Drive], way: str, axle: str) -> tuple[Known, dict[str, Table]]:
-    """What the dampers of an axle showed, and its tables by sensors; raises InputError without good or worn dampers."""
-    from sklearn.model_selection import StratifiedGroupKFold
-
-    rows = [
+def examples_of(model: Model, drives: Sequence[Drive], way: str, axle: str) -> list[tuple[Drive, str, Difference]]:
+    """Drive, place and differences of the good and worn dampers of an axle."""
+    return [
         (drive, place, difference)
         for place in PLACES
         if AXLES[place] == axle
         for drive, _, difference in examples(model, drives, way, place)
         if drive.model == DEFAULT and (drive.good(place) or drive.worn(place))
     ]
+
+
+def trained_axle(model: Model, drives: Sequence[Drive], way: str, axle: str) -> tuple[Known, dict[str, Table]]:
+    """What the dampers of an axle showed, and its tables by sensors; raises InputError without good or worn dampers."""
+    from sklearn.model_selection import StratifiedGroupKFold
+
+    rows = examples_of(model, drives, way, axle)
     worn = np.array([drive.worn(place) for drive, place, _ in rows])
     if worn.all() or not worn.any():
         raise InputError(f"training: {np.count_nonzero(worn)} of {len(worn)} {axle} dampers are worn: must be some")
@@ -231,25 +253,43 @@ def trained_axle(model: Model, drives: Sequence[Drive], way: str, axle: str) -> 
         names = list(names_of(sensors))
         if not set(names) <= set(known.names):
             continue
-        values = np.array([[each[name] for name in names] for _, _, each in rows])
-        table = fitted_table(values, worn, cars, names)
+        table = fitted_table([each for _, _, each in rows], worn, cars, names)
         distances = [other.distance(each, sensors) for other, some in strange for _, _, each in some]
         tables[sensors] = replace(table, far=float(np.quantile(distances, 1.0 - FALSE_ALARMS)))
     return known, tables
 
 
-def train(drives: Sequence[Drive], about: Mapping[str, Any]) -> Model:
-    """All tables from drives; raises InputError where a set has no good or no worn dampers."""
+def for_other_cars(model: Model, tables: dict[str, Table], others: Sequence[Drive], axle: str) -> dict[str, Table]:
+    """The tables without references, with limits that at most 1 in 100 good dampers of another kind of car passes, too."""
+    good = [each for drive, place, each in examples_of(model, others, FLEET, axle) if drive.good(place)]
+    return {
+        sensors: replace(
+            table,
+            limit=max(table.limit, float(np.quantile([table.probability(each) for each in good], 1.0 - FALSE_ALARMS))),
+        )
+        for sensors, table in tables.items()
+    }
+
+
+def train(drives: Sequence[Drive], about: Mapping[str, Any], others: Sequence[Drive] = ()) -> Model:
+    """All tables from drives; raises InputError where a set has no good or no worn dampers.
+
+    Without references the kind of a car counts: with drives of `others`, of another kind, the limits hold for them, too.
+    """
     conditions = np.array([[row[name] for name in CONDITIONS] for drive in drives for row in drive.minutes])
     middle = tuple(map(float, np.mean(conditions, axis=0)))
     model = Model(middle, usual_values(drives, middle), {}, {}, about)
     # The air is not known to every car: a table must do without it. Where it is, the differences are the smaller.
-    unknown = [replace(drive, minutes=[without_air(row) for row in drive.minutes]) for drive in drives]
+    unknown, strange = (
+        [replace(drive, minutes=[without_air(row) for row in drive.minutes]) for drive in some] for some in (drives, others)
+    )
     known: dict[str, dict[str, Known]] = {}
     tables: dict[str, dict[str, dict[str, Table]]] = {}
     for way in (REFERENCE, FLEET):
         for axle in ("front", "rear"):
             known.setdefault(way, {})[axle], own = trained_axle(model, unknown, way, axle)
+            if way == FLEET and strange:
+                own = for_other_cars(model, own, strange, axle)
             for sensors, table in own.items():
                 tables.setdefault(way, {}).setdefault(sensors, {})[axle] = table
     return replace(model, known=known, tables=tables)
