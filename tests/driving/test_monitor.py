@@ -14,7 +14,7 @@ from twintube.cli import app
 from twintube.driving import plausible
 from twintube.driving.channels import PLACES
 from twintube.driving.features import LEAST, MINUTE, table
-from twintube.driving.model import DRIVEN, FLEET, MOST, REFERENCE, SETS, SIGNS, names_of, shipped
+from twintube.driving.model import DRIVEN, FLEET, MOST, REFERENCE, SETS, SIGNS, Difference, names_of, shipped
 from twintube.driving.monitor import FINE, UNCLEAR, WATCH, WORN_OUT, Watched, watch
 from twintube.driving.physical import wheel_hop
 from twintube.driving.signals import Signals, write
@@ -99,11 +99,16 @@ def test_good_dampers_are_fine() -> None:
     assert answer.coherence > 0.8 and answer.seconds == pytest.approx(180.0)
 
 
-def test_wheel_speeds_alone_do_not_call_good_dampers_fine(good: Signals) -> None:
-    """More than 1 in 20 worn dampers look the same."""
+def test_wheel_speeds_alone_leave_good_dampers_open(good: Signals) -> None:
+    """More than 1 in 20 worn dampers look as most of them do."""
     answer = watch(rolling(seconds=180.0, rough=ROUGH), [good])
-    assert {each.state for each in answer.dampers} == {UNCLEAR} and not answer.unlike
-    assert all(each.fine < each.probability < 0.5 for each in answer.dampers)
+    assert {each.state for each in answer.dampers} <= {UNCLEAR, FINE} and answer.of(UNCLEAR) and not answer.unlike
+    assert all(each.fine < each.probability < 0.5 for each in answer.of(UNCLEAR))
+
+
+def test_wheel_speeds_of_one_drive_call_nothing() -> None:
+    answer = watch(rolling((0.02, 0.3, 0.3, 0.3), seconds=180.0, rough=ROUGH))
+    assert {each.state for each in answer.dampers} <= {UNCLEAR, FINE}
 
 
 def test_a_road_that_is_smoother_than_all_that_was_trained_is_not_judged() -> None:
@@ -122,10 +127,15 @@ def test_more_damping_lost_is_never_less_worn() -> None:
         for axles in ways.values():
             for each in axles.values():
                 assert all(weight * SIGNS[name] > 0.0 for name, weight in each.weights.items())
-                nothing = dict.fromkeys(each.weights, 0.0)
-                lost = {name: 100.0 * SIGNS[name] * each.scales[name] for name in each.weights}
+                variance = {name: scale**2 for name, scale in each.scales.items()}
+                nothing = Difference(dict.fromkeys(each.weights, 0.0), variance)
+                lost = Difference({name: 100.0 * SIGNS[name] * each.scales[name] for name in each.weights}, variance)
                 assert each.probability(nothing) < 0.5 < each.probability(lost)
                 assert sum(each.parts(lost).values()) == pytest.approx(MOST * sum(map(abs, each.weights.values())))
+                # The less is known of what is usual, the less is said, either way.
+                for some in (nothing, lost):
+                    doubtful = replace(some, variance={name: 1e6 * value for name, value in variance.items()})
+                    assert each.probability(doubtful) == pytest.approx(0.5, abs=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -150,17 +160,17 @@ def test_the_distance_grows_with_every_feature_and_not_with_wear(way: str, senso
     for axle, place in (("front", "fl"), ("rear", "rl")):
         known = shipped().known[way][axle]
         nothing, spread = dict.fromkeys(known.names, 0.0), np.sqrt(np.diag(known.covariance))
-        assert known.distance(nothing, sensors) == 0.0
+        assert known.distance(Difference(nothing, {}), sensors) == 0.0
         for amount in (0.5, 1.0, 3.0):  # of a worn damper here, beside it, and at the other axle
             for row in known.wear:
                 worn = {name: amount * value for name, value in zip(known.names, row, strict=True)}
-                assert known.distance(worn, sensors) == pytest.approx(0.0, abs=1e-6)
+                assert known.distance(Difference(worn, {}), sensors) == pytest.approx(0.0, abs=1e-6)
         far = shipped().table(way, sensors, place).far
         for name, size in zip(known.names, spread, strict=True):
-            # Wear moves a feature one way only, but for that of the other wheel, which moves `side` the other way.
-            if name in (*names_of(sensors), *DRIVEN) and not name.endswith("_side"):
+            # Wear moves a feature one way only, but for those that compare with another wheel, whose wear moves them back.
+            if name in (*names_of(sensors), *DRIVEN) and not name.endswith(("_side", "_axle")):
                 away = -SIGNS.get(name, 1) * 20.0 * far * size
-                assert known.distance(nothing | {name: away}, sensors) > far
+                assert known.distance(Difference(nothing | {name: away}, {}), sensors) > far
 
 
 def test_a_washboard_is_not_judged(good: Signals) -> None:
@@ -180,7 +190,9 @@ def test_a_washboard_is_not_judged(good: Signals) -> None:
 def test_one_drive_alone_of_an_unknown_car_says_what_was_seen() -> None:
     """Oscillators without a body are no car."""
     text = " ".join(terminal(watch(rolling(seconds=180.0, rough=ROUGH, accels=True))).split())
-    assert "Cannot tell from one drive without references about any damper: unlike all that was trained." in text
+    assert (
+        "Cannot tell from one drive without references about the rear left and rear right dampers: unlike all that" in text
+    )
     assert "Seen: the rear wheels run over the road 0.140 s after the front wheels, 0.140 s by wheelbase and speed" in text
 
 

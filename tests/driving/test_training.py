@@ -7,8 +7,9 @@ from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving import detection
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, OF_A_WHEEL
-from twintube.driving.model import REFERENCE, SIGNS, from_json, shipped, to_json
+from twintube.driving.model import REFERENCE, SIGNS, Difference, from_json, shipped, to_json
 from twintube.driving.training import Drive, fitted_table, of_rows, usual_values
+from twintube.driving.usual import Usual, fitted
 from twintube.errors import InputError
 
 NAMES = ("speed_hop", "speed_damping", "speed_side", "speed_body")
@@ -22,10 +23,12 @@ def test_weights_have_the_sign_of_physics_and_good_dampers_stay_at_the_limit() -
     for i, name in enumerate(NAMES[:3]):
         values[worn, i] += 1.5 * SIGNS[name]
     values[worn, 3] -= 0.5  # goes the other way than lost damping moves it
-    table = fitted_table(values[:2000], worn[:2000], [str(i % 40) for i in range(2000)], NAMES)
+    known = dict.fromkeys(NAMES, 1.0)
+    several = [Difference(dict(zip(NAMES, row, strict=True)), known) for row in values]
+    table = fitted_table(several[:2000], worn[:2000], [str(i % 40) for i in range(2000)], NAMES)
     assert set(table.weights) == set(NAMES[:3])
     assert all(weight * SIGNS[name] > 0.0 for name, weight in table.weights.items())
-    found = np.array([table.probability(dict(zip(NAMES, row, strict=True))) for row in values[2000:]])
+    found = np.array([table.probability(each) for each in several[2000:]])
     assert np.mean(found[~worn[2000:]] > table.limit) == pytest.approx(0.01, abs=0.01)
     assert np.mean(found[worn[2000:]] > table.limit) > 0.6
     for low, high in ((0.1, 0.4), (0.4, 0.6), (0.6, 0.9)):
@@ -103,3 +106,37 @@ def test_slopes_are_those_within_a_car() -> None:
 def test_tables_are_the_same_when_read_again() -> None:
     text = to_json(shipped())
     assert to_json(from_json(text)) == text
+
+
+def cars(random: np.random.Generator, count: int) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Cars of a standard deviation of 0.5 with slopes of 0.3 and 0, in drives of 0.1."""
+    found = []
+    for _ in range(count):
+        there = random.standard_normal((6, 2))
+        values = 2.0 + 0.5 * random.standard_normal() + 0.3 * random.standard_normal() * there[:, 0]
+        found.append((there, values + 0.1 * random.standard_normal(6)))
+    return found
+
+
+def test_what_cars_differ_by_is_found_and_references_are_worth_what_they_say() -> None:
+    random = np.random.default_rng(6)
+    usual = fitted(2.0, [0.0, 0.0, 0.0], cars(random, 200))
+    assert (usual.cars, usual.drives, usual.moves[0]) == pytest.approx((0.5, 0.1, 0.3), rel=0.15)
+    assert usual.moves[1] < 0.03
+    errors, told = [], []
+    for there, values in cars(random, 400):
+        mean, variance = usual.expected(there[0], there[1:], values[1:])
+        errors.append(values[0] - mean)
+        told.append(variance)
+    assert np.mean(np.square(errors)) == pytest.approx(np.mean(told), rel=0.2)
+
+
+def test_references_on_a_like_road_make_surer() -> None:
+    usual, here = Usual(2.0, (0.0,) * 3, 0.5, (0.3, 0.0), 0.1), np.zeros(2)
+    alone = usual.expected(here, np.empty((0, 2)), np.empty(0))
+    assert alone == pytest.approx((2.0, 0.5**2 + 0.1**2))
+    far, near = (usual.expected(here, np.array([[x, 0.0]]), np.array([3.0])) for x in (2.0, 0.0))
+    assert alone[1] > far[1] > near[1]
+    assert 2.0 < far[0] < near[0] < 3.0
+    four = usual.expected(here, np.zeros((4, 2)), np.full(4, 3.0))
+    assert four[1] < near[1] and four[0] > near[0]
