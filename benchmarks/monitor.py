@@ -15,7 +15,7 @@ from twintube.cli.base import standalone
 from twintube.common.words import counted
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving import detection
-from twintube.driving.model import FILE, REFERENCE, WORN, from_json, to_json
+from twintube.driving.model import FILE, WORN, from_json, to_json
 from twintube.driving.training import Drive, load, train
 
 PARTS = (0.25, 0.5, 1.0)  # of the cars, for the learning curve
@@ -33,16 +33,19 @@ def trained(drives: Sequence[Drive]) -> dict[str, Any]:
 
 
 def lines(figures: dict[str, Any]) -> list[str]:
-    """The table of what is seen, in Markdown: with a reference, by axle, sensors, length and oil level."""
-    found = [row for row in figures["detection"] if row["compared_with"] == REFERENCE]
-    oils = sorted({row["oil"] for row in found}, key=lambda text: int(text.split()[0]))
-    head = ["method", "sensors", "axle", "worn", "model", "min", *oils]
+    """What was said, in Markdown, of the longest drives."""
+    head = ("cars", "sensors", "compared with", "min", "good: called", "good: fine", "good: unlike", "worn: seen",
+            "all four: seen", "worn: fine")  # fmt: skip
     table = ["| " + " | ".join(head) + " |", "|" + " --- |" * len(head)]
-    names = ("method", "sensors", "axle", "worn", "model", "minutes")
-    for key in dict.fromkeys(tuple(row[name] for name in names) for row in found):
-        own = {row["oil"]: row for row in found if tuple(row[name] for name in names) == key}
-        cells = [f"{own[oil]['seen']} of {own[oil]['dampers']}" if oil in own else "" for oil in oils]
-        table.append("| " + " | ".join(map(str, (*key, *cells))) + " |")
+    longest = max(row["minutes"] for row in figures["answers"])
+    for row in figures["answers"]:
+        if row["minutes"] == longest:
+            cells = [
+                f"{row['cars']} {row['group']}", row["sensors"], row["compared_with"], row["minutes"],
+                f"{row['called']} of {row['good']}", row["fine"], row["unlike"], f"{row['seen']} of {row['worn']}",
+                f"{row['all four seen']} of {row['all four']}", row["missed"],
+            ]  # fmt: skip
+            table.append("| " + " | ".join(map(str, cells)) + " |")
     return table
 
 

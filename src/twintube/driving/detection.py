@@ -28,7 +28,7 @@ EDGES: Final = np.array([0.0, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0])  # of t
 class Judged:
     """One damper in one drive, judged: `score` is the probability, or minus the change of ln damping ratio.
 
-    `unlike` is one that is too far from the training to be judged.
+    `unlike` is one that is too far from the training to be judged; below `fine` it is said to be fine.
     """
 
     drive: Drive
@@ -40,11 +40,17 @@ class Judged:
     score: float
     limit: float
     unlike: bool = False
+    fine: float = -np.inf
 
     @property
     def seen(self) -> bool:
         """Whether it is beyond the limit, and judged."""
         return self.score > self.limit and not self.unlike
+
+    @property
+    def passed(self) -> bool:
+        """Whether it is said to be fine."""
+        return self.score < self.fine and not self.unlike
 
     @property
     def oil(self) -> str:
@@ -98,7 +104,9 @@ def judged(model: Model, drives: Sequence[Drive], limits: dict[tuple[str, str], 
                     if all(name in difference.values for name in table.weights):
                         unlike = model.distance(way, sensors, place, difference) > table.far
                         score = table.probability(difference)
-                        found.append(Judged(drive, place, length, way, sensors, MONITOR, score, table.limit, unlike))
+                        found.append(
+                            Judged(drive, place, length, way, sensors, MONITOR, score, table.limit, unlike, table.fine)
+                        )
     return found
 
 
@@ -125,6 +133,26 @@ def rows(some: Iterable[Judged]) -> list[dict[str, Any]]:
             groups.setdefault(key, []).append(each)
     names = ("method", "compared_with", "sensors", "axle", "worn", "minutes", "model", "oil")
     return [dict(zip(names, key, strict=True)) | share(group) for key, group in sorted(groups.items())]
+
+
+def answers(some: Iterable[Judged]) -> list[dict[str, Any]]:
+    """What was said of good dampers, and of those as worn as in the training, by group of cars, way, sensors and length."""
+    groups: dict[tuple[Any, ...], list[Judged]] = {}
+    for each in some:
+        if each.method == MONITOR and each.drive.model == DEFAULT:
+            groups.setdefault((each.drive.group, each.way, each.sensors, each.minutes), []).append(each)
+    found = []
+    for key, group in sorted(groups.items()):
+        good, worn = [each for each in group if each.good], [each for each in group if is_worn(each)]
+        whole = [each for each in worn if each.pattern == ALL]
+        counts = {
+            "cars": len({each.drive.car for each in group}), "good": len(good), "called": sum(x.seen for x in good),
+            "fine": sum(x.passed for x in good), "unlike": sum(x.unlike for x in good),
+            "worn": len(worn), "seen": sum(x.seen for x in worn), "missed": sum(x.passed for x in worn),
+            "all four": len(whole), "all four seen": sum(x.seen for x in whole),
+        }  # fmt: skip
+        found.append(dict(zip(("group", "compared_with", "sensors", "minutes"), key, strict=True)) | counts)
+    return found
 
 
 def false_alarms(some: Iterable[Judged]) -> list[dict[str, Any]]:
@@ -199,6 +227,7 @@ def summary(model: Model, training: Sequence[Drive], test: Sequence[Drive]) -> d
     return {
         "trained": {"cars": len({d.car for d in training}), "drives": len(training)},
         "tested": {"cars": len({d.car for d in test}), "drives": len(test)},
+        "answers": answers(some),
         "detection": rows(some),
         "false_alarms": false_alarms(some),
         "reliability": reliability(some),
