@@ -21,6 +21,7 @@ import pytest
 from tests.project.test_docs_examples import PAGES, ROOT, blocks, check_options
 from tests.project.test_traceability import tags as tags_of_files
 from twintube.common.extras import extra_of
+from twintube.diagnosis.numbers import listed
 
 DOCS = ROOT / "docs"
 GALLERY = sorted((DOCS / "gallery").glob("*.py"))
@@ -76,15 +77,18 @@ def test_the_page_of_commands_has_the_table_of_the_program() -> None:
         assert f"| `twintube {name}` |" in page, name
 
 
+def test_the_site_shows_the_numbers_of_the_diagnosis() -> None:
+    page = extension("numbers_table").written((DOCS / "diagnosis_method.md").read_text(encoding="utf-8"))
+    for entry in listed():
+        assert re.search(rf"^\| `{entry['name']}` \| .+ \| {re.escape(entry['meaning'])} \|", page, re.MULTILINE), entry["name"]
+
+
 def test_every_equation_is_on_the_page_of_the_model_and_leads_to_its_lines(tags: Any) -> None:
     page = (DOCS / "model.md").read_text(encoding="utf-8")
     shown = [
         number for argument in re.findall(r"^:::\{equation\} (.+)$", page, re.MULTILINE) for number in tags.numbers(argument)
     ]
     assert sorted(shown) == list(range(1, 42))
-    table = (DOCS / "kernel.md").read_text(encoding="utf-8")
-    named = [number for cell in re.findall(r"^\| ([\d, -]+) \|", table, re.MULTILINE) for number in tags.numbers(cell)]
-    assert sorted(named) == list(range(1, 42))
     found = tags.places()
     assert set(found) == set(shown)
     for number, places in found.items():
