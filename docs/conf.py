@@ -6,7 +6,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
 
-import numbers_table
+import tables
 
 from twintube import __version__
 
@@ -69,11 +69,10 @@ html_show_sourcelink = False
 
 
 def adapt(app: object, name: str, text: list[str]) -> None:
-    """`dampers --variables` writes a table without a title; numbers stand in the code; the explorer's page is optional."""
+    """Tables of the code; `twintube dampers --variables` writes one without a title; the explorer's page is optional."""
+    text[0] = tables.written(text[0])
     if name == "variables":
         text[0] = f"# Variables\n\n{text[0]}"
-    elif name == "diagnosis_method":
-        text[0] = numbers_table.written(text[0])
     elif name == "index" and not (HERE / "explorer.md").exists():
         text[0] = text[0].replace("\nexplorer\n", "\n")
 

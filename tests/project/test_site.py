@@ -21,6 +21,7 @@ import pytest
 from tests.project.test_docs_examples import PAGES, ROOT, blocks, check_options
 from tests.project.test_traceability import tags as tags_of_files
 from twintube.common.extras import extra_of
+from twintube.core.hook_table import HOOKS
 from twintube.diagnosis.numbers import listed
 
 DOCS = ROOT / "docs"
@@ -77,10 +78,17 @@ def test_the_page_of_commands_has_the_table_of_the_program() -> None:
         assert f"| `twintube {name}` |" in page, name
 
 
-def test_the_site_shows_the_numbers_of_the_diagnosis() -> None:
-    page = extension("numbers_table").written((DOCS / "diagnosis_method.md").read_text(encoding="utf-8"))
+def test_the_site_shows_the_numbers_of_the_diagnosis_and_the_hooks_of_effects() -> None:
+    tables = extension("tables")
+    page, effects = (
+        tables.written((DOCS / f"{name}.md").read_text(encoding="utf-8")) for name in ("diagnosis_method", "effects")
+    )
     for entry in listed():
-        assert re.search(rf"^\| `{entry['name']}` \| .+ \| {re.escape(entry['meaning'])} \|", page, re.MULTILINE), entry["name"]
+        assert re.search(rf"^\| `{entry['name']}` \| .+ \| {re.escape(entry['meaning'])} \|", page, re.MULTILINE), entry[
+            "name"
+        ]
+    for name, hook in HOOKS.items():
+        assert re.search(rf"^\| `{name}` \| .+ \| {re.escape(hook.does)} \|$", effects, re.MULTILINE), name
 
 
 def test_every_equation_is_on_the_page_of_the_model_and_leads_to_its_lines(tags: Any) -> None:
