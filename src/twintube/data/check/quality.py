@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from twintube.common.arrays import Array
 from twintube.data.check.defects import clipped, dropped, frozen, resolution, unprepared
-from twintube.data.check.values import FEWEST_SAMPLES, places, sound
+from twintube.data.check.values import FEWEST_SAMPLES, sound
 from twintube.data.convert.quantities import Table
 from twintube.data.findings import Notes
 from twintube.rig.signals import V_PRECONDITIONING
@@ -56,15 +56,15 @@ def check_quality(table: Table, excluded: Mask, notes: Notes) -> Mask:
     header = table.headers["force"]
     cut = clipped(force, np.abs(np.gradient(stroke, time)))
     for limit, side in ((cut.high, "largest"), (cut.low, "smallest")):
-        if limit is not None and (where := places(force == limit, table.rows, notes)):
+        if limit is not None and (where := notes.places(force == limit, table.rows)):
             message = f"clipped: the force stays at its {side} value {limit:.6g} N, the limit of load cell or amplifier"
             notes.warning(message + where.tail, header, where.first)
     lost = dropped(force, stroke) & ~excluded
-    if where := places(lost, table.rows, notes):
+    if where := notes.places(lost, table.rows):
         message = f"dropout: the force jumps to {force[lost][0]:.6g} N and back{where.tail}; left out"
         notes.warning(message, header, where.first)
     still = frozen(force, stroke) & ~excluded & ~cut.samples & ~lost & ~repeated
-    if where := places(still, table.rows, notes):
+    if where := notes.places(still, table.rows):
         message = (
             f"frozen: the force stays at {force[still][0]:.6g} N while the stroke moves, then jumps{where.tail}; left out"
         )
@@ -101,11 +101,11 @@ def check_repeats(table: Table, excluded: Mask, notes: Notes) -> Mask:
                 leaping[i + 1 : j + 1] = True
                 windows.append(f"[{time[i]:.6g}, {time[j]:.6g}]")
     header = table.headers["stroke"]
-    if where := places(leaping, table.rows, notes):
+    if where := notes.places(leaping, table.rows):
         hint = ", ".join([*windows[:HINTS], *(["..."] if len(windows) > HINTS else [])])
         message = f"stroke and force stay identical while the damper moves: repeated samples{where.tail}"
         notes.error(f"{message}; where the model may leap over them, set exclude = [{hint}]", header, where.first)
-    if where := places(repeated & ~leaping, table.rows, notes):
+    if where := notes.places(repeated & ~leaping, table.rows):
         notes.warning(f"stroke and force as in the sample before while the damper moves{where.tail}", header, where.first)
     return repeated
 

@@ -1,16 +1,14 @@
 """Checks of a record: time, units, stroke, velocity, work. They judge and change nothing."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
 from twintube.common.arrays import Array
 from twintube.core.checks import VELOCITY
-from twintube.data.check.cycles import cycle_starts
+from twintube.data.check.defects import cycle_starts
 from twintube.data.convert.quantities import Table
-from twintube.data.findings import Notes, more
+from twintube.data.findings import Notes
 
 # Time. Rigs sample at 100 Hz to some kHz; beyond these limits s and ms are mixed up.
 SHORTEST_STEP, LONGEST_STEP = 1e-5, 0.5  # [s]
@@ -73,20 +71,6 @@ def sound(table: Table) -> Table:
     return selected(table, good)
 
 
-@dataclass(frozen=True)
-class Places:
-    """Samples at which something is wrong."""
-
-    first: int  # row in the file
-    tail: str  # how many there are
-
-
-def places(wrong: NDArray[np.bool_], rows: NDArray[np.int64], notes: Notes) -> Places | None:
-    """The rows where `wrong` holds."""
-    at = rows[np.flatnonzero(wrong)]
-    return Places(int(at[0]), more(len(at), int(at[-1]), notes.counted)) if len(at) else None
-
-
 def check_time(table: Table, notes: Notes) -> None:
     """Order, step, gaps and jitter."""
     header, rows = table.headers["time"], table.rows
@@ -94,7 +78,7 @@ def check_time(table: Table, notes: Notes) -> None:
     time, rows = table.columns["time"][known], rows[known]
     step = np.diff(time)
     for wrong, what in ((step < 0, "goes back"), (step == 0, "is repeated")):
-        if where := places(np.append(False, wrong), rows, notes):
+        if where := notes.places(np.append(False, wrong), rows):
             i = int(np.flatnonzero(wrong)[0])
             notes.error(f"time {what}: {time[i + 1]:g} s after {time[i]:g} s{where.tail}", header, where.first)
     step, rows = step[step > 0], rows[1:][step > 0]
@@ -110,7 +94,7 @@ def check_time(table: Table, notes: Notes) -> None:
     usual = 1.4826 * float(np.median(np.abs(ratio - 1.0)))
     gap = ratio > GAP + 3.0 * usual
     for wrong, severe in ((gap & (ratio > BIG_GAP), True), (gap & (ratio <= BIG_GAP), False)):
-        if where := places(wrong, rows, notes):
+        if where := notes.places(wrong, rows):
             worst = int(np.argmax(np.where(wrong, ratio, 0.0)))
             what = f"step of up to {step[worst]:g} s where {local[worst]:g} s is usual"
             if severe:
@@ -140,13 +124,13 @@ def check_units(table: Table, notes: Notes) -> None:
             )
     if "velocity" in table.columns:
         velocity, top = table.columns["velocity"], VELOCITY["upper"]
-        if where := places(np.abs(velocity) > top, table.rows, notes):
+        if where := notes.places(np.abs(velocity) > top, table.rows):
             worst = velocity[np.nanargmax(np.abs(velocity))]
             message = f"velocity up to {worst:g} m/s: must be within {top:g} m/s{where.tail}"
             notes.error(message, table.headers["velocity"], where.first)
     if "temperature" in table.columns:
         values = table.columns["temperature"]
-        if where := places((values < COLDEST) | (values > HOTTEST), table.rows, notes):
+        if where := notes.places((values < COLDEST) | (values > HOTTEST), table.rows):
             message = f"temperature from {np.nanmin(values):g} to {np.nanmax(values):g} degC: must be from {COLDEST:g} to "
             message += f"{HOTTEST:g} degC; degC and K mixed up?{where.tail}"
             notes.error(message, table.headers["temperature"], where.first)
@@ -165,7 +149,7 @@ def check_stroke(table: Table, limit: float | None, notes: Notes) -> None:
             f"offset: the stroke runs from {low:g} to {high:g} m, its middle {middle:g} m is not 0, the middle position"
         )
         notes.warning(message, header)
-    if limit is not None and (where := places(np.abs(stroke) > limit, table.rows, notes)):
+    if limit is not None and (where := notes.places(np.abs(stroke) > limit, table.rows)):
         worst = low if -low > high else high
         hint = "" if half > limit or not off else "; it would fit with another zero, see the offset"
         notes.error(
@@ -267,6 +251,6 @@ def check_work(table: Table, notes: Notes) -> None:
         notes.error(
             message + " (stroke rising); if the rig's sign differs, set force_sign = -1 or stroke_sign = -1", header, first
         )
-    elif where := places(np.isin(np.arange(len(table.rows)), starts[:-1][wrong]), table.rows, notes):
+    elif where := notes.places(np.isin(np.arange(len(table.rows)), starts[:-1][wrong]), table.rows):
         message = f"work of a cycle = {cycles[wrong][0]:.3g} J: must be above 0, {usual:.3g} J is usual{where.tail}"
         notes.warning(message, header, where.first)
