@@ -64,7 +64,7 @@ def test_figure(plots, number):
         assert (statement.holds is None) == (statement.basis == "not checkable")
         assert statement.numbers or statement.holds is None
         if statement.holds is not True:
-            assert statement.reason, statement.text
+            assert statement.reason, statement.statement
     json.dumps(as_json(plot))
 
 

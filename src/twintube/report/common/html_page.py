@@ -39,16 +39,6 @@ class Picture:
         """A picture in two shapes, for wide and, where `draw` is told so, for narrow screens."""
         return cls(style.png(draw(False)), alt or caption, caption, style.png(draw(True)))
 
-    @property
-    def uri(self) -> str:
-        """The picture as data URI, so that the page needs no other file."""
-        return data_uri(self.png)
-
-    @property
-    def narrow_uri(self) -> str:
-        """The picture for small screens; empty where the other serves."""
-        return data_uri(self.narrow) if self.narrow else ""
-
 
 @dataclass(frozen=True)
 class Table:
@@ -68,11 +58,6 @@ class Finding:
     verdict: str = ""
     facts: Sequence[tuple[str, str]] = ()  # name and text, short
     numbers: Mapping[str, Any] = field(default_factory=dict)  # long listings are folded, and not printed
-
-    @property
-    def mark(self) -> str:
-        """Class in the style sheet."""
-        return MARKS.get(self.verdict, "open")
 
     @property
     def listing(self) -> list[tuple[str, str]]:
@@ -114,14 +99,14 @@ class Section:
     live: str = ""  # HTML of `report.live`
     open: bool = False  # not folded, below a headline
 
-    @property
-    def mark(self) -> str:
-        """Class in the style sheet."""
-        return MARKS.get(self.verdict, "open")
+
+def mark(verdict: str) -> str:
+    """The class of a verdict in the style sheet."""
+    return MARKS.get(verdict, "open")
 
 
 def data_uri(png: bytes) -> str:
-    """A PNG as data URI."""
+    """A PNG as data URI, so that the page needs no other file."""
     return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
 
 
@@ -143,6 +128,18 @@ def readable(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
+def rendered(module: str, name: str, **values: Any) -> str:
+    """A template beside a module, with these values."""
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters |= {"coded": coded, "mark": mark, "uri": data_uri}
+    return environment.from_string(beside(module, name)).render(**values)
+
+
+def beside(module: str, name: str) -> str:
+    """The text of a file in the folder of a module."""
+    return files(module.rpartition(".")[0]).joinpath(name).read_text(encoding="utf-8")
+
+
 @dataclass(frozen=True)
 class Page:
     """The page of a result, and those of its pictures that stand beside it as files, by name."""
@@ -158,14 +155,9 @@ class Page:
     @property
     def html(self) -> str:
         """The whole page."""
-        environment = jinja2.Environment(
-            autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-        )
-        environment.filters["coded"] = coded
-        source = files("twintube.report.common").joinpath("page.html").read_text(encoding="utf-8")
         foot = ". ".join(text for text in (self.foot.rstrip("."), f"twintube {__version__}") if text)
         named = {name: getattr(self, name) for name in ("title", "lead", "sections", "summary", "headline")}
-        return environment.from_string(source).render(**named, foot=foot)
+        return rendered(__name__, "page.html", **named, foot=foot)
 
     def write(self, folder: Path, name: str = "report.html") -> list[Path]:
         """Write pictures and page; returns the files."""

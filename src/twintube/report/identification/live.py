@@ -7,14 +7,13 @@ import base64
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from importlib.resources import files
 
-import jinja2
 import numpy as np
 
 from twintube import web
 from twintube.common.arrays import Array
 from twintube.report.common import style
+from twintube.report.common.html_page import beside, rendered
 
 MOST_POINTS = 1200  # of a record
 
@@ -70,16 +69,15 @@ def live(curves: Sequence[Curve], looks: Sequence[Look]) -> str:
             for look in (some.thinned() for some in looks)
         ],
     }  # fmt: skip
-    source = files("twintube.report.identification").joinpath("live.html").read_text(encoding="utf-8")
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    script = files("twintube.report.identification").joinpath("live.js").read_text(encoding="utf-8")
     # No text of a user can end the element.
     text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    return environment.from_string(source).render(
+    return rendered(
+        __name__,
+        "live.html",
         library=web.library(),
         style=web.library_style(),
         plots=web.plots(),
-        script=script,
+        script=beside(__name__, "live.js"),
         data=text,
         curves=curves,
         dark=style.DARK,

@@ -6,7 +6,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from twintube.common.files import write_bytes, write_text
@@ -55,14 +54,8 @@ def percent(part: dict[str, Any] | None, what: str) -> list[str]:
     if part is None:
         return [what, "none", "", "", ""]
 
-    def work(which: str) -> str:
-        if f"work_error_{which}" not in part:
-            return ""
-        text = f"{part[f'work_error_{which}']:.1%} (worst {part[f'work_error_{which}_worst']:.1%})"
-        of_intact = part[f"work_error_{which}_of_intact"]
-        if of_intact is not None:
-            text += f"; of the intact work {of_intact:.1%} (worst {part[f'work_error_{which}_of_intact_worst']:.1%})"
-        return text
+    def both(key: str, before: str = "") -> str:
+        return "" if part.get(key) is None else f"{before}{part[key]:.1%} (worst {part[f'{key}_worst']:.1%})"
 
     force = (
         f"{part['force_rmse_N']:.1f} N, {part['force_rmse_of_peak']:.1%} of the peak "
@@ -71,35 +64,20 @@ def percent(part: dict[str, Any] | None, what: str) -> list[str]:
     if "force_rmse_recorded_N" in part:
         force += f"; {part['force_rmse_recorded_N']:.1f} N over the strokes with their noise"
     drives = f", {part['stochastic']} stochastic" if part["stochastic"] else ""
-    return [what, f"{part['records']}{drives}", force, work("first"), work("last")]
+    keys = ("work_error_first", "work_error_last")
+    works = [both(key) + both(f"{key}_of_intact", "; of the intact work ") for key in keys]
+    return [what, f"{part['records']}{drives}", force, *works]
 
 
 def parameter_table(result: Result) -> Table:
     """All identified parameters with their intervals and doubts."""
     rows = []
     for e in result.identification.estimates:
-        doubts = ([] if e.determined else ["not determined"]) + (["at its bound"] if e.at_bound else [])
-        rows.append(
-            [
-                e.name,
-                meaning(e.name),
-                f"{e.value:.3g}",
-                unit(e.name),
-                f"{e.low:.3g} to {e.high:.3g}",
-                f"{e.bounds[0]:g} to {e.bounds[1]:.3g}",
-                ", ".join(doubts),
-            ]
-        )
-    return Table(
-        ["parameter", "meaning", "value", "unit", "interval", "allowed", ""],
-        rows,
-        "Intervals hold with 95 % for all parameters together",
-    )
-
-
-def spread(several: Sequence[tuple[Harmonic, str]], most: int) -> list[tuple[Harmonic, str]]:
-    """At most so many records, evenly picked from first to last."""
-    return [several[i] for i in sorted({round(x) for x in np.linspace(0, len(several) - 1, min(most, len(several)))})]
+        doubts = ", ".join((["not determined"] * (not e.determined)) + (["at its bound"] * e.at_bound))
+        interval, allowed = f"{e.low:.3g} to {e.high:.3g}", f"{e.bounds[0]:g} to {e.bounds[1]:.3g}"
+        rows.append([e.name, meaning(e.name), f"{e.value:.3g}", unit(e.name), interval, allowed, doubts])
+    head = ["parameter", "meaning", "value", "unit", "interval", "allowed", ""]
+    return Table(head, rows, "Intervals hold with 95 % for all parameters together")
 
 
 def headline(result: Result, folder: str, chosen: Sequence[tuple[Harmonic, str]]) -> Headline:
@@ -110,9 +88,10 @@ def headline(result: Result, folder: str, chosen: Sequence[tuple[Harmonic, str]]
     words = [text.split()[0] for text in good]
     badge = next((BADGES[word] for word in reversed(BADGES) if word in words), ("", "open"))
     step = next_step(result, folder)
+    some = partial(drawings.loops, result, style.spread(chosen, FIRST))
     return Headline(
         good[0] if good else "Identified.", *badge, " ".join([*good[1:], *limits]), f"{step[0].upper()}{step[1:]}.",
-        Picture.drawn(partial(drawings.loops, result, spread(chosen, FIRST)), "First and last oscillation of some records."),
+        Picture.drawn(some, "First and last oscillation of some records."),
     )  # fmt: skip
 
 
@@ -201,7 +180,7 @@ def sections(result: Result, drawn: dict[str, Picture], chosen: Sequence[tuple[H
 def page(result: Result, folder: str) -> Page:
     """The page of a result with its pictures; `folder` is named in the next step."""
     ordered = sorted(result.harmonics, key=lambda pair: (pair[1] != "heldout", pair[0].top_speed))
-    chosen = spread([pair for pair in ordered if not pair[0].intact] or ordered, LOOPS)
+    chosen = style.spread([pair for pair in ordered if not pair[0].intact] or ordered, LOOPS)
     drawn, head = pictures(result, chosen), headline(result, folder, chosen)
     return Page(f"Identification: {result.dataset.title}", sections(result, drawn, chosen), headline=head, pictures=drawn)
 

@@ -25,15 +25,10 @@ def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]], narrow: bool =
     for ax, (record, split) in zip(axes.flat, chosen, strict=False):
         simulated = predicted(damper, record, offset)
         for colour, name, force in ((style.GREY, "measured", record.force), (style.RED, "simulated", simulated)):
-            for dash, which, (a, b) in (
-                ("-", "first", (record.marks[0], record.marks[1])),
-                (":", "last", (record.marks[-2], record.marks[-1])),
-            ):
-                part = slice(int(a), int(b) + 1)
-                ax.plot(
-                    record.stroke[part] * 1e3, force[part], dash, color=colour, lw=1.4, label=f"{name}, {which} oscillation"
-                )
-        style.small_title(ax, f"{record.oil_level:.0%} oil, {record.top_speed:.3g} m/s, {SPLITS[split]}")
+            for dash, which, (a, b) in (("-", "first", record.marks[:2]), (":", "last", record.marks[-2:])):
+                part, label = slice(int(a), int(b) + 1), f"{name}, {which} oscillation"
+                ax.plot(record.stroke[part] * 1e3, force[part], dash, color=colour, lw=1.4, label=label)
+        style.title(ax, f"{record.oil_level:.0%} oil, {record.top_speed:.3g} m/s, {SPLITS[split]}", 9)
     style.label(axes, "stroke [mm]", "force [N]")
     style.legend_above(figure, axes[0, 0])
     return figure
@@ -113,8 +108,7 @@ def convergence(result: Result, narrow: bool = False) -> Figure:
     for ax, step in zip(axes.flat, steps, strict=True):
         ax.plot(np.arange(1, len(step.best.trace) + 1), step.best.trace, color=style.BLUE)
         style.title(ax, step.title)
-        ax.set_xlabel("generation")
-        ax.set_ylabel(f"error [{step.unit}]")
+        ax.set(xlabel="generation", ylabel=f"error [{step.unit}]")
     return figure
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from twintube.common.grouping import grouped
 from twintube.common.words import listed
 from twintube.dampers import Damper
 from twintube.inspection import METHODS, Detection
@@ -41,9 +42,7 @@ def detection_tables(result: Inspection, damper: Damper) -> list[Table]:
     """Share detected and share that fails at the method's limit, a column per oil level."""
     here = [d for d in result.detections if d.damper == damper.name]
     levels = sorted({d.condition.oil_level for d in here}, reverse=True)
-    found: dict[tuple[str, bool, float], list[Detection]] = {}
-    for d in here:
-        found.setdefault((d.method.name, d.condition.scalar, d.condition.oil_level), []).append(d)
+    found = grouped(((d.method.name, d.condition.scalar, d.condition.oil_level), d) for d in here)
 
     def rows(text: Callable[[Sequence[Detection]], str]) -> list[list[str]]:
         return [
@@ -103,9 +102,8 @@ def plate_section(result: Inspection) -> tuple[Section, Picture]:
 def headline(result: Inspection) -> Headline:
     """What the first screen says: down to which oil level the dampers pass, and which loss is seen in the scatter."""
     first = result.dampers[0]
-    seen: dict[str, list[str]] = {}
-    for m in result.methods if result.detections else ():
-        seen.setdefault(seen_in_words(result, first, m).removesuffix(EVERY_WAY), []).append(m.title)
+    methods = result.methods if result.detections else []
+    seen = grouped((seen_in_words(result, first, m).removesuffix(EVERY_WAY), m.title) for m in methods)
     levels = "; ".join(f"{level}: {', '.join(methods)}" for level, methods in seen.items())
     rule = f"{SEEN:.0%} of the cars at {FALSE_ALARMS:.0%} false alarms"
     remark = f"Oil levels of this study at which the loss of {first.name} is seen in {rule}. {levels}." if seen else ""

@@ -5,6 +5,7 @@ from functools import partial
 
 from matplotlib.figure import Figure
 
+from twintube.common.grouping import grouped
 from twintube.dampers import Damper
 from twintube.inspection import INTACT, Condition, Entry
 from twintube.inspection.benches import DT
@@ -36,21 +37,16 @@ def words(entry: Entry) -> str:
     """The verdict with what the rest tells, or why there is none."""
     if entry.not_judged or entry.passed or entry.watched is None:
         return entry.not_judged or PASSES
-    texts: dict[str, list[str]] = {}
-    for name, (first, again) in entry.watched.rested.items():
-        texts.setdefault(says(first, again), []).append(f"{name} {min(1.0, max(0.0, returned(first, again))):.0%}")
+    rests = entry.watched.rested.items()
+    texts = grouped((says(*runs), f"{name} {min(1.0, max(0.0, returned(*runs))):.0%}") for name, runs in rests)
     rested = "; ".join(f"{', '.join(shares)}: {text}" for text, shares in texts.items())
     return f"fails; of the growth has returned after {REST:g} s of rest, with freed gas {rested}"
 
 
 def remarks(entries: Sequence[Entry]) -> list[str]:
     """What the terminal says below the figures: once each, with the oil levels to which it applies."""
-    levels: dict[str, list[str]] = {}
-    for entry in entries:
-        text = words(entry)
-        if text != PASSES:
-            levels.setdefault(text, []).append(f"{entry.condition.oil_level:.0%}")
-    return [f"tiring at {', '.join(at)} oil: {text}" for text, at in levels.items()]
+    levels = grouped((words(entry), f"{entry.condition.oil_level:.0%}") for entry in entries)
+    return [f"tiring at {', '.join(at)} oil: {text}" for text, at in levels.items() if text != PASSES]
 
 
 def plate_of(entries: Sequence[Entry]) -> Tired:

@@ -7,29 +7,12 @@ from typing import Any
 
 from twintube import dampers
 from twintube.claims import EVALUATORS, Claim
-from twintube.claims.claim import block
-from twintube.common.arrays import Array
 from twintube.common.bars import Bar
 from twintube.dampers import Damper
-from twintube.engine.simulate import simulate, work_between
-from twintube.engine.simulation import Simulation
 from twintube.provenance import fingerprint
-from twintube.report.paper import fitted, records
+from twintube.report.paper import fitted
 from twintube.report.paper.records import Records, harmonic_jobs, slow_jobs
-from twintube.rig.plan import at_oil_level
-from twintube.rig.signals import BLOCKS, Signal
-
-
-def loop(damper: Damper, level: float, velocity: float) -> tuple[Signal, Simulation]:
-    """The block and its simulation."""
-    signal = block(damper, velocity)
-    return signal, simulate(at_oil_level(damper, level), signal.stroke, signal.velocity)
-
-
-def works(damper: Damper, level: float, velocity: float) -> Array:
-    """Works [J] of the 19 oscillations."""
-    signal = block(damper, velocity)
-    return work_between(at_oil_level(damper, level), signal.stroke, signal.velocity, signal.marks)
+from twintube.rig.signals import BLOCKS
 
 
 class Context:
@@ -58,7 +41,8 @@ class Context:
         if name not in self._fits:
             records = [self.records.get(job) for job in harmonic_jobs(name, BLOCKS)]
             slow = self.records.get(slow_jobs(name)[0])
-            file = self.folder / "identified" / f"{name}-{self._key()}.toml"
+            versions = f"{fingerprint(fitted.__name__)}_{fingerprint(Records.__module__)}"
+            file = self.folder / "identified" / f"{name}-{versions}_{'quick' if self.quick else 'paper'}.toml"
             with Bar(total=fitted.generations(self.quick), unit="generation", desc=f"identify {name}", leave=False,
                       disable=not self.progress) as bar:  # fmt: skip
 
@@ -67,13 +51,7 @@ class Context:
                     bar.update()
 
                 self._fits[name] = fitted.fit(
-                    self.dampers[name],
-                    (slow.stroke, slow.force),
-                    [r for r in records if r.gas_preload],
-                    [r for r in records if not r.gas_preload],
-                    file=file,
-                    quick=self.quick,
-                    progress=advance,
+                    self.dampers[name], slow, records, file=file, quick=self.quick, progress=advance
                 )
         return self._fits[name]
 
@@ -84,6 +62,3 @@ class Context:
         parameters = self.dampers[name].parameters
         values: dict[str, Any] = {item: getattr(parameters, item) for item in table}
         return self.fit(name).with_(**values)
-
-    def _key(self) -> str:
-        return f"{fingerprint(fitted.__name__)}_{fingerprint(records.__name__)}_{'quick' if self.quick else 'paper'}"

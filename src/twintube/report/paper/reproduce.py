@@ -15,7 +15,7 @@ from twintube.report.common import style
 from twintube.report.common.html_page import Finding, Page, Picture, Section, Table
 from twintube.report.paper.context import Context
 from twintube.report.paper.figures import FIGURES
-from twintube.report.paper.statement import Plot, Statement, as_json, plain
+from twintube.report.paper.statement import Plot, Statement, as_json, plain, verdict
 from twintube.version import __version__
 
 TITLE = "Degraded twin-tube shock absorbers: the paper's figures, reproduced"
@@ -122,8 +122,7 @@ def reproduce(
 def section(plot: Plot, png: bytes) -> Section:
     """A figure as a section of the page."""
     notes = [("Stand-in", text.removeprefix("stand-in: ")) for text in plot.stand_ins]
-    if plot.assumed:
-        notes.append(("Assumed (unpublished)", ", ".join(plot.assumed)))
+    notes += [("Assumed (unpublished)", ", ".join(plot.assumed))] if plot.assumed else []
     notes += [("Remark", text) for text in plot.remarks]
     return Section(
         anchor=f"figure-{plot.number}",
@@ -136,17 +135,12 @@ def section(plot: Plot, png: bytes) -> Section:
     )
 
 
-def finding(statement: Statement) -> Finding:
+def finding(s: Statement) -> Finding:
     """The page's finding of a statement."""
-    facts = [("Source", statement.source)]
-    if statement.claim:
-        facts.append(("Claim", f"{statement.claim} of twintube paper claims"))
-    facts.append(("Basis", f"{statement.basis}: {BASES[statement.basis]}"))
-    if statement.criterion:
-        facts.append(("Criterion", statement.criterion))
-    if statement.reason:
-        facts.append(("Reason", statement.reason))
-    return Finding(statement.text, statement.verdict, facts, plain(statement.numbers))
+    claim = s.claim and f"{s.claim} of twintube paper claims"
+    facts = {"Source": s.source, "Claim": claim, "Basis": f"{s.basis}: {BASES[s.basis]}", "Criterion": s.criterion}
+    given = [(name, text) for name, text in (facts | {"Reason": s.reason}).items() if text]
+    return Finding(s.statement, verdict([s.holds]), given, plain(s.numbers))
 
 
 def summary(entries: Sequence[dict[str, Any]]) -> Table:
