@@ -32,7 +32,7 @@ class ModelRecords:
 
 @pytest.fixture(scope="module")
 def context(tmp_path_factory) -> Context:
-    shared = Context(tmp_path_factory.mktemp("report"), progress=False)
+    shared = Context(tmp_path_factory.mktemp("report"))
     shared.records = ModelRecords(shared.dampers)
     shared._fits = dict(shared.dampers)  # as if the identification had returned the true damper
     return shared

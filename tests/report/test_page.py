@@ -92,6 +92,6 @@ def test_numbers_as_text():
 
 
 def test_a_page_is_written_with_its_pictures(tmp_path):
-    page = html_page.Page("A title", [Section("one", "Numbers")], pictures={"loops": Picture(PNG, "loops")})
+    page = html_page.Page("A title", [Section("one", "Numbers", pictures=[Picture(PNG, "loops", name="loops")])])
     assert page.write(tmp_path) == [tmp_path / "loops.png", tmp_path / "report.html"]
     assert (tmp_path / "loops.png").read_bytes() == PNG and (tmp_path / "report.html").read_text() == page.html

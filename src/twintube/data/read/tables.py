@@ -78,12 +78,7 @@ def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
     numbers = np.array([number for number, _ in body], dtype=np.int64)
     if headers is form.columns:
         # The block's own names and units, which the list replaces.
-        rows_over = [names, [f"[{unit}]" if unit else "" for unit in units or []]] if named else []
-        over = {
-            header: said
-            for i, header in enumerate(headers)
-            if header and (said := [row[i].strip() for row in rows_over if i < len(row) and row[i].strip()])
-        }
+        over = texts_over([row + [""] * width for row in (names, units or []) if named], headers)
         return Raw(columns, numbers, "row", over=over, without=without, empty=empty)
     carried = {header: unit for header, unit in zip(headers, units or [], strict=False) if header and unit}
     return Raw(columns, numbers, "row", carried, without=without, empty=empty)
@@ -150,13 +145,3 @@ def texts_over(rows: Sequence[Sequence[str]], headers: Sequence[str]) -> dict[st
             if header and cell.strip():
                 over.setdefault(header, []).append(f"[{unit}]" if units else cell.strip())
     return over
-
-
-def cells_of(line: str, delimiter: str, width: int) -> list[str]:
-    """The cells of a row of names or units, without empty ones beyond the columns."""
-    cells = split(line, delimiter)
-    if delimiter == "whitespace":
-        return single_names(cells, width)
-    while len(cells) > width and not cells[-1].strip():
-        cells.pop()
-    return cells

@@ -12,7 +12,7 @@ from twintube.data.findings import UnreadableError
 from twintube.data.formats import DEFAULT_ENCODING, Format, Raw, usual_delimiter
 from twintube.data.read.blocks import Rows, chosen, is_numbers, ruled
 from twintube.data.read.lvm import MAGIC, Layout, Segment, completed, layout_of, names_of, segment, segments_of
-from twintube.data.read.tables import NEAREST, cells_of, columns_of, split, texts_over, with_blank
+from twintube.data.read.tables import NEAREST, columns_of, single_names, split, texts_over, with_blank
 
 LOOK = 400  # rows in which the table must begin
 MOST_LOOKED = 1000  # bytes that tell an encoding
@@ -76,7 +76,8 @@ def cut_text(path: Path, form: Format) -> Cut:
     if isinstance(form.columns, list):
         width = len(form.columns)
         skipped = list(islice(io.StringIO(text), form.skip_rows))[-NEAREST:]
-        over = texts_over([cells_of(line.rstrip("\r\n"), delimiter, width) for line in skipped], form.columns)
+        cells = [split(line.rstrip("\r\n"), delimiter) for line in skipped]
+        over = texts_over([single_names(row, width) for row in cells] if delimiter == "whitespace" else cells, form.columns)
     return Cut(ruled(split_text(text, delimiter, form.skip_rows), form), delimiter, over=over)
 
 

@@ -33,9 +33,9 @@ def page(
     `courses` are pictures of drives, by manoeuvre.
     """
     sections = [conclusion.section(seen, rows)] if seen is not None else []
-    drawn = {"car": Picture.drawn(partial(over_levels, rows), LEVELS)} if drives(rows) else {}
-    if drawn:
-        sections.append(Section("levels", "Change over the oil level", pictures=list(drawn.values())))
+    if drives(rows):
+        drawn = Picture.drawn(partial(over_levels, rows), LEVELS, "car")
+        sections.append(Section("levels", "Change over the oil level", pictures=[drawn]))
     for name, words in TITLES.items():
         own = [entry for entry in entries if entry["maneuver"] == name]
         if own:
@@ -63,7 +63,7 @@ def page(
         "cavitation frees. F-v curves are stand-ins (assumed)."
     )
     head = headline(rows, seen, conditions["gas_preload"])
-    return Page(f"Whole car: {car.title}", sections, [lead], headline=head, pictures=drawn)
+    return Page(f"Whole car: {car.title}", sections, [lead], headline=head)
 
 
 def warm(conditions: Mapping[str, Any]) -> str:

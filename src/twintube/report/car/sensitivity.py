@@ -153,11 +153,11 @@ def page(result: Sensitivity, conditions: Mapping[str, Any]) -> Page:
     held = "; ".join(f"{name_of(d)}, in {same_sign(result, d):.0%}" for d in DRIVES) if count else "no draws"
     sentence = f"How many of {count} draws of all assumed values keep the sign of the change: {held}."
     reasons = [(f"{item.title}, {range_of(item)}", item.reason) for item in ASSUMED]
-    picture = Picture.drawn(partial(drawn, result), CAPTION)
+    picture = Picture.drawn(partial(drawn, result), CAPTION, "sensitivity")
     return Page(
         f"Whole car: what the assumed values do, {conditions['car']}",
         [Section("table", "All assumed values", tables=[Table(head, rows)]), Section("ranges", "Ranges", notes=reasons)],
-        lead, headline=Headline(sentence, next=READ, picture=picture), pictures={"sensitivity": picture},
+        lead, headline=Headline(sentence, next=READ, picture=picture),
     )  # fmt: skip
 
 

@@ -33,11 +33,12 @@ class Picture:
     alt: str
     caption: str = ""
     narrow: bytes = b""  # the PNG for small screens, if there is one
+    name: str = ""  # of the file that stands beside the page, if one does
 
     @classmethod
-    def drawn(cls, draw: Callable[[bool], Figure], caption: str, alt: str = "") -> "Picture":
+    def drawn(cls, draw: Callable[[bool], Figure], caption: str, name: str = "") -> "Picture":
         """A picture in two shapes, for wide and, where `draw` is told so, for narrow screens."""
-        return cls(style.png(draw(False)), alt or caption, caption, style.png(draw(True)))
+        return cls(style.png(draw(False)), caption, caption, style.png(draw(True)), name)
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,11 @@ def data_uri(png: bytes) -> str:
     return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
 
 
+def upper(text: str) -> str:
+    """A text as a sentence begins."""
+    return text[0].upper() + text[1:]
+
+
 def coded(text: str) -> str:
     """A text as HTML, in which what stands between backticks is code."""
     return re.sub("`([^`]+)`", r"<code>\1</code>", escape(text))
@@ -131,7 +137,7 @@ def readable(value: Any) -> str:
 def rendered(module: str, name: str, **values: Any) -> str:
     """A template beside a module, with these values."""
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters |= {"coded": coded, "mark": mark, "uri": data_uri}
+    environment.filters |= {"coded": coded, "mark": mark, "uri": data_uri, "sentence": upper}
     return environment.from_string(beside(module, name)).render(**values)
 
 
@@ -142,7 +148,7 @@ def beside(module: str, name: str) -> str:
 
 @dataclass(frozen=True)
 class Page:
-    """The page of a result, and those of its pictures that stand beside it as files, by name."""
+    """The page of a result."""
 
     title: str
     sections: Sequence[Section]
@@ -150,7 +156,6 @@ class Page:
     summary: Sequence[Table] = ()
     headline: Headline | None = None
     foot: str = ""
-    pictures: Mapping[str, Picture] = field(default_factory=dict)
 
     @property
     def html(self) -> str:
@@ -160,9 +165,11 @@ class Page:
         return rendered(__name__, "page.html", **named, foot=foot)
 
     def write(self, folder: Path, name: str = "report.html") -> list[Path]:
-        """Write pictures and page; returns the files."""
-        written = [folder / f"{picture}.png" for picture in self.pictures]
-        for file, picture in zip(written, self.pictures.values(), strict=True):
-            write_bytes(file, picture.png)
+        """Write the page and those of its pictures that have a name; returns the files."""
+        first = [self.headline.picture] if self.headline and self.headline.picture else []
+        shown = [*first, *(picture for section in self.sections for picture in section.pictures)]
+        files = {folder / f"{picture.name}.png": picture.png for picture in shown if picture.name}
+        for file, png in files.items():
+            write_bytes(file, png)
         write_text(folder / name, self.html)
-        return [*written, folder / name]
+        return [*files, folder / name]

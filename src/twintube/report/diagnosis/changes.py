@@ -126,13 +126,13 @@ def next_step(answer: Answer) -> str:
     elif first.kind == UNKNOWN:
         known = "look at where the error is; no cause of the catalogue explains it"
         steps.append(known if answer.compared else "identify this damper first (twintube identify)")
-    return f"Next: {'; '.join(dict.fromkeys(steps)) or 'nothing'}."
+    return f"{'; '.join(dict.fromkeys(steps)) or 'nothing'}."
 
 
 def lines(answer: Answer) -> list[str]:
     """The answer for the terminal."""
     put_right = [f"{remark}." for remark in answer.remarks] if answer.tared or answer.unlike else []
-    return [sentence(answer), *put_right, next_step(answer)]
+    return [sentence(answer), *put_right, f"Next: {next_step(answer)}"]
 
 
 def headline(answer: Answer) -> Headline:
@@ -142,7 +142,6 @@ def headline(answer: Answer) -> Headline:
         badge, mark = state.badge(answer.asked)
     elif answer.verdict == NONE and answer.compared:
         badge = "nothing has changed"
-    step = next_step(answer).removeprefix("Next: ")
     later = "later " if answer.compared else ""
     caption = "How likely each answer is (blue: these hold 90 %)"
     caption += f", and the error of each {later}record, predicted from all other records." if gained(answer) else "."
@@ -150,9 +149,9 @@ def headline(answer: Answer) -> Headline:
         caption = "The error of each record, predicted from all other records: no cause of the catalogue takes it away."
     elif answer.doubted:
         caption = "The error of each record, predicted from all other records: in all it is larger with the cause."
-    drawn = Picture.drawn(partial(picture, answer), caption)
+    drawn = Picture.drawn(partial(picture, answer), caption, PICTURE)
     text = " ".join([*state.sentences(answer.asked), sentence(answer)])
-    return Headline(text, badge, mark, next=step[0].upper() + step[1:], picture=drawn)
+    return Headline(text, badge, mark, next=next_step(answer), picture=drawn)
 
 
 def picture(answer: Answer, narrow: bool = False) -> Figure:

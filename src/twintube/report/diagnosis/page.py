@@ -31,16 +31,15 @@ def lines(answer: Answer) -> list[str]:
 def page(answer: Answer) -> Page:
     """The page of an answer, with its first picture."""
     if answer.changes is None:
-        head, name = state.headline(answer.states), state.PICTURE
+        head = state.headline(answer.states)
         sections = [limits(answer), state.section(answer.states)]
     else:
-        head, name = changes.headline(answer), changes.PICTURE
+        head = changes.headline(answer)
         sections = [budget.section(answer), limits(answer), budget.loops(answer), changes.section(answer)]
         if answer.states:
             sections.append(state.section(answer.states, pictures=[state.drawn(answer.states)]))
-    assert head.picture is not None, "both answers are drawn"
     foot = f"Computed in {answer.seconds:.0f} s."
-    return Page(f"Diagnosis: {answer.title}", sections, headline=head, foot=foot, pictures={name: head.picture})
+    return Page(f"Diagnosis: {answer.title}", sections, headline=head, foot=foot)
 
 
 def limits(answer: Answer) -> Section:

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from matplotlib.figure import Figure
 
-from twintube.common.words import listed
+from twintube.common.words import listed, lower
 from twintube.diagnosis import StateAnswer
 from twintube.diagnosis.channels import FAULTS
 from twintube.diagnosis.channels import TARED as TARED_CELL
@@ -81,7 +81,7 @@ def undecided(posterior: StatePosterior) -> bool:
 
 def lines(answers: Sequence[StateAnswer]) -> list[str]:
     """The answers for the terminal."""
-    return [*sentences(answers), next_step(answers)]
+    return [*sentences(answers), f"Next: {next_step(answers)}"]
 
 
 def sentences(answers: Sequence[StateAnswer]) -> list[str]:
@@ -92,18 +92,17 @@ def sentences(answers: Sequence[StateAnswer]) -> list[str]:
 def next_step(answers: Sequence[StateAnswer]) -> str:
     """What to do next."""
     if any(answer.posterior.tared > 1.0 - SURE for answer in answers):
-        return f"Next: {REPAIRS[TARED_CELL]}."
+        return f"{REPAIRS[TARED_CELL]}."
     wide = any(high - low > WIDE for low, high in (answer.posterior.interval() for answer in answers))
     if wide:
-        return f"Next: {NARROWER[0].lower()}{NARROWER[1:]}"
-    return "Next: state this fill in dataset.toml; `twintube diagnose` then asks what else the model lacks."
+        return lower(NARROWER)
+    return "state this fill in dataset.toml; `twintube diagnose` then asks what else the model lacks."
 
 
 def headline(answers: Sequence[StateAnswer]) -> Headline:
     """What the first screen says."""
     text = " ".join(sentences(answers))
-    step = next_step(answers).removeprefix("Next: ")
-    return Headline(text, *badge(answers), next=step[0].upper() + step[1:], picture=drawn(answers))
+    return Headline(text, *badge(answers), next=next_step(answers), picture=drawn(answers, PICTURE))
 
 
 def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
@@ -122,9 +121,9 @@ def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
     return "no oil lost", "yes"
 
 
-def drawn(answers: Sequence[StateAnswer]) -> Picture:
+def drawn(answers: Sequence[StateAnswer], name: str = "") -> Picture:
     """The picture for wide and narrow screens."""
-    return Picture.drawn(partial(picture, answers), CAPTION)
+    return Picture.drawn(partial(picture, answers), CAPTION, name)
 
 
 def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:

@@ -123,10 +123,10 @@ def table(entries: Sequence[Entry]) -> Table:
     return Table(head, rows, caption, numeric=range(1, 9))
 
 
-def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[Section, Picture]:
-    """The section of one damper, and its picture."""
+def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> Section:
+    """The section of one damper."""
     caption = "Velocity of the damper on the plate: where oil is lost it grows while the plate shakes."
-    drawn = Picture.drawn(partial(course, damper, vehicle.corner(damper), entries), caption)
+    drawn = Picture.drawn(partial(course, damper, vehicle.corner(damper), entries), caption, f"{damper.name}_tiring")
     text = [
         f"The plate shakes the wheel for {HOLD:g} s. A weak curve or a stiff tyre answers every cycle alike; oil loss frees "
         f"gas in every fast stroke, and the damper tires. Fails above {LIMIT:g}, more than the heat of the run does to an "
@@ -136,4 +136,4 @@ def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[
         RESTS_ON,
     ]
     title = f"Does {damper.name} tire?"
-    return Section(f"tiring-{damper.name}", title, text=text, pictures=[drawn], tables=[table(entries)]), drawn
+    return Section(f"tiring-{damper.name}", title, text=text, pictures=[drawn], tables=[table(entries)])

@@ -18,9 +18,9 @@ from twintube.rig.signals import BLOCKS
 class Context:
     """Shared by the figures of one report, so that every result is computed once."""
 
-    def __init__(self, folder: Path, *, quick: bool = True, processes: int | None = None, progress: bool = True) -> None:
-        self.folder, self.quick, self.progress = folder, quick, progress
-        self.records = Records(folder / "records", processes, progress)
+    def __init__(self, folder: Path, *, quick: bool = True, processes: int | None = None) -> None:
+        self.folder, self.quick = folder, quick
+        self.records = Records(folder / "records", processes)
         self._claims: dict[str, Claim] = {}
         self._fits: dict[str, Damper] = {}
 
@@ -43,8 +43,8 @@ class Context:
             slow = self.records.get(slow_jobs(name)[0])
             versions = f"{fingerprint(fitted.__name__)}_{fingerprint(Records.__module__)}"
             file = self.folder / "identified" / f"{name}-{versions}_{'quick' if self.quick else 'paper'}.toml"
-            with Bar(total=fitted.generations(self.quick), unit="generation", desc=f"identify {name}", leave=False,
-                      disable=not self.progress) as bar:  # fmt: skip
+            total = fitted.generations(self.quick)
+            with Bar(total=total, unit="generation", desc=f"identify {name}", leave=False) as bar:
 
                 def advance(title: str, error: float) -> None:
                     bar.set_postfix_str(f"{title}: {error:.1f}", refresh=False)

@@ -109,16 +109,15 @@ def compute(job: Job, folder: Path) -> None:
 class Records:
     """The records of a report, in `folder`; records of another version of the rig are not used."""
 
-    def __init__(self, folder: Path, processes: int | None = None, progress: bool = True) -> None:
+    def __init__(self, folder: Path, processes: int | None = None) -> None:
         self.folder = folder / fingerprint(__name__)
         self.processes = processes or os.cpu_count() or 1
-        self.progress = progress
 
     def prepare(self, jobs: Iterable[Job]) -> None:
         """Compute the missing records, longest first, in worker processes."""
         self.folder.mkdir(parents=True, exist_ok=True)
         missing = sorted({j for j in jobs if not (self.folder / j.file).exists()}, key=lambda j: (j.kind, j.value))
-        with Bar(total=len(missing), unit="record", desc="virtual rig", leave=False, disable=not self.progress) as bar:
+        with Bar(total=len(missing), unit="record", desc="virtual rig", leave=False) as bar:
             if len(missing) <= FEW_JOBS or self.processes == 1:
                 for job in missing:
                     compute(job, self.folder)
