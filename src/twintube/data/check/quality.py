@@ -60,22 +60,18 @@ def check_quality(table: Table, excluded: Mask, notes: Notes) -> Mask:
             message = f"clipped: the force stays at its {side} value {limit:.6g} N, the limit of load cell or amplifier"
             notes.warning(message + where.tail, header, where.first)
     lost = dropped(force, stroke) & ~excluded
-    if where := notes.places(lost, table.rows):
-        message = f"dropout: the force jumps to {force[lost][0]:.6g} N and back{where.tail}; left out"
-        notes.warning(message, header, where.first)
     still = frozen(force, stroke) & ~excluded & ~cut.samples & ~lost & ~repeated
-    if where := notes.places(still, table.rows):
-        message = (
-            f"frozen: the force stays at {force[still][0]:.6g} N while the stroke moves, then jumps{where.tail}; left out"
-        )
-        notes.warning(message, header, where.first)
+    for wrong, does, then in (
+        (lost, "dropout: the force jumps to", "and back"),
+        (still, "frozen: the force stays at", "while the stroke moves, then jumps"),
+    ):
+        if where := notes.places(wrong, table.rows):
+            notes.warning(f"{does} {force[wrong][0]:.6g} N {then}{where.tail}; left out", header, where.first)
     for name, unit in (("stroke", "m"), ("force", "N")):
         levels = resolution(table.columns[name])
         if levels is not None and levels[1] < FEWEST_LEVELS and levels[2] < DITHER * levels[0]:
-            message = (
-                f"coarse: {name} takes {levels[1]} levels, {levels[0]:.3g} {unit} apart; {FEWEST_LEVELS} or more are usual"
-            )
-            notes.warning(message, table.headers[name])
+            message = f"coarse: {name} takes {levels[1]} levels, {levels[0]:.3g} {unit} apart"
+            notes.warning(f"{message}; {FEWEST_LEVELS} or more are usual", table.headers[name])
     return ~(excluded | repeated | cut.samples | lost | still)
 
 

@@ -36,17 +36,14 @@ def words(name: str) -> list[str]:
     return [word.lower() for word in re.findall(r"[^\W\d_]+", re.sub(r"(?<=[a-zäöü])(?=[A-ZÄÖÜ])", " ", name))]
 
 
-def is_measured(name: str) -> bool:
-    """Whether a name says that it is the actual value."""
-    return any(word in MEASURED or word.startswith(MEASURED_PARTS) or word.endswith(MEASURED_PARTS) for word in words(name))
+def says(name: str, whole: Sequence[str], parts: tuple[str, ...]) -> bool:
+    """Whether a name has one of these words, or a word that begins or ends with one of these parts."""
+    return any(word in whole or word.startswith(parts) or word.endswith(parts) for word in words(name))
 
 
 def is_set_point(name: str) -> bool:
     """Whether a name says that it is what was asked for, and not what was measured."""
-    own = words(name)
-    return not is_measured(name) and any(
-        word in SET_POINT or word.startswith(SET_POINT_PARTS) or word.endswith(SET_POINT_PARTS) for word in own
-    )
+    return says(name, SET_POINT, SET_POINT_PARTS) and not says(name, MEASURED, MEASURED_PARTS)
 
 
 def named_like(name: str) -> Iterator[str]:

@@ -140,8 +140,8 @@ def of_lvm(raw: Raw) -> Sniffed:
     """What the names and units of a segment tell."""
     result = Sniffed({})
     names = list(raw.columns)
-    units = [raw.units.get(name, "") for name in names]
-    pairs = [("time" if name == X else name, unit_of(unit) or unit) for name, unit in zip(names, units, strict=True)]
+    units = {name: raw.units.get(name, "") for name in names}
+    pairs = [("time" if name == X else name, unit_of(unit) or unit) for name, unit in units.items()]
     columns = assigned(pairs, result.doubts)
     result.facts.append("columns in the file: " + ", ".join(names))
     result.reading["columns"] = dict(enumerate(names))

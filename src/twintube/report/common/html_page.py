@@ -137,7 +137,7 @@ def readable(value: Any) -> str:
 def rendered(module: str, name: str, **values: Any) -> str:
     """A template beside a module, with these values."""
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters |= {"coded": coded, "mark": mark, "uri": data_uri, "sentence": upper}
+    environment.filters.update({"coded": coded, "mark": mark, "uri": data_uri, "sentence": upper})
     return environment.from_string(beside(module, name)).render(**values)
 
 
