@@ -187,7 +187,7 @@ def check_velocity(table: Table, notes: Notes) -> None:
         return
     time, stroke, velocity = (table.columns[name] for name in ("time", "stroke", "velocity"))
     header = table.headers["velocity"]
-    size = float(np.std(straightened(stroke, time)))
+    size = float(np.sqrt(np.mean(straightened(stroke, time) ** 2)))
     if size == 0.0:
         return
     made = ways(velocity, time, stroke)

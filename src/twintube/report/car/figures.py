@@ -116,8 +116,7 @@ def road_of(road: str) -> str:
 def answer(firsts: Sequence[Mapping[str, Any]], rows: Sequence[Mapping[str, Any]], narrow: bool = False) -> Figure:
     """A bar for each row of `firsts`, with its band and what a scalar factor says of the same drive."""
     same = ("maneuver", "speed_kmh", "road", "oil_level")
-    figure, axes = grid(1, (9.0, 0.5 * len(firsts) + 0.8), narrow)
-    ax = axes[0, 0]
+    figure, ((ax,),) = grid(1, (9.0, 0.5 * len(firsts) + 0.8), narrow)
     names = []
     for at, row in enumerate(firsts):
         low, high = (100 * x for x in row["change_band"])

@@ -81,9 +81,9 @@ def picture(budget: Budget, narrow: bool = False) -> Figure:
     bars = [("Whole error", budget.error, style.INK)]
     bars += [(words(x)[0], x.force, style.BLUE if x.finding else style.FAINT) for x in shown(budget)]
     bars.append(("Noise", budget.noise, style.FAINT))
-    figure, axes = style.grid(1, (9.0, 0.8 + 0.42 * len(bars)), narrow, most=1)
-    style.bars(axes.flat[0], bars, 24 if narrow else 44)
-    axes.flat[0].set_xlabel("force, RMS [N]")
+    figure, ((ax,),) = style.grid(1, (9.0, 0.8 + 0.42 * len(bars)), narrow, most=1)
+    style.bars(ax, bars, 24 if narrow else 44)
+    ax.set_xlabel("force, RMS [N]")
     return figure
 
 

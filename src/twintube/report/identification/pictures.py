@@ -66,8 +66,7 @@ def works(rows: Sequence[Validated], narrow: bool = False) -> Figure:
 
 def curve(result: Result, narrow: bool = False) -> Figure:
     """The identified F-v curve with the friction-reduced points of the intact records."""
-    figure, axes = style.grid(1, (8.0, 3.6), narrow)
-    ax = axes[0, 0]
+    figure, ((ax,),) = style.grid(1, (8.0, 3.6), narrow)
     damper = result.identification.damper
     intact = [h for h, _ in result.harmonics if h.intact]
     v = np.linspace(-1, 1, 401) * max(h.top_speed for h, _ in result.harmonics)
@@ -79,7 +78,7 @@ def curve(result: Result, narrow: bool = False) -> Figure:
         points = np.array(rebound + [(-a, -b) for a, b in compression])
         points[:, 1] += result.identification.offset * -1.0
         ax.plot(points[:, 0], points[:, 1], "o", color=style.RED, ms=4, label="records at stroke 0, less friction and gas")
-    style.label(axes, "velocity [m/s], rebound positive", "fluid force [N]")
+    ax.set(xlabel="velocity [m/s], rebound positive", ylabel="fluid force [N]")
     style.legend_above(figure, ax)
     return figure
 
@@ -87,8 +86,7 @@ def curve(result: Result, narrow: bool = False) -> Figure:
 def intervals(result: Result, narrow: bool = False) -> Figure:
     """Every parameter with its interval within its allowed range."""
     estimates = [e for e in result.identification.estimates if e.name in DEGRADATION]
-    figure, axes = style.grid(1, (8.0, 0.3 * len(estimates) + 0.5), narrow)
-    ax = axes[0, 0]
+    figure, ((ax,),) = style.grid(1, (8.0, 0.3 * len(estimates) + 0.5), narrow)
     for i, e in enumerate(estimates):
         low, width = e.bounds[0], e.bounds[1] - e.bounds[0]
         colour = style.BLUE if e.determined else style.FAINT
@@ -114,8 +112,7 @@ def convergence(result: Result, narrow: bool = False) -> Figure:
 
 def drives(rows: Sequence[Validated], narrow: bool = False) -> Figure:
     """Work of the drives relative to the intact damper."""
-    figure, axes = style.grid(1, (9.0, 0.32 * len(rows) + 0.7), narrow)
-    ax = axes[0, 0]
+    figure, ((ax,),) = style.grid(1, (9.0, 0.32 * len(rows) + 0.7), narrow)
     at = np.arange(len(rows))
     ax.barh(at - 0.2, [r.relative_measured or 0.0 for r in rows], 0.38, color=style.GREY, label="measured")
     ax.barh(at + 0.2, [r.relative_simulated or 0.0 for r in rows], 0.38, color=style.RED, label="simulated")

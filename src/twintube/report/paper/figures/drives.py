@@ -107,8 +107,7 @@ def bars(context: Context, name: str) -> Plot:
         rig, model = ([record.works()[0] for record in records], [model_works(damper, record)[0] for record in records])
         for source, works in zip(table, (rig, model), strict=True):
             table[source][maneuver.name] = [float(work / works[0]) for work in works]
-    figure, axes = style.canvas(1, 1, (10.0, 4.8))
-    ax = axes[0][0]
+    figure, ((ax,),) = style.canvas(1, 1, (10.0, 4.8))
     positions = np.arange(len(MANEUVERS))
     found = {source: np.array(list(rows.values()))[:, 1:] for source, rows in table.items()}  # (drives, degraded levels)
     for i, (level, colour) in enumerate(zip(states[1:], style.LEVELS[1:], strict=True)):

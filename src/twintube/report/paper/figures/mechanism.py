@@ -27,13 +27,12 @@ VARIED = (FV, DEAD, REACH, "the set of parameters around which the figure varies
 
 def figure_12(context: Context) -> Plot:
     """Velocity-dependent scaling of the friction."""
-    figure, axes = style.canvas(1, 1, (7.0, 3.6))
+    figure, ((ax,),) = style.canvas(1, 1, (7.0, 3.6))
     v = np.linspace(-0.3, 0.3, 601)
     curves = {name: np.array([stribeck(d.parameters, float(x)) for x in v]) for name, d in context.dampers.items()}
     scaling = curves["SA7"]
-    axes[0][0].plot(v, scaling, color=style.INK, lw=1.6)
-    axes[0][0].set_ylim(0, 1.08)
-    style.label(axes, "velocity [m/s]", "scaling $k_{FrS}$ [1]")
+    ax.plot(v, scaling, color=style.INK, lw=1.6)
+    ax.set(xlabel="velocity [m/s]", ylabel="scaling $k_{FrS}$ [1]", ylim=(0, 1.08))
     return Plot(
         12,
         "Velocity-dependent scaling factor for the friction force",
@@ -62,14 +61,13 @@ def figure_14(context: Context) -> Plot:
     span = slice(signal.marks[0], signal.marks[4] + 1)
     time = signal.time[span] - signal.time[signal.marks[0]]
     volumes = {phase: model.columns[f"V2_{phase}"][span] * 1e6 for phase in style.PHASES}
-    figure, axes = style.canvas(1, 1, (9.0, 4.0))
-    ax = axes[0][0]
+    figure, ((ax,),) = style.canvas(1, 1, (9.0, 4.0))
     ax.stackplot(time, *volumes.values(), colors=[style.PHASES[p] for p in volumes], labels=list(volumes), lw=0)
     total = np.sum(list(volumes.values()), axis=0)
     ax.plot(time, total, color=style.INK, lw=1.4, label="compression chamber $V_2$")
     ax.set_xlim(0, time[-1])
     ax.set_ylim(bottom=0)
-    style.label(axes, f"time [s], first four oscillations, maximum velocity {ONE_METRE:g} m/s", "volume [mL]")
+    ax.set(xlabel=f"time [s], first four oscillations, maximum velocity {ONE_METRE:g} m/s", ylabel="volume [mL]")
     style.legend_above(figure, ax)
     at_top = {phase: float(v[np.argmax(total)]) for phase, v in volumes.items()}
     return Plot(
@@ -225,14 +223,14 @@ def figure_18(context: Context) -> Plot:
     p = context.dampers["SA8"].with_(B=1.0)
     share = np.linspace(0.0, 1.0, 201)
     exponents = (0.5, 1.0, 2.0, 5.0, 10.0, 50.0)
-    figure, axes = style.canvas(1, 1, (7.0, 4.0))
+    figure, ((ax,),) = style.canvas(1, 1, (7.0, 4.0))
     table = {}
     for E, colour in zip(exponents, matplotlib.colormaps["viridis"](np.linspace(0.0, 0.9, len(exponents))), strict=True):
         q = p.with_(E=E).parameters
         table[E] = np.array([foam_factor(q, float(x), 1.0) for x in share])
-        axes[0][0].plot(share, table[E], color=colour, lw=1.6, label=f"E = {E:g}")
-    style.label(axes, "oil share of the foam $p_{oil}$ [1]", "force relative to oil [1]")
-    axes[0][0].legend(fontsize=9, frameon=False)
+        ax.plot(share, table[E], color=colour, lw=1.6, label=f"E = {E:g}")
+    ax.set(xlabel="oil share of the foam $p_{oil}$ [1]", ylabel="force relative to oil [1]")
+    ax.legend(fontsize=9, frameon=False)
     linear = float(np.abs(table[1.0] - share).max())
     falls = all((table[b] <= table[a] + ROUNDING).all() for a, b in itertools.pairwise(exponents))
     return Plot(

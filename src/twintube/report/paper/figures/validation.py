@@ -174,9 +174,9 @@ def mean_deviations(work: Array, measured: Array, intact: Array) -> dict[str, fl
 def drawn(context: Context, velocity: float, unit: str) -> tuple[Any, ...]:
     """SA7 at its higher degraded level: record of the stand-in, simulation with its stroke, figure and its axes."""
     record = context.records.get(Job("SA7", "harmonic", velocity, levels("SA7")[1]))
-    figure, axes = style.canvas(1, 1, (7.5, 4.4))
-    style.label(axes, "stroke [mm]", f"force [{unit}]")
-    return record, on_record(context.fit("SA7"), record), figure, axes[0][0]
+    figure, ((ax,),) = style.canvas(1, 1, (7.5, 4.4))
+    ax.set(xlabel="stroke [mm]", ylabel=f"force [{unit}]")
+    return record, on_record(context.fit("SA7"), record), figure, ax
 
 
 def steepest(stroke: Array, force: Array) -> float:
