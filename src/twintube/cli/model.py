@@ -145,18 +145,21 @@ def print_variables() -> None:
     from twintube.core.effects import Parameters
     from twintube.core.variables import Inputs, Outputs, fmi_name
 
-    typer.echo("# Variables\n\nInputs, outputs and parameters of the model and its FMU, in SI units.\n")
-    typer.echo("| name | symbol | unit | range | meaning | source |\n|---|---|---|---|---|---|")
+    typer.echo(
+        "# Variables\n\nInputs, outputs and parameters of the model and its FMU. Without a unit: a share or a number.\n"
+    )
+    typer.echo("| name, symbol | range, unit | meaning | source |\n|---|---|---|---|")
     for record in (Inputs, Outputs, Parameters):
         for item in fields(record):
             meta = item.metadata
+            name, symbol = fmi_name(item), meta["symbol"]
             low, high = ("" if bound is None else f"{bound:g}" for bound in (meta["lower"], meta["upper"]))
+            bounds = f"{low}..{high}" if low or high else ""
+            unit = "" if meta["unit"] == "1" else meta["unit"]
             size = f"[1..{meta['size']}]" if meta["size"] > 1 else ""
             cells = (
-                f"`{fmi_name(item)}{size}`",
-                meta["symbol"],
-                meta["unit"],
-                f"{low}..{high}" if low or high else "",
+                f"`{name}{size}`" + (f" {symbol}" if symbol and symbol != name.rpartition(".")[2] else ""),
+                f"{bounds} {unit}".strip(),
                 meta["description"],
                 meta["source"],
             )
