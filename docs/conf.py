@@ -66,17 +66,3 @@ html_show_copyright = False
 html_show_sphinx = False
 html_copy_source = False
 html_show_sourcelink = False
-
-
-def adapt(app: object, name: str, text: list[str]) -> None:
-    """Tables of the code; `twintube dampers --variables` writes one without a title; the explorer's page is optional."""
-    text[0] = tables.written(text[0])
-    if name == "variables":
-        text[0] = f"# Variables\n\n{text[0]}"
-    elif name == "index" and not (HERE / "explorer.md").exists():
-        text[0] = text[0].replace("\nexplorer\n", "\n")
-
-
-def setup(app: object) -> None:
-    """Called by Sphinx."""
-    app.connect("source-read", adapt)  # type: ignore[attr-defined]

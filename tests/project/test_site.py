@@ -26,7 +26,7 @@ from twintube.diagnosis.numbers import listed
 
 DOCS = ROOT / "docs"
 GALLERY = sorted((DOCS / "gallery").glob("*.py"))
-MADE = {"explorer", "examples/index"}  # in the toctree, but written while building or by another version
+MADE = {"examples/index"}  # in the toctree, but written while building
 
 
 def in_toctrees() -> list[str]:
