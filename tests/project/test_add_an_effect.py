@@ -128,7 +128,7 @@ def test_the_generated_parts_know_it(copy: Path) -> None:
     assert stubs.returncode == 0, stubs.stderr
     assert "groove_share: float" in (copy / "twintube" / "core" / "effects" / "__init__.pyi").read_text(encoding="utf-8")
     table = run(copy, "-m", "twintube", "dampers", "--variables")
-    assert "| `bypass_groove.groove_share` |" in table.stdout, table.stderr
+    assert "- `bypass_groove.groove_share`, " in table.stdout, table.stderr
 
 
 def test_the_name_of_a_file_changes_no_result(copy: Path) -> None:

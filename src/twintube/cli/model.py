@@ -145,22 +145,19 @@ def print_variables() -> None:
     from twintube.core.effects import Parameters
     from twintube.core.variables import Inputs, Outputs, fmi_name
 
-    typer.echo(
-        "# Variables\n\nInputs, outputs and parameters of the model and its FMU. Without a unit: a share or a number.\n"
-    )
-    typer.echo("| name, symbol | range, unit | meaning | source |\n|---|---|---|---|")
+    typer.echo("# Variables\n\nName, symbol, range and unit: meaning, *source*. Without a unit: a share or a number.")
     for record in (Inputs, Outputs, Parameters):
+        typer.echo(f"\n## {record.__name__}\n")
         for item in fields(record):
             meta = item.metadata
             name, symbol = fmi_name(item), meta["symbol"]
+            size = f"[1..{meta['size']}]" if meta["size"] > 1 else ""
             low, high = ("" if bound is None else f"{bound:g}" for bound in (meta["lower"], meta["upper"]))
             bounds = f"{low}..{high}" if low or high else ""
             unit = "" if meta["unit"] == "1" else meta["unit"]
-            size = f"[1..{meta['size']}]" if meta["size"] > 1 else ""
-            cells = (
-                f"`{name}{size}`" + (f" {symbol}" if symbol and symbol != name.rpartition(".")[2] else ""),
+            head = (
+                f"`{name}{size}`" if symbol in ("", name.rpartition(".")[2]) else f"`{name}{size}` {symbol}",
                 f"{bounds} {unit}".strip(),
-                meta["description"],
-                meta["source"],
             )
-            typer.echo("| " + " | ".join(cells) + " |")
+            source = f", *{meta['source']}*" if meta["source"] else ""
+            typer.echo(f"- {', '.join(filter(None, head))}: {meta['description']}{source}")
