@@ -58,7 +58,7 @@ def test_what_is_open_above_it_is_that_of_the_table() -> None:
 
 
 def test_what_is_left_at_50_percent_is_that_of_the_table() -> None:
-    text = sentence("docs/car.md", "At 50 % it is")
+    text = sentence("docs/car.md", "at 50 % it is")
     default = rise("default")
     for speed in SPEEDS:
         assert "{} to {} % ({:.0f} km/h)".format(*default[speed, 0.5], speed) in text
