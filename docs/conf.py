@@ -66,3 +66,13 @@ html_show_copyright = False
 html_show_sphinx = False
 html_copy_source = False
 html_show_sourcelink = False
+
+
+def adapt(app: object, name: str, text: list[str]) -> None:
+    """Tables of the code."""
+    text[0] = tables.written(text[0])
+
+
+def setup(app: object) -> None:
+    """Called by Sphinx."""
+    app.connect("source-read", adapt)  # type: ignore[attr-defined]
