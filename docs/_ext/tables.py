@@ -1,7 +1,10 @@
-"""Tables that pages of the site take from the code: `<!-- table: hooks -->` and `<!-- table: numbers -->`."""
+"""Tables that pages of the site take from the code: `<!-- table: hooks -->`, and so `numbers` and `variables`."""
 
 from collections.abc import Iterator
 
+from typer.testing import CliRunner
+
+from twintube.cli import app
 from twintube.core.hook_table import HOOKS, JOINED
 from twintube.diagnosis.numbers import listed
 
@@ -23,8 +26,15 @@ def numbers() -> Iterator[str]:
         yield f"| `{entry['name']}` | {', '.join(f'{x:g}' for x in values)}{unit} | {entry['meaning']} | {entry['source']} |"
 
 
+def variables() -> Iterator[str]:
+    """The inputs, outputs and parameters, as the command prints them."""
+    yield from CliRunner().invoke(app, ["dampers", "--variables"], catch_exceptions=False).stdout.splitlines()
+
+
 def written(page: str) -> str:
     """The page with its tables."""
-    for table in (hooks, numbers):
-        page = page.replace(f"<!-- table: {table.__name__} -->", "\n".join(table()))
+    for table in (hooks, numbers, variables):
+        mark = f"<!-- table: {table.__name__} -->"
+        if mark in page:
+            page = page.replace(mark, "\n".join(table()))
     return page

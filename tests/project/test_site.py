@@ -91,6 +91,15 @@ def test_the_site_shows_the_numbers_of_the_diagnosis_and_the_hooks_of_effects() 
         assert re.search(rf"^\| `{name}` \| .+ \| {re.escape(hook.does)} \|$", effects, re.MULTILINE), name
 
 
+def test_the_site_shows_the_variables_with_range_unit_and_source() -> None:
+    page = extension("tables").written((DOCS / "variables.md").read_text(encoding="utf-8"))
+    assert "\n- `stroke` z, -0.5..0.5 m: stroke, positive in rebound (rod out), 0 in the middle\n" in page
+    assert (
+        "\n- `degradation.X_Re`, 0..1: oil share of the piston valve's mixed flow, rebound, *Table 9, equation 22*\n" in page
+    )
+    assert not re.search(r"^- `[^`]+`: ", page, re.MULTILINE), "a range, or a unit"
+
+
 def test_every_equation_is_on_the_page_of_the_model_and_leads_to_its_lines(tags: Any) -> None:
     page = (DOCS / "model.md").read_text(encoding="utf-8")
     shown = [

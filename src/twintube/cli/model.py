@@ -145,7 +145,7 @@ def print_variables() -> None:
     from twintube.core.effects import Parameters
     from twintube.core.variables import Inputs, Outputs, fmi_name
 
-    typer.echo("# Variables\n\nName, symbol, range and unit: meaning, *source*. Without a unit: a share or a number.")
+    typer.echo("Name, symbol, range and unit: meaning, *source*. Without a unit: a share or a number.")
     for record in (Inputs, Outputs, Parameters):
         typer.echo(f"\n## {record.__name__}\n")
         for item in fields(record):
