@@ -6,6 +6,8 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
 
+import tables
+
 from twintube import __version__
 
 project, author = "twintube", "the twintube authors"
@@ -67,11 +69,8 @@ html_show_sourcelink = False
 
 
 def adapt(app: object, name: str, text: list[str]) -> None:
-    """`twintube dampers --variables` writes a table without a title; the page about the explorer is optional."""
-    if name == "variables":
-        text[0] = f"# Variables\n\n{text[0]}"
-    elif name == "index" and not (HERE / "explorer.md").exists():
-        text[0] = text[0].replace("\nexplorer\n", "\n")
+    """Tables of the code."""
+    text[0] = tables.written(text[0])
 
 
 def setup(app: object) -> None:

@@ -8,7 +8,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from command_table import known
+from command_names import known
 from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util import logging

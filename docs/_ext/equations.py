@@ -15,7 +15,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 from tags import FILES, Place, numbers, places, source
 
-MODEL, CODE = "model.html", "kernel.html"
+MODEL, CODE = "model.html", "architecture.html"
 
 
 def anchor(place: Place) -> str:
@@ -114,5 +114,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("equation", Equation)
     app.add_directive("equation-table", EquationTable)
     app.add_directive("kernel-source", KernelSource)
-    app.connect("env-get-outdated", lambda *_: ["model", "kernel"])
+    app.connect("env-get-outdated", lambda *_: ["model", "architecture"])
     return {"parallel_read_safe": True, "parallel_write_safe": True}

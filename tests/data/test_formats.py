@@ -9,8 +9,7 @@ import pytest
 
 from tests.data.conftest import RECORD, Columns, as_csv, good
 from twintube.common.extras import extra_of
-from twintube.dampers import load
-from twintube.data import GIVEN, GRADIENT, MEASURED, Record, check_dataset, load_dataset
+from twintube.data import GRADIENT, MEASURED, Record, check_dataset, load_dataset
 from twintube.readers import KINDS
 from twintube.readers.__main__ import READERS
 
@@ -201,34 +200,6 @@ def test_a_record_has_the_last_word_on_how_to_read_it(folder: Make) -> None:
     toml = 'damper = "SA8"\nforce_sign = -1\n' + RECORD.format("a.csv") + RECORD.format("b.csv") + "force_sign = 1\n"
     for record in load_dataset(folder({"a.csv": c, "b.csv": good()}, toml=toml)).records:
         is_good(record)
-
-
-REAL = Path(__file__).parents[2].parent / "shared" / "measured"
-
-
-@pytest.mark.skipif(not REAL.is_dir(), reason="no measured data beside the repository")
-@pytest.mark.parametrize(
-    ("source", "pattern", "columns"),
-    [
-        ("mr_maurel", "*.txt", 'columns = ["time [s]", "stroke [mm]", "velocity [mm/s]", "force [N]"]'),
-        ("mr_labcontrol", "*.mat", MAPPING),
-    ],
-)
-def test_real_sources(folder: Make, tmp_path: Path, source: str, pattern: str, columns: str) -> None:
-    from twintube.dampers import to_toml
-
-    files = sorted((REAL / source).glob(pattern))
-    assert files
-    base = load("SA1")
-    wide = base.with_(h_l=0.35, V_oil=base.parameters.V_oil + 1e-5)
-    (tmp_path / "wide.toml").write_text(to_toml(wide))
-    records = "".join(RECORD.format(file.as_posix()) for file in files)
-    dataset = load_dataset(folder({}, toml=f'title = "{source}"\ndamper = "wide.toml"\n{columns}\n{records}'))
-    assert [record.name for record in dataset.records] == [file.stem for file in files]
-    assert {record.velocity_source for record in dataset.records} == {GIVEN}  # both differentiate the stroke
-    assert all(0.001 < np.ptp(record.stroke) < 0.06 and 100 < np.ptp(record.force) < 1000 for record in dataset.records)
-    offset = [f for f in dataset.findings if f.message.startswith("offset: the stroke")]
-    assert len(offset) == (len(files) if source == "mr_labcontrol" else 0)
 
 
 def test_the_table_names_a_reader_for_every_ending_and_a_file_of_another_is_told_all(tmp_path: Path) -> None:

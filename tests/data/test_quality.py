@@ -13,7 +13,6 @@ from twintube.data.check.defects import clipped, dropped, frozen, resolution, un
 
 Make = Callable[..., Path]
 F = "force [N]"
-FOREIGN = Path(__file__).parents[2].parent / "shared" / "foreign"
 
 
 def motion(rate: float = 1000.0, frequency: float = 2.0, seconds: float = 10.0) -> tuple[Array, Array, Array]:
@@ -144,12 +143,3 @@ def test_missing_preconditioning_is_a_remark_on_degraded_records(folder: Make) -
     findings = load_dataset(folder({"a.csv": good(), "b.csv": good(1401)}, toml=toml)).findings
     (remark,) = [f for f in findings if f.severity == "remark"]
     assert str(remark).startswith("remark: dataset.toml: no preconditioning in a.csv: they begin at the speed")
-
-
-@pytest.mark.skipif(not FOREIGN.is_dir(), reason="no data of others beside the repository")
-@pytest.mark.parametrize("name", ["nothing_b", "rig_resonance", "sensor_saturation"])
-def test_data_of_others(name: str) -> None:
-    dataset = load_dataset(FOREIGN / name)
-    cut = {f.file for f in dataset.findings if "clipped" in f.message}
-    assert cut == ({"int100_1.572.parquet"} if name == "sensor_saturation" else set())
-    assert {record.file for record in dataset.records if not record.usable.all()} == cut

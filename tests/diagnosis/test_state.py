@@ -145,9 +145,3 @@ def test_prior_weights_of_the_sizes_sum_to_one() -> None:
 def test_every_number_has_a_unit_a_meaning_and_a_source() -> None:
     assert len(listed()) <= 45
     assert all(entry[key] for entry in listed() for key in ("unit", "meaning", "source"))
-    page = (Path(__file__).parents[2] / "docs/state.md").read_text(encoding="utf-8")
-    for entry in listed():
-        values = entry["value"] if isinstance(entry["value"], tuple) else (entry["value"],)
-        unit = "" if entry["unit"] == "1" else f" {entry['unit']}"
-        row = f"| `{entry['name']}` | {', '.join(f'{x:g}' for x in values)}{unit} | {entry['meaning']} | {entry['source']} |"
-        assert row in page

@@ -150,7 +150,7 @@ def test_where_only_a_constant_tells_the_odds_are_those_before_the_records() -> 
 def test_a_tared_cell_that_is_certain_is_the_next_step_though_the_level_is_open() -> None:
     answers = [StateAnswer("1", ("a",), NOTHING, alike(-10.0, -100.0, 0.0))]
     assert "the load cell was set to zero with the damper in it" in state.sentences(answers)[0]
-    assert state.next_step(answers).startswith("Next: read the load cell with the damper taken out")
+    assert state.next_step(answers).startswith("read the load cell with the damper taken out")
     assert state.badge(answers) == ("load cell set to zero with the damper", "warn")
 
 

@@ -141,7 +141,7 @@ def test_neutral_undoes_every_effect(sa8: Damper, everything: dict[str, Any]) ->
     assert acting(damper.with_(**neutral(damper.parameters)).parameters) == ()
 
 
-def balances(damper: Damper, seed: int) -> None:
+def assert_balances(damper: Damper, seed: int) -> None:
     """Drive at random, rests and jumps included: chambers are full, no phase is negative, oil goes only where it may."""
     rng = random.Random(seed)
     p, d, s, f = damper.parameters, blank(Derived), blank(State), blank(Flow)
@@ -176,14 +176,14 @@ def balances(damper: Damper, seed: int) -> None:
 @pytest.mark.parametrize("level", [0.3, 0.6, 1.0])
 def test_nothing_is_lost(active: dict[str, Any], level: float) -> None:
     for seed in range(4):
-        balances(load("SA8", as_published=True).with_(oil_level=level, gas_preload=0, **active), seed)
+        assert_balances(load("SA8", as_published=True).with_(oil_level=level, gas_preload=0, **active), seed)
 
 
 @pytest.mark.parametrize("name", EIGHT)
 def test_nothing_is_lost_with_everything(name: str, everything: dict[str, Any]) -> None:
     for level in (0.3, 0.7, 1.0):
-        balances(load(name, as_published=True).with_(oil_level=level, gas_preload=0, **everything), seed=1)
-        balances(load(name, as_published=True).with_(oil_level=level, gas_preload=1, **everything), seed=2)
+        assert_balances(load(name, as_published=True).with_(oil_level=level, gas_preload=0, **everything), seed=1)
+        assert_balances(load(name, as_published=True).with_(oil_level=level, gas_preload=1, **everything), seed=2)
 
 
 def works(damper: Damper, velocity: float, dt: float) -> Any:

@@ -51,7 +51,7 @@ def clock() -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-def answers(case: Hostile, folder: Path, status: int, stderr: str, stdout: str) -> None:
+def assert_answers(case: Hostile, folder: Path, status: int, stderr: str, stdout: str) -> None:
     """Check what a command said, and that nothing but the input is there."""
     assert status == 2, (status, stderr[-2000:], stdout[-2000:])
     assert "Traceback" not in stderr + stdout
@@ -92,7 +92,7 @@ def test_hostile_input(case: Hostile, tmp_path: Path) -> None:
         raise run.exception
     assert took < SECONDS
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - memory < MEMORY
-    answers(case, folder, run.exit_code, run.stderr, run.stdout)
+    assert_answers(case, folder, run.exit_code, run.stderr, run.stdout)
 
 
 @pytest.mark.parametrize("name", ALONE)
@@ -108,4 +108,4 @@ def test_in_a_process_of_its_own(name: str, tmp_path: Path) -> None:
     run = subprocess.run(
         command, capture_output=True, text=True, timeout=HANGING, check=False, cwd=tmp_path, preexec_fn=limit
     )
-    answers(CASES[name], folder, run.returncode, run.stderr, run.stdout)
+    assert_answers(CASES[name], folder, run.returncode, run.stderr, run.stdout)

@@ -93,7 +93,7 @@ def test_sines_alone_give_an_intact_damper_that_predicts() -> None:
     assert pytest.approx(truth.parameters.F_0, abs=0.05 * truth.parameters.F_0 + 10) == fit.damper.parameters.F_0
 
 
-def judged(truth: Damper, velocities: tuple[float, ...], budget: Budget) -> None:
+def assert_identified(truth: Damper, velocities: tuple[float, ...], budget: Budget) -> None:
     """Records of the model itself, 1 % noise: no determined parameter's interval misses the truth."""
     records = records_of(truth, velocities, noise=0.01)
     result = identify_damper(truth.with_(**UNKNOWN), None, [], records, budget=budget)
@@ -105,13 +105,13 @@ def judged(truth: Damper, velocities: tuple[float, ...], budget: Budget) -> None
 
 
 def test_truth_lies_in_the_intervals_and_the_undetermined_are_named() -> None:
-    judged(load("SA7", as_published=True), BLOCKS[1::2], Budget((24, 30), (32, 40), (24, 80), (32, 80)))
+    assert_identified(load("SA7", as_published=True), BLOCKS[1::2], Budget((24, 30), (32, 40), (24, 80), (32, 80)))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["SA1", "SA7", "SA8"])
 def test_truth_lies_in_the_intervals_with_the_paper_s_budget(name: str) -> None:
-    judged(load(name, as_published=True), BLOCKS, PAPER)
+    assert_identified(load(name, as_published=True), BLOCKS, PAPER)
 
 
 def folder_of(path: Path, truth: Damper, start: Damper) -> Path:

@@ -114,7 +114,7 @@ def test_bad_input_ends_with_one_line(arguments: list[str], message: str) -> Non
 
 
 def test_the_documentation_has_the_tables_of_methods_and_ranges() -> None:
-    page = (ROOT / "docs" / "inspection_methods.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "inspection.md").read_text(encoding="utf-8")
     assert markdown(METHOD_HEAD, method_rows()) in page
     assert markdown(RANGE_HEAD, range_rows()) in page
 

@@ -128,7 +128,7 @@ def test_the_generated_parts_know_it(copy: Path) -> None:
     assert stubs.returncode == 0, stubs.stderr
     assert "groove_share: float" in (copy / "twintube" / "core" / "effects" / "__init__.pyi").read_text(encoding="utf-8")
     table = run(copy, "-m", "twintube", "dampers", "--variables")
-    assert "| `bypass_groove.groove_share` |" in table.stdout, table.stderr
+    assert "- `bypass_groove.groove_share`, " in table.stdout, table.stderr
 
 
 def test_the_name_of_a_file_changes_no_result(copy: Path) -> None:
@@ -208,8 +208,7 @@ def test_a_field_that_the_table_cannot_hold_is_named_with_its_file(copy: Path, o
     assert f"effects/bypass_groove.py: {name}: must be var(..., default=...)" in done.stderr.splitlines()[-1]
 
 
-def test_every_hook_and_role_of_the_page_exists() -> None:
-    from twintube.core.hook_table import HOOKS, with_hooks
+def test_every_name_and_role_of_an_effect_is_on_the_page() -> None:
     from twintube.core.hooks import NEEDED, ROLES
 
     section = PAGE[PAGE.index("## Add an effect") :]
@@ -217,5 +216,3 @@ def test_every_hook_and_role_of_the_page_exists() -> None:
         assert name in section
     for role in ROLES:
         assert f"`{role}`" in section
-    assert all(f"| `{hook}` |" in section for hook in HOOKS)
-    assert with_hooks(PAGE) == PAGE, "python docs/_ext/hook_table.py"

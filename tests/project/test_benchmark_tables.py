@@ -84,14 +84,14 @@ def test_the_gas_of_a_leak_is_in_balance(name: str) -> None:
 
 
 def test_the_wheel_load_along_the_loss_of_oil_and_gas(monkeypatch: pytest.MonkeyPatch) -> None:
-    at = gas_path.LEVELS.index(0.6)
+    levels = rows("50 km/h", "open_choices.md")[0]
     monkeypatch.setattr(gas_path, "LEVELS", (0.6,))
     monkeypatch.setattr(gas_path, "SHARES", (1.0,))
     found = gas_path.rises(load("SA8"), load_car(), 50.0)
     for name in ("gas at 100%", "as in service"):
         cell = found[f"50 km/h, {name}"]["60%"]
-        said = rows(name.replace("%", " %"), "open_choices.md")[1]  # after the table of 30 km/h
-        assert said[at] == f"{sign(cell['least'])} to {sign(cell['most'])}"
+        (said,) = rows(name.replace("%", " %"), "open_choices.md")
+        assert said[levels.index("60 % oil")] == f"{sign(cell['least'])} to {sign(cell['most'])}"
 
 
 def figures(table: str) -> dict[str, dict[str, str]]:

@@ -11,11 +11,9 @@ import io
 import os
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 import tomllib
-import zipfile
 from collections.abc import Iterator
 from contextlib import redirect_stdout
 from dataclasses import dataclass
@@ -64,15 +62,10 @@ def blocks(path: Path) -> Iterator[Block]:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> Path:
-    """An empty working folder; for the page on importing, with the FMU of which it speaks."""
+    """An empty working folder."""
     monkeypatch.chdir(tmp_path)
     if "twintube explore" in request.node.callspec.params["page"].read_text(encoding="utf-8"):
         request.getfixturevalue("explorer_module")
-    if request.node.callspec.params["page"].name == "import.md":
-        shutil.copy(request.getfixturevalue("sa8_native"), tmp_path / "twintube_SA8.fmu")
-        with zipfile.ZipFile(tmp_path / "twintube_SA8.fmu") as fmu:
-            name = next(name for name in fmu.namelist() if name.endswith("/input.csv"))
-            (tmp_path / "input.csv").write_bytes(fmu.read(name))
     return tmp_path
 
 

@@ -39,7 +39,7 @@ def sentence(name: str, begin: str) -> str:
 EVERYTHING = "**all settings of the bands**"
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/index.md", "docs/wheel_load.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/index.md", "docs/car.md"])
 def test_the_wheel_load_of_the_headline_is_that_of_the_table(page: str) -> None:
     low, high = span(EVERYTHING, LOW)
     assert low > 10, "the headline claims a rise"
@@ -51,14 +51,14 @@ def test_the_wheel_load_of_the_headline_is_that_of_the_table(page: str) -> None:
 def test_what_is_open_above_it_is_that_of_the_table() -> None:
     high = span(EVERYTHING, OPEN)[1]
     assert f"From 90 to 60 % it rises by 0 to {high} %" in sentence("README.md", "## What it can say")
-    text = sentence("docs/wheel_load.md", "With 40 % of the oil and less")
+    text = sentence("docs/car.md", "With 40 % of the oil and less")
     assert f"{high} %" in text
     assert "at 50 % it is {} to {} %".format(*span(EVERYTHING, [0.5])) in text.lower()
     assert f"{span('all mild ends at once', LOW)[0]} %" in text
 
 
 def test_what_is_left_at_50_percent_is_that_of_the_table() -> None:
-    text = sentence("docs/wheel_load.md", "At 50 % it is")
+    text = sentence("docs/car.md", "at 50 % it is")
     default = rise("default")
     for speed in SPEEDS:
         assert "{} to {} % ({:.0f} km/h)".format(*default[speed, 0.5], speed) in text
@@ -69,7 +69,7 @@ def test_what_is_left_at_50_percent_is_that_of_the_table() -> None:
 def test_levels_of_collapse_on_the_pages_are_those_of_the_dampers() -> None:
     damper = load("SA8")
     low, high = (collapse_level(damper.with_(dead_length=length)) for length in reversed(bounds(damper)))
-    text = sentence("docs/wheel_load.md", "Where the damper collapses")
+    text = sentence("docs/car.md", "Where the damper collapses")
     assert f"{100 * collapse_level(damper):.1f} % of SA8's oil, {100 * low:.0f} to {100 * high:.0f} %" in text
     claims = sentence("docs/claims.md", "`twintube dampers` prints")
     levels = [100 * collapse_level(load(name)) for name in ("SA1", "SA5")]

@@ -24,7 +24,7 @@ from twintube.dampers.toml import names
 from twintube.engine.simulate import simulate
 from twintube.rig import harmonic_block
 
-PAGE = (Path(__file__).parents[2] / "docs" / "open_measurements.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "claims.md").read_text(encoding="utf-8")
 STEP = 0.1  # of the grid of the missing oil
 MIDDLE = AMPLITUDES[1]
 

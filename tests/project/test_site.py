@@ -21,10 +21,12 @@ import pytest
 from tests.project.test_docs_examples import PAGES, ROOT, blocks, check_options
 from tests.project.test_traceability import tags as tags_of_files
 from twintube.common.extras import extra_of
+from twintube.core.hook_table import HOOKS
+from twintube.diagnosis.numbers import listed
 
 DOCS = ROOT / "docs"
 GALLERY = sorted((DOCS / "gallery").glob("*.py"))
-MADE = {"explorer", "examples/index"}  # in the toctree, but written while building or by another version
+MADE = {"examples/index"}  # in the toctree, but written while building
 
 
 def in_toctrees() -> list[str]:
@@ -68,12 +70,34 @@ def tags() -> Any:
     return extension("tags")
 
 
-def test_the_page_of_commands_has_the_table_of_the_program() -> None:
+def test_the_page_of_commands_names_those_of_the_program() -> None:
     page = (DOCS / "commands.md").read_text(encoding="utf-8")
-    made = extension("command_table")
-    assert page == made.written(page), "run: python docs/_ext/command_table.py"
-    for name in made.known():
-        assert f"| `twintube {name}` |" in page, name
+    named = [
+        name for line in re.findall(r"^- \*\*.*?\*\*: (.+)$", page, re.MULTILINE) for name in re.findall(r"`([^`]+)`", line)
+    ]
+    assert named == list(extension("command_names").known())
+
+
+def test_the_site_shows_the_numbers_of_the_diagnosis_and_the_hooks_of_effects() -> None:
+    tables = extension("tables")
+    page, effects = (
+        tables.written((DOCS / f"{name}.md").read_text(encoding="utf-8")) for name in ("diagnosis_method", "effects")
+    )
+    for entry in listed():
+        assert re.search(rf"^\| `{entry['name']}` \| .+ \| {re.escape(entry['meaning'])} \|", page, re.MULTILINE), entry[
+            "name"
+        ]
+    for name, hook in HOOKS.items():
+        assert re.search(rf"^\| `{name}` \| .+ \| {re.escape(hook.does)} \|$", effects, re.MULTILINE), name
+
+
+def test_the_site_shows_the_variables_with_range_unit_and_source() -> None:
+    page = extension("tables").written((DOCS / "variables.md").read_text(encoding="utf-8"))
+    assert "\n- `stroke` z, -0.5..0.5 m: stroke, positive in rebound (rod out), 0 in the middle\n" in page
+    assert (
+        "\n- `degradation.X_Re`, 0..1: oil share of the piston valve's mixed flow, rebound, *Table 9, equation 22*\n" in page
+    )
+    assert not re.search(r"^- `[^`]+`: ", page, re.MULTILINE), "a range, or a unit"
 
 
 def test_every_equation_is_on_the_page_of_the_model_and_leads_to_its_lines(tags: Any) -> None:
@@ -82,9 +106,6 @@ def test_every_equation_is_on_the_page_of_the_model_and_leads_to_its_lines(tags:
         number for argument in re.findall(r"^:::\{equation\} (.+)$", page, re.MULTILINE) for number in tags.numbers(argument)
     ]
     assert sorted(shown) == list(range(1, 42))
-    table = (DOCS / "kernel.md").read_text(encoding="utf-8")
-    named = [number for cell in re.findall(r"^\| ([\d, -]+) \|", table, re.MULTILINE) for number in tags.numbers(cell)]
-    assert sorted(named) == list(range(1, 42))
     found = tags.places()
     assert set(found) == set(shown)
     for number, places in found.items():

@@ -9,20 +9,20 @@ from twintube.dampers import load
 from twintube.diagnosis import Answer
 from twintube.diagnosis.heldout import HeldOut
 from twintube.report.common.html_page import Headline, Page
-from twintube.report.diagnosis import changes, limits
+from twintube.report.diagnosis import changes, page
 
 
 def test_it_names_the_damper_and_what_of_it_is_assumed() -> None:
-    text = limits.taken(load("SA8"))
+    text = page.taken(load("SA8"))
     assert "taken to be SA8" in text
     assert "Assumed in that parameter set, not measured: F-v curve, friction, gas force, dead length (80 mm)." in text
-    assert "Assumed" not in limits.taken(replace(load("SA8"), assumed={}))
+    assert "Assumed" not in page.taken(replace(load("SA8"), assumed={}))
 
 
 def test_it_tells_motions_and_fills() -> None:
     full = small.record(small.run(0.3))
     open_fill = replace(full, oil_level=None, gas_preload=None)
-    assert limits.covered([full, open_fill]) == (
+    assert page.covered([full, open_fill]) == (
         "Covered: 2 records up to 0.30 m/s and 45 mm from the middle; fills: 100 % oil, gas kept, unknown. "
         "It says nothing of faster strokes."
     )
@@ -30,7 +30,7 @@ def test_it_tells_motions_and_fills() -> None:
 
 def test_the_limits_are_not_folded() -> None:
     found: Any = SimpleNamespace(damper=load("SA8"), records=(small.record(small.run(0.3)),), changes=None)
-    text = Page("A title", [limits.section(cast(Answer, found))], headline=Headline("An answer")).html
+    text = Page("A title", [page.limits(cast(Answer, found))], headline=Headline("An answer")).html
     assert "<details open><summary><h2>What this cannot say</h2>" in text
 
 

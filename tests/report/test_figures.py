@@ -32,7 +32,7 @@ class ModelRecords:
 
 @pytest.fixture(scope="module")
 def context(tmp_path_factory) -> Context:
-    shared = Context(tmp_path_factory.mktemp("report"), progress=False)
+    shared = Context(tmp_path_factory.mktemp("report"))
     shared.records = ModelRecords(shared.dampers)
     shared._fits = dict(shared.dampers)  # as if the identification had returned the true damper
     return shared
@@ -64,7 +64,7 @@ def test_figure(plots, number):
         assert (statement.holds is None) == (statement.basis == "not checkable")
         assert statement.numbers or statement.holds is None
         if statement.holds is not True:
-            assert statement.reason, statement.text
+            assert statement.reason, statement.statement
     json.dumps(as_json(plot))
 
 

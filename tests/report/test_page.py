@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 import pytest
 
 from twintube.report.common import html_page
-from twintube.report.common.html_page import Finding, Headline, Picture, Section, Table, readable
+from twintube.report.common.html_page import Finding, Headline, Picture, Section, Table, mark, readable
 
 PNG = b"\x89PNG\r\n\x1a\n0000"
 
@@ -83,7 +83,7 @@ def test_an_answer_comes_first_and_the_rest_folds():
 
 def test_verdicts_have_marks(text):
     assert text.count('class="badge no"') == 3  # contents, section, finding
-    assert Section("a", "b", "holds").mark == "yes" and Section("a", "b", "not checkable").mark == "open"
+    assert mark("holds") == "yes" and mark("not checkable") == "open"
 
 
 def test_numbers_as_text():
@@ -92,6 +92,6 @@ def test_numbers_as_text():
 
 
 def test_a_page_is_written_with_its_pictures(tmp_path):
-    page = html_page.Page("A title", [Section("one", "Numbers")], pictures={"loops": Picture(PNG, "loops")})
+    page = html_page.Page("A title", [Section("one", "Numbers", pictures=[Picture(PNG, "loops", name="loops")])])
     assert page.write(tmp_path) == [tmp_path / "loops.png", tmp_path / "report.html"]
     assert (tmp_path / "loops.png").read_bytes() == PNG and (tmp_path / "report.html").read_text() == page.html

@@ -14,7 +14,7 @@ from twintube.report.paper.reproduce import figure_numbers, reproduce
 
 @pytest.fixture(scope="module")
 def report(tmp_path_factory):
-    return reproduce(tmp_path_factory.mktemp("out"), figures=["7", "12", "18"], processes=1, progress=False)
+    return reproduce(tmp_path_factory.mktemp("out"), figures=["7", "12", "18"], processes=1)
 
 
 def test_files(report):
@@ -38,7 +38,7 @@ def test_json(report):
 
 
 def test_records_are_kept(report):
-    records = Records(report.page.parent / "records", 1, progress=False)
+    records = Records(report.page.parent / "records", 1)
     job = Job("SA7", "slow", 0.0, 1.0)
     file = records.folder / job.file
     before = file.stat().st_mtime_ns
@@ -50,7 +50,7 @@ def test_records_are_kept(report):
 
 def test_no_process_is_refused(tmp_path):
     with pytest.raises(InputError, match="processes = 0"):
-        reproduce(tmp_path / "out", figures=["18"], processes=0, progress=False)
+        reproduce(tmp_path / "out", figures=["18"], processes=0)
     assert not (tmp_path / "out").exists()
 
 

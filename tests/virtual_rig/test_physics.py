@@ -25,7 +25,7 @@ def relative(velocity, oil_level, name="SA8", count=19):
     return works(record(velocity, oil_level, False, count, name)) / works(record(velocity, 1.0, True, count, name))
 
 
-def conserves(r):
+def assert_conserves(r):
     assert np.allclose(r.oil.sum(0), r.oil_level * r.damper.V_oil, rtol=1e-9)
     gas = (r.free_gas + r.dissolved_gas).sum(0)
     assert np.allclose(gas, gas[0], rtol=1e-9)
@@ -42,14 +42,14 @@ def works(r, samples=600):
 @pytest.mark.parametrize("velocity", [0.05, 1.572])
 @pytest.mark.parametrize(("oil_level", "gas_preload"), [(1.0, True), (0.56, False), (0.3, False)])
 def test_oil_and_gas_are_conserved(velocity, oil_level, gas_preload):
-    conserves(record(velocity, oil_level, gas_preload, 8))
+    assert_conserves(record(velocity, oil_level, gas_preload, 8))
 
 
 @pytest.mark.parametrize("name", EIGHT)
 def test_every_damper_runs_with_little_oil(name):
     for oil_level in (0.6, 0.35):
         r = record(1.048, oil_level, False, 3, name)
-        conserves(r)
+        assert_conserves(r)
         assert (works(r) > 0).all()
 
 
@@ -182,7 +182,7 @@ def test_a_leak_takes_what_the_rod_carries_out():
 
 def test_foam_of_a_run_before_makes_the_force_soft_until_it_has_risen():
     foamy = run(virtual_damper("SA8", foam=0.05), *sine(0.524, 8))
-    conserves(foamy)
+    assert_conserves(foamy)
     missing = 1.0 - works(foamy) / works(record(0.524, count=8))
     assert missing[0] > 0.02
     assert missing[-1] < 0.7 * missing[0]

@@ -189,7 +189,7 @@ def diagnose(
         Path, typer.Option(metavar="FOLDER", help="For the answer, the extended parameter set and the report.")
     ] = Path("diagnosis"),
     priors: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="TOML file with other numbers of the method, see docs/state.md.")
+        Path | None, typer.Option(metavar="FILE", help="TOML file with other numbers, see docs/diagnosis_method.md.")
     ] = None,
 ) -> None:
     """Find a damper's state, what changed, or what is wrong.

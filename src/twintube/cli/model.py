@@ -145,19 +145,19 @@ def print_variables() -> None:
     from twintube.core.effects import Parameters
     from twintube.core.variables import Inputs, Outputs, fmi_name
 
-    typer.echo("# Variables\n\nInputs, outputs and parameters of the model and its FMU, in SI units.\n")
-    typer.echo("| name | symbol | unit | range | meaning | source |\n|---|---|---|---|---|---|")
+    typer.echo("Name, symbol, range and unit: meaning, *source*. Without a unit: a share or a number.")
     for record in (Inputs, Outputs, Parameters):
+        typer.echo(f"\n## {record.__name__}\n")
         for item in fields(record):
             meta = item.metadata
-            low, high = ("" if bound is None else f"{bound:g}" for bound in (meta["lower"], meta["upper"]))
+            name, symbol = fmi_name(item), meta["symbol"]
             size = f"[1..{meta['size']}]" if meta["size"] > 1 else ""
-            cells = (
-                f"`{fmi_name(item)}{size}`",
-                meta["symbol"],
-                meta["unit"],
-                f"{low}..{high}" if low or high else "",
-                meta["description"],
-                meta["source"],
+            low, high = ("" if bound is None else f"{bound:g}" for bound in (meta["lower"], meta["upper"]))
+            bounds = f"{low}..{high}" if low or high else ""
+            unit = "" if meta["unit"] == "1" else meta["unit"]
+            head = (
+                f"`{name}{size}`" if symbol in ("", name.rpartition(".")[2]) else f"`{name}{size}` {symbol}",
+                f"{bounds} {unit}".strip(),
             )
-            typer.echo("| " + " | ".join(cells) + " |")
+            source = f", *{meta['source']}*" if meta["source"] else ""
+            typer.echo(f"- {', '.join(filter(None, head))}: {meta['description']}{source}")

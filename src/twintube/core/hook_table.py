@@ -1,6 +1,5 @@
 """The hooks: functions `<effect>_<hook>` of an effect's file, which the model calls around the paper's equations."""
 
-import re
 from dataclasses import dataclass
 
 
@@ -58,14 +57,3 @@ HOOKS = {
     "lost": Hook("p: Parameters, level: float, z: float, duration: float, way: float, square: float", "float", "sum",
                  "oil [m3] that a record takes from those after it; not called in a step"),
 }  # fmt: skip
-TABLE = re.compile(r"^\| hook \|.*\n(?:\|.*\n)*", re.MULTILINE)
-
-
-def with_hooks(text: str) -> str:
-    """A page of Markdown with the table of the present hooks in the place of its own."""
-    rows = ["| hook | arguments | several give | does |", "|---|---|---|---|"]
-    for name, hook in HOOKS.items():
-        arguments = ", ".join(part.split(":")[0] for part in hook.arguments.split(", "))
-        rows.append(f"| `{name}` | `({arguments})` | {JOINED[hook.joined][2]} | {hook.does} |")
-    table = "\n".join(rows) + "\n"
-    return TABLE.sub(lambda _: table, text, count=1)

@@ -5,7 +5,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
-from twintube.common.words import listed, printable, shown
+import numpy as np
+from numpy.typing import NDArray
+
+from twintube.common.grouping import grouped
+from twintube.common.words import counted, listed, printable, shown
 from twintube.engine.simulate import InputError
 
 # A number of a message, but none in a name; a quoted name, which stays; the count of further places.
@@ -22,9 +26,7 @@ class Finding:
     severity: Literal["error", "warning", "remark"]
     file: str  # as written in dataset.toml, or "dataset.toml" itself
     column: str  # header as in the file or in `columns`; a key in dataset.toml; "" if it is about the whole file
-    row: (
-        int | None
-    )  # row of a text or line of dataset.toml from 1, else number of the sample from 0; None: all of the column
+    row: int | None  # of a text or a line of dataset.toml from 1, else the sample from 0; None: all of the column
     message: str
     counted: Counted = "row"
 
@@ -63,10 +65,8 @@ class DataError(InputError):
 
 def report(findings: Iterable[Finding]) -> str:
     """One line per kind of finding, errors first, remarks last: the first in full, and where else there are such."""
-    kinds: dict[tuple[str, str, str], list[Finding]] = {}
     order = ("error", "warning", "remark")
-    for finding in sorted(findings, key=lambda finding: order.index(finding.severity)):
-        kinds.setdefault(finding.kind, []).append(finding)
+    kinds = grouped((each.kind, each) for each in sorted(findings, key=lambda each: order.index(each.severity)))
     return "\n".join(f"{first}{elsewhere(first, others)}" for first, *others in kinds.values())
 
 
@@ -79,11 +79,11 @@ def elsewhere(first: Finding, others: list[Finding]) -> str:
     """The tail of the line of a first finding: other files, or other places in its own, with findings of its kind."""
     files = list(dict.fromkeys(printable(other.file) for other in others if other.file != first.file))
     places = [f"{other.counted} {other.row}" for other in others if other.file == first.file]
-    tails = [f"the like in {len(files)} more file{'s' * (len(files) > 1)}: {listed(files, MOST_NAMED)}"] if files else []
-    tails += (
-        [f"the like at {len(places)} more place{'s' * (len(places) > 1)}: {listed(places, MOST_NAMED)}"] if places else []
+    return "".join(
+        f" (the like {joint} {counted(len(some), f'more {what}')}: {listed(some, MOST_NAMED)})"
+        for joint, what, some in (("in", "file", files), ("at", "place", places))
+        if some
     )
-    return "".join(f" ({tail})" for tail in tails)
 
 
 class UnreadableError(ValueError):
@@ -92,6 +92,14 @@ class UnreadableError(ValueError):
     def __init__(self, message: str, row: int | None = None) -> None:
         super().__init__(message)
         self.row = row
+
+
+@dataclass(frozen=True)
+class Places:
+    """Samples at which something is wrong."""
+
+    first: int  # row in the file
+    tail: str  # of a message, how many there are
 
 
 @dataclass
@@ -114,12 +122,15 @@ class Notes:
         """Add a finding about the test rather than its data."""
         self.findings.append(Finding("remark", self.file, column, row, message, self.counted))
 
+    def places(self, wrong: NDArray[np.bool_], rows: NDArray[np.int64]) -> Places | None:
+        """The samples (n,), of these rows, where something is `wrong`; None where nothing is."""
+        at = rows[np.flatnonzero(wrong)]
+        if not len(at):
+            return None
+        tail = f" ({len(at)} such {self.counted}s, the last is {self.counted} {at[-1]})" if len(at) > 1 else ""
+        return Places(int(at[0]), tail)
+
     @property
     def failed(self) -> bool:
         """Whether there is an error."""
         return any(finding.severity == "error" for finding in self.findings)
-
-
-def more(count: int, last: int, counted: str) -> str:
-    """The tail of a message about the first of `count` places."""
-    return f" ({count} such {counted}s, the last is {counted} {last})" if count > 1 else ""

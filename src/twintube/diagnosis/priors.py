@@ -20,7 +20,7 @@ KNOWN = {item.name: item for item in fields(Numbers)}
 
 @contextmanager
 def priors(values: Mapping[str, Any] | str | Path) -> Iterator[None]:
-    """Within it the diagnosis has other numbers: a TOML file, or values by the names of the table in docs/state.md.
+    """Within it the diagnosis has other numbers: a TOML file, or values by the names in `numbers.py`.
 
     It holds for the whole process; an answer's budget is of it only where it is asked for within. Raises InputError, which
     names the line of the file, where a name is unknown or a value out of its range.

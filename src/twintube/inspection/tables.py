@@ -7,7 +7,7 @@ from twintube.inspection.methods import METHODS
 from twintube.inspection.scatter import RANGES, Range
 
 METHOD_HEAD = ("method", "figure", "limit", "source", "how sure")
-RANGE_HEAD = ("what scatters", "from", "to", "basis", "reason")
+RANGE_HEAD = ("what scatters", "range", "basis and reason")
 
 
 def method_rows() -> list[list[str]]:
@@ -15,19 +15,18 @@ def method_rows() -> list[list[str]]:
     return [[f"{m.title} ({m.name})", m.figure, m.rule, m.source, m.certainty] for m in METHODS.values()]
 
 
-def ends(item: Range) -> tuple[str, str]:
+def span(item: Range) -> str:
     """Both ends of a range in engineering units."""
     unit, factor = unit_of(item.unit, item.high)
-    low, high = (f"{end * factor:g}{' ' + unit if unit else ''}" for end in (item.low, item.high))
-    return low, high
+    return f"{item.low * factor:g} to {item.high * factor:g} {unit}".rstrip()
 
 
 def range_rows() -> list[list[str]]:
     """One row per range of the scatter."""
-    return [[item.title, *ends(item), item.basis, item.reason] for item in RANGES]
+    return [[item.title, span(item), f"{item.basis}: {item.reason}"] for item in RANGES]
 
 
 def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A table in Markdown."""
-    lines = [head, ["---"] * len(head), *rows]
-    return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
+    first, *rest = ("| " + " | ".join(cells) + " |\n" for cells in (head, *rows))
+    return "".join((first, "|" + "---|" * len(head) + "\n", *rest))

@@ -10,5 +10,5 @@
     plot.py              the method `plot()` of results
     common               what all pages share
 
-Nothing is imported here: the figures of the paper need the extra formats, other pages do not.
+Nothing is imported here: no command waits for the rooms of others.
 """

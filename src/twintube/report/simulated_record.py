@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from twintube.common.arrays import Array
-from twintube.data.check.cycles import cycle_starts
+from twintube.data.check.defects import cycle_starts
 from twintube.report.common.style import GREY, INK, RED, canvas, legend_above, plain, title
 
 MOST_POINTS = 200_000  # of a line in the picture

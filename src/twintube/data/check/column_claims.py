@@ -4,14 +4,12 @@ import itertools
 import json
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from twintube.common.words import printable, shown
 from twintube.data.convert.column_names import MEASURED, SET_POINT, fits, is_set_point, named_like
-from twintube.data.convert.masses import is_mass, weight_advice
 from twintube.data.convert.quantities import equal_units, per_unit
-from twintube.data.convert.units import BRACKETS, OTHER_UNITS, plain, split_header, unit_of
+from twintube.data.convert.units import BRACKETS, OTHER_UNITS, is_mass, plain, split_header, unit_of, weight_advice
 from twintube.data.findings import Notes
 from twintube.data.formats import Format, Raw
 
@@ -25,8 +23,7 @@ NO_UNITS = ("", "-", "1")
 Kind = Literal["unit", "maybe", "unknown"]
 
 
-@dataclass(frozen=True)
-class Claim:
+class Claim(NamedTuple):
     """A unit in the name of a column; `maybe` where a word or an index would be written alike, `unknown` where none is."""
 
     unit: str

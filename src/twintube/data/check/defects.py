@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twintube.common.arrays import Array
-from twintube.data.check.cycles import cycle_starts
 
 Mask = NDArray[np.bool_]
 
@@ -75,6 +74,15 @@ def filled(begin: NDArray[np.int64], end: NDArray[np.int64], count: int) -> Mask
     np.add.at(edges, begin, 1)
     np.add.at(edges, end + 1, -1)
     return np.cumsum(edges[:-1]) > 0
+
+
+def cycle_starts(stroke: Array) -> NDArray[np.int64]:
+    """Samples at which the stroke rises through the middle of its range, each after a way down below a tenth of it."""
+    middle, half = (stroke.max() + stroke.min()) / 2, float(np.ptp(stroke)) / 2
+    side = np.where(stroke > middle, 1, np.where(stroke < middle - 0.1 * half, -1, 0))
+    known = np.flatnonzero(side)
+    up = (side[known][1:] > 0) & (side[known][:-1] < 0)
+    return known[1:][up]
 
 
 def clipped(force: Array, speed: Array) -> Clipped:

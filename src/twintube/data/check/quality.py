@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from twintube.common.arrays import Array
 from twintube.data.check.defects import clipped, dropped, frozen, resolution, unprepared
-from twintube.data.check.values import FEWEST_SAMPLES, places, sound
+from twintube.data.check.values import FEWEST_SAMPLES, sound
 from twintube.data.convert.quantities import Table
 from twintube.data.findings import Notes
 from twintube.rig.signals import V_PRECONDITIONING
@@ -56,26 +56,22 @@ def check_quality(table: Table, excluded: Mask, notes: Notes) -> Mask:
     header = table.headers["force"]
     cut = clipped(force, np.abs(np.gradient(stroke, time)))
     for limit, side in ((cut.high, "largest"), (cut.low, "smallest")):
-        if limit is not None and (where := places(force == limit, table.rows, notes)):
+        if limit is not None and (where := notes.places(force == limit, table.rows)):
             message = f"clipped: the force stays at its {side} value {limit:.6g} N, the limit of load cell or amplifier"
             notes.warning(message + where.tail, header, where.first)
     lost = dropped(force, stroke) & ~excluded
-    if where := places(lost, table.rows, notes):
-        message = f"dropout: the force jumps to {force[lost][0]:.6g} N and back{where.tail}; left out"
-        notes.warning(message, header, where.first)
     still = frozen(force, stroke) & ~excluded & ~cut.samples & ~lost & ~repeated
-    if where := places(still, table.rows, notes):
-        message = (
-            f"frozen: the force stays at {force[still][0]:.6g} N while the stroke moves, then jumps{where.tail}; left out"
-        )
-        notes.warning(message, header, where.first)
+    for wrong, does, then in (
+        (lost, "dropout: the force jumps to", "and back"),
+        (still, "frozen: the force stays at", "while the stroke moves, then jumps"),
+    ):
+        if where := notes.places(wrong, table.rows):
+            notes.warning(f"{does} {force[wrong][0]:.6g} N {then}{where.tail}; left out", header, where.first)
     for name, unit in (("stroke", "m"), ("force", "N")):
         levels = resolution(table.columns[name])
         if levels is not None and levels[1] < FEWEST_LEVELS and levels[2] < DITHER * levels[0]:
-            message = (
-                f"coarse: {name} takes {levels[1]} levels, {levels[0]:.3g} {unit} apart; {FEWEST_LEVELS} or more are usual"
-            )
-            notes.warning(message, table.headers[name])
+            message = f"coarse: {name} takes {levels[1]} levels, {levels[0]:.3g} {unit} apart"
+            notes.warning(f"{message}; {FEWEST_LEVELS} or more are usual", table.headers[name])
     return ~(excluded | repeated | cut.samples | lost | still)
 
 
@@ -101,11 +97,11 @@ def check_repeats(table: Table, excluded: Mask, notes: Notes) -> Mask:
                 leaping[i + 1 : j + 1] = True
                 windows.append(f"[{time[i]:.6g}, {time[j]:.6g}]")
     header = table.headers["stroke"]
-    if where := places(leaping, table.rows, notes):
+    if where := notes.places(leaping, table.rows):
         hint = ", ".join([*windows[:HINTS], *(["..."] if len(windows) > HINTS else [])])
         message = f"stroke and force stay identical while the damper moves: repeated samples{where.tail}"
         notes.error(f"{message}; where the model may leap over them, set exclude = [{hint}]", header, where.first)
-    if where := places(repeated & ~leaping, table.rows, notes):
+    if where := notes.places(repeated & ~leaping, table.rows):
         notes.warning(f"stroke and force as in the sample before while the damper moves{where.tail}", header, where.first)
     return repeated
 

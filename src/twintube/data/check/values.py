@@ -1,16 +1,14 @@
 """Checks of a record: time, units, stroke, velocity, work. They judge and change nothing."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
 from twintube.common.arrays import Array
 from twintube.core.checks import VELOCITY
-from twintube.data.check.cycles import cycle_starts
+from twintube.data.check.defects import cycle_starts
 from twintube.data.convert.quantities import Table
-from twintube.data.findings import Notes, more
+from twintube.data.findings import Notes
 
 # Time. Rigs sample at 100 Hz to some kHz; beyond these limits s and ms are mixed up.
 SHORTEST_STEP, LONGEST_STEP = 1e-5, 0.5  # [s]
@@ -73,20 +71,6 @@ def sound(table: Table) -> Table:
     return selected(table, good)
 
 
-@dataclass(frozen=True)
-class Places:
-    """Samples at which something is wrong."""
-
-    first: int  # row in the file
-    tail: str  # how many there are
-
-
-def places(wrong: NDArray[np.bool_], rows: NDArray[np.int64], notes: Notes) -> Places | None:
-    """The rows where `wrong` holds."""
-    at = rows[np.flatnonzero(wrong)]
-    return Places(int(at[0]), more(len(at), int(at[-1]), notes.counted)) if len(at) else None
-
-
 def check_time(table: Table, notes: Notes) -> None:
     """Order, step, gaps and jitter."""
     header, rows = table.headers["time"], table.rows
@@ -94,7 +78,7 @@ def check_time(table: Table, notes: Notes) -> None:
     time, rows = table.columns["time"][known], rows[known]
     step = np.diff(time)
     for wrong, what in ((step < 0, "goes back"), (step == 0, "is repeated")):
-        if where := places(np.append(False, wrong), rows, notes):
+        if where := notes.places(np.append(False, wrong), rows):
             i = int(np.flatnonzero(wrong)[0])
             notes.error(f"time {what}: {time[i + 1]:g} s after {time[i]:g} s{where.tail}", header, where.first)
     step, rows = step[step > 0], rows[1:][step > 0]
@@ -110,7 +94,7 @@ def check_time(table: Table, notes: Notes) -> None:
     usual = 1.4826 * float(np.median(np.abs(ratio - 1.0)))
     gap = ratio > GAP + 3.0 * usual
     for wrong, severe in ((gap & (ratio > BIG_GAP), True), (gap & (ratio <= BIG_GAP), False)):
-        if where := places(wrong, rows, notes):
+        if where := notes.places(wrong, rows):
             worst = int(np.argmax(np.where(wrong, ratio, 0.0)))
             what = f"step of up to {step[worst]:g} s where {local[worst]:g} s is usual"
             if severe:
@@ -135,18 +119,17 @@ def check_units(table: Table, notes: Notes) -> None:
         unit = "m" if name == "stroke" else "N"
         if len(values) and not least <= span <= most:
             why = f"it does not move, or {mixed} mixed up?" if span < least else f"{mixed} mixed up?"
-            notes.error(
-                f"{name} spans {span:g} {unit}: must be from {least:g} to {most:g} {unit}; {why}", table.headers[name]
-            )
+            message = f"{name} spans {span:g} {unit}: must be from {least:g} to {most:g} {unit}; {why}"
+            notes.error(message, table.headers[name])
     if "velocity" in table.columns:
         velocity, top = table.columns["velocity"], VELOCITY["upper"]
-        if where := places(np.abs(velocity) > top, table.rows, notes):
+        if where := notes.places(np.abs(velocity) > top, table.rows):
             worst = velocity[np.nanargmax(np.abs(velocity))]
             message = f"velocity up to {worst:g} m/s: must be within {top:g} m/s{where.tail}"
             notes.error(message, table.headers["velocity"], where.first)
     if "temperature" in table.columns:
         values = table.columns["temperature"]
-        if where := places((values < COLDEST) | (values > HOTTEST), table.rows, notes):
+        if where := notes.places((values < COLDEST) | (values > HOTTEST), table.rows):
             message = f"temperature from {np.nanmin(values):g} to {np.nanmax(values):g} degC: must be from {COLDEST:g} to "
             message += f"{HOTTEST:g} degC; degC and K mixed up?{where.tail}"
             notes.error(message, table.headers["temperature"], where.first)
@@ -161,16 +144,13 @@ def check_stroke(table: Table, limit: float | None, notes: Notes) -> None:
     middle, half = (low + high) / 2, (high - low) / 2
     off = abs(middle) > OFF_CENTRE * half
     if off:
-        message = (
-            f"offset: the stroke runs from {low:g} to {high:g} m, its middle {middle:g} m is not 0, the middle position"
-        )
-        notes.warning(message, header)
-    if limit is not None and (where := places(np.abs(stroke) > limit, table.rows, notes)):
+        message = f"offset: the stroke runs from {low:g} to {high:g} m, its middle {middle:g} m is not 0"
+        notes.warning(f"{message}, the middle position", header)
+    if limit is not None and (where := notes.places(np.abs(stroke) > limit, table.rows)):
         worst = low if -low > high else high
         hint = "" if half > limit or not off else "; it would fit with another zero, see the offset"
-        notes.error(
-            f"stroke up to {worst:g} m: the tube allows {-limit:g} to {limit:g} m{hint}{where.tail}", header, where.first
-        )
+        message = f"stroke up to {worst:g} m: the tube allows {-limit:g} to {limit:g} m{hint}{where.tail}"
+        notes.error(message, header, where.first)
 
 
 def ways(velocity: Array, time: Array, stroke: Array) -> Array:
@@ -181,10 +161,16 @@ def ways(velocity: Array, time: Array, stroke: Array) -> Array:
     steps = np.diff(time)
     first, last = velocity[:-1] * steps, velocity[1:] * steps
     made = (first + last) / 2
-    moved, said = straightened(stroke, time), straightened(np.append(0.0, np.cumsum(made)), time)
-    scale = float(said @ moved) / float(moved @ moved)
+    scale, _ = against(made, time, stroke)
     turns = np.abs(np.diff(velocity)) > TURN * np.ptp(velocity)
     return np.where(turns, np.clip(scale * np.diff(stroke), np.minimum(first, last), np.maximum(first, last)), made)
+
+
+def against(made: Array, time: Array, stroke: Array) -> tuple[float, Array]:
+    """What the intervals' strokes (n - 1,) add up to, over the stroke (n,), and what that leaves; without their trends."""
+    moved, said = straightened(stroke, time), straightened(np.append(0.0, np.cumsum(made)), time)
+    scale = float(said @ moved) / float(moved @ moved)
+    return scale, said - scale * moved
 
 
 def straightened(values: Array, time: Array) -> Array:
@@ -201,38 +187,28 @@ def check_velocity(table: Table, notes: Notes) -> None:
         return
     time, stroke, velocity = (table.columns[name] for name in ("time", "stroke", "velocity"))
     header = table.headers["velocity"]
-    moved = straightened(stroke, time)
-    size = float(np.sqrt(np.mean(moved**2)))
+    size = float(np.sqrt(np.mean(straightened(stroke, time) ** 2)))
     if size == 0.0:
         return
     made = ways(velocity, time, stroke)
-    said = straightened(np.append(0.0, np.cumsum(made)), time)
-    scale = float(said @ moved) / float(moved @ moved)
-    slope = np.gradient(stroke, time)
-    odd = float(np.std(said - scale * moved)) / size
-    at = int(table.rows[np.argmax(np.abs(velocity - slope))])
+    scale, rest = against(made, time, stroke)
+    odd = float(np.std(rest)) / size
+    at = int(table.rows[np.argmax(np.abs(velocity - np.gradient(stroke, time)))])
     if abs(scale) < UNMOVED or odd > STRANGE * max(1.0, abs(scale)):
-        notes.error(
-            f"velocity is not the derivative of the stroke: {odd / max(1.0, abs(scale)):.0%} of the stroke unexplained, "
-            f"limit {STRANGE:.0%}; worst here",
-            header,
-            at,
-        )
+        message = f"velocity is not the derivative of the stroke: {odd / max(1.0, abs(scale)):.0%} of the stroke unexplained"
+        notes.error(f"{message}, limit {STRANGE:.0%}; worst here", header, at)
         return
     if abs(scale - 1) > SCALE:
         why = "wrong sign" if scale < 0 else "wrong unit" if not 1 / GAIN < scale < GAIN else "wrong gain"
-        limits = f"{1 - SCALE:g} to {1 + SCALE:g}"
-        notes.error(
-            f"velocity is {scale:.3g} times the derivative of the stroke, must be {limits}: {why}?; worst here", header, at
-        )
+        message = f"velocity is {scale:.3g} times the derivative of the stroke, must be {1 - SCALE:g} to {1 + SCALE:g}"
+        notes.error(f"{message}: {why}?; worst here", header, at)
         return
     if odd > ODD:
         notes.warning(f"velocity explains the stroke but for {odd:.1%}, usual are {ODD:.0%}; delayed or noisy?", header, at)
     drift = float(made.sum() - stroke[-1] + stroke[0]) / float(time[-1] - time[0])
     if abs(drift) > DRIFT * float(np.sqrt(np.mean(velocity**2))):
         notes.warning(f"offset: mean velocity {drift:.3g} m/s beyond that of the stroke", header)
-    kind = computed(time, stroke, velocity)
-    if kind:
+    if kind := computed(time, stroke, velocity):
         notes.warning(f"velocity is just the {kind} of the stroke, no measurement of its own", header)
 
 
@@ -261,12 +237,10 @@ def check_work(table: Table, notes: Notes) -> None:
     wrong = cycles < -BACKWARD_WORK * usual
     if total <= 0.0:
         message = (
-            f"work of {len(cycles)} cycles = {total:.4g} J: must be above 0, force is positive when the damper is pulled"
+            f"work of {len(cycles)} cycles = {total:.4g} J: must be above 0, force is positive when the damper is pulled "
         )
-        first = int(table.rows[starts[np.argmin(cycles)]])
-        notes.error(
-            message + " (stroke rising); if the rig's sign differs, set force_sign = -1 or stroke_sign = -1", header, first
-        )
-    elif where := places(np.isin(np.arange(len(table.rows)), starts[:-1][wrong]), table.rows, notes):
+        message += "(stroke rising); if the rig's sign differs, set force_sign = -1 or stroke_sign = -1"
+        notes.error(message, header, int(table.rows[starts[np.argmin(cycles)]]))
+    elif where := notes.places(np.isin(np.arange(len(table.rows)), starts[:-1][wrong]), table.rows):
         message = f"work of a cycle = {cycles[wrong][0]:.3g} J: must be above 0, {usual:.3g} J is usual{where.tail}"
         notes.warning(message, header, where.first)

@@ -1,7 +1,8 @@
-"""Cells as numbers."""
+"""Cells as numbers. Thousands separators are read where the cells of a column leave no doubt, and refused elsewhere."""
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,9 +10,11 @@ from numpy.typing import NDArray
 
 from twintube.common.arrays import Array
 from twintube.common.words import shown
-from twintube.data.convert.grouping import one_space, parted, ungrouped
-from twintube.data.findings import Notes, more
+from twintube.data.findings import Notes
 from twintube.data.formats import EMPTY
+
+SPACES = "\N{NO-BREAK SPACE}\N{FIGURE SPACE}\N{THIN SPACE}\N{NARROW NO-BREAK SPACE}"
+SAME = str.maketrans(dict.fromkeys(SPACES, " ") | {"\N{RIGHT SINGLE QUOTATION MARK}": "'"})
 
 
 def cells(values: Any, header: str, rows: NDArray[np.int64], decimal: str, notes: Notes, *, empty: str = EMPTY) -> Array:
@@ -20,13 +23,11 @@ def cells(values: Any, header: str, rows: NDArray[np.int64], decimal: str, notes
     try:
         numbers = np.asarray(plain(values, header, rows, decimal, notes) if written else values, dtype=float)
     except (ValueError, TypeError, OverflowError):
-        numbers = np.array([number(cell, decimal) for cell in values], dtype=float)
-    bad = np.flatnonzero(~np.isfinite(numbers))
-    if len(bad):
-        row = int(rows[min(bad[0], len(rows) - 1)])
-        cell = numbers[bad[0]] if isinstance(values, np.ndarray) else values[bad[0]]
-        tail = more(len(bad), int(rows[min(bad[-1], len(rows) - 1)]), notes.counted)
-        notes.error(wrong_cell(cell, decimal, empty) + tail, header, row)
+        numbers = floats(values, decimal)
+    bad = ~np.isfinite(numbers)
+    if where := notes.places(bad, rows):
+        cell = numbers[bad][0] if isinstance(values, np.ndarray) else values[int(np.argmax(bad))]
+        notes.error(wrong_cell(cell, decimal, empty) + where.tail, header, where.first)
     return numbers
 
 
@@ -74,6 +75,11 @@ def wrong_cell(cell: Any, decimal: str, empty: str) -> str:
     return f"{text} is not a finite number"
 
 
+def floats(values: Iterable[Any], decimal: str) -> Array:
+    """The cells (n,) as numbers, NaN where one is none."""
+    return np.array([number(cell, decimal) for cell in values], dtype=float)
+
+
 def number(cell: Any, decimal: str) -> float:
     """A cell as float, NaN if it is not a number."""
     if isinstance(cell, str):
@@ -84,3 +90,43 @@ def number(cell: Any, decimal: str) -> float:
         return float(cell)
     except (ValueError, TypeError, OverflowError):
         return math.nan
+
+
+def one_space(cell: str) -> str:
+    """The cell with one kind of space and of apostrophe, none at its ends."""
+    return cell.translate(SAME).strip()
+
+
+def parted(text: str, decimal: str) -> list[str]:
+    """The signs in the cells that may part thousands."""
+    return [sign for sign in (" ", "'", "," if decimal == "." else ".") if sign in text]
+
+
+def ungrouped(cells: Sequence[str], separator: str, decimal: str) -> tuple[list[str], int] | None:
+    """The cells without their thousands separators, and the number of the first that had one; None where in doubt.
+
+    Every separator must part groups of three digits after a first one that does not begin with 0. A space or an apostrophe
+    is no decimal sign. That a point or a comma is none is clear where no longer number is without and a cell holds both
+    signs or several separators, or where the column has no decimal sign but whole numbers below 1000: `2.189` among
+    `870` and `-45`, with decimal = ',' in dataset.toml.
+    """
+    groups = re.compile(
+        rf"\s*[+-]?[1-9]\d{{0,2}}(?:{re.escape(separator)}\d{{3}})+(?:{re.escape(decimal)}\d*)?\s*", re.ASCII
+    )
+    grouped = [cell for cell in cells if separator in cell]
+    if not grouped or not all(groups.fullmatch(cell) for cell in grouped):
+        return None
+    if separator in ",." and not thousands(cells, grouped, separator, decimal):
+        return None
+    first = next(i for i, cell in enumerate(cells) if separator in cell)
+    return [cell.replace(separator, "") for cell in cells], first
+
+
+def thousands(cells: Sequence[str], grouped: Sequence[str], separator: str, decimal: str) -> bool:
+    """Whether a point or a comma in `grouped`, some of the cells, can only part thousands."""
+    others = [cell for cell in cells if separator not in cell]
+    if any(re.match(r"\s*[+-]?\d{4}", cell) for cell in others):
+        return False
+    both_signs = any(decimal in cell or cell.count(separator) > 1 for cell in grouped)
+    whole = decimal == "," and not any(decimal in cell for cell in cells) and any(cell.strip() for cell in others)
+    return both_signs or whole

@@ -1,10 +1,11 @@
 """Which column of a foreign file is which quantity: names and units as test benches write them, English and German."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from twintube.common.grouping import grouped
 from twintube.data.convert.quantities import UNITS, in_si
 from twintube.data.convert.units import OTHER_UNITS, PLAIN_UNITS
 
@@ -23,6 +24,10 @@ MEASURED = ("ist", "istwert", "act", "actual", "meas", "measured", "feedback", "
 # Within a single word: `Sollweg`, `Wegsoll`, `LoadSetpoint`; short ones only as a word of their own.
 SET_POINT_PARTS = ("soll", "setpoint", "command", "sollwert")
 MEASURED_PARTS = ("istwert", "istweg", "istkraft", "istpos", "feedback")
+CURVE = (
+    "an F-v table, not a record of time, stroke and force: its points go into [fv] of a parameter file, "
+    "which `twintube dampers SA8 > mine.toml` writes"
+)
 NAMED = 2.0  # score of a column whose name says what it holds
 
 
@@ -31,17 +36,14 @@ def words(name: str) -> list[str]:
     return [word.lower() for word in re.findall(r"[^\W\d_]+", re.sub(r"(?<=[a-zäöü])(?=[A-ZÄÖÜ])", " ", name))]
 
 
-def is_measured(name: str) -> bool:
-    """Whether a name says that it is the actual value."""
-    return any(word in MEASURED or word.startswith(MEASURED_PARTS) or word.endswith(MEASURED_PARTS) for word in words(name))
+def says(name: str, whole: Sequence[str], parts: tuple[str, ...]) -> bool:
+    """Whether a name has one of these words, or a word that begins or ends with one of these parts."""
+    return any(word in whole or word.startswith(parts) or word.endswith(parts) for word in words(name))
 
 
 def is_set_point(name: str) -> bool:
     """Whether a name says that it is what was asked for, and not what was measured."""
-    own = words(name)
-    return not is_measured(name) and any(
-        word in SET_POINT or word.startswith(SET_POINT_PARTS) or word.endswith(SET_POINT_PARTS) for word in own
-    )
+    return says(name, SET_POINT, SET_POINT_PARTS) and not says(name, MEASURED, MEASURED_PARTS)
 
 
 def named_like(name: str) -> Iterator[str]:
@@ -82,25 +84,28 @@ def likeness(name: str, unit: str) -> tuple[str, float]:
 
 def assigned(pairs: Sequence[tuple[str, str]], doubts: list[str]) -> dict[str, tuple[int, str]]:
     """By quantity: the number and the unit of the column that fits best; adds what is not sure to `doubts`."""
-    likely: dict[str, list[tuple[float, int]]] = {}
-    for i, (name, unit) in enumerate(pairs):
-        quantity, score = likeness(name, unit)
-        if score:
-            likely.setdefault(quantity, []).append((score, i))
+    rated = [(i, *likeness(*pair)) for i, pair in enumerate(pairs)]
+    likely = grouped((quantity, (score, i)) for i, quantity, score in rated if score)
     columns = {}
     for quantity in UNITS:
         # What was asked for is taken only where nothing else fits, however well it is named.
-        rated = sorted(likely.get(quantity, []), key=lambda item: (is_set_point(pairs[item[1]][0]), -item[0], item[1]))
-        if not rated:
+        ranked = sorted(likely.get(quantity, []), key=lambda item: (is_set_point(pairs[item[1]][0]), -item[0], item[1]))
+        if not ranked:
             continue
-        score, i = rated[0]
+        score, i = ranked[0]
         columns[quantity] = i, pairs[i][1]
         if is_set_point(pairs[i][0]):
             doubts.append(f"{quantity}: {pairs[i][0]!r} is named as a set point, and no measured one was found")
         elif score < NAMED:
             doubts.append(f"{quantity}: taken from {pairs[i][0]!r}, by its unit only")
-        rivals = [k for other, k in rated[1:] if other > score - 1.0]
+        rivals = [k for other, k in ranked[1:] if other > score - 1.0]
         if rivals:
             others = ", ".join(repr(pairs[k][0]) for k in rivals)
             doubts.append(f"{quantity}: taken from {pairs[i][0]!r}; {others} would fit too")
     return columns
+
+
+def is_curve(quantities: Iterable[str]) -> bool:
+    """Whether columns of these quantities are points of an F-v curve."""
+    there = set(quantities)
+    return {"velocity", "force"} <= there and not {"time", "stroke"} & there

@@ -12,18 +12,18 @@ from twintube.common.arrays import Array
 from twintube.common.words import listed, printable, shown
 from twintube.dampers.damper import suggestion
 from twintube.dampers.quantity import parsed, quantity, registry
-from twintube.data.convert.cells import cells, number, slow_cells
+from twintube.data.convert.cells import cells, floats, slow_cells
 from twintube.data.convert.inferred import say_inferred
-from twintube.data.convert.masses import is_mass, is_weight_of
 from twintube.data.convert.stamps import is_stamp, seconds
-from twintube.data.convert.units import split_header, unit_of
-from twintube.data.findings import Notes, more
+from twintube.data.convert.units import is_mass, is_weight_of, split_header, unit_of
+from twintube.data.findings import Notes
 from twintube.data.formats import Channel, Format, Raw
 
 UNITS = {"time": "s", "stroke": "m", "force": "N", "velocity": "m/s", "temperature": "degC"}
 EXAMPLES = {"time": "time [s]", "stroke": "stroke [mm]", "force": "force [N]"}
 WHOLE = (-math.inf, math.inf)  # the window of a record that is not cut
 AS_STATED = Channel()
+Source = tuple[str, str]  # where a quantity stands: the header with its unit, as in the file or in `columns`; its column
 LOOK = 1000  # cells that tell whether a column rises
 
 
@@ -34,14 +34,6 @@ class Table:
     columns: dict[str, Array]  # by quantity, (n,), SI units, temperature in degC
     headers: dict[str, str]  # by quantity
     rows: NDArray[np.int64]  # number in the file, (n,)
-
-
-@dataclass(frozen=True)
-class Source:
-    """Where a quantity stands in a file."""
-
-    header: str  # with its unit, as in the file or in `columns`
-    column: str  # in the file
 
 
 def quantity_of(header: str) -> str:
@@ -101,10 +93,10 @@ def convert(
     notes.counted = raw.counted
     before = len(notes.findings)
     sources = chosen(raw, form, notes, needed)
-    say_inferred(raw, form, {source.header: source.column for source in sources.values()}, notes)
+    say_inferred(raw, form, dict(sources.values()), notes)
     rows = np.asarray(raw.rows, dtype=np.int64)
     columns: dict[str, Array] = {}
-    headers = {name: source.header for name, source in sources.items()}
+    headers = {name: header for name, (header, _) in sources.items()}
     if form.sample_rate is not None:
         if "time" in sources:
             notes.warning("not used, because sample_rate_Hz is given", headers["time"])
@@ -137,27 +129,28 @@ def inside(time: Array, window: tuple[float, float], header: str, notes: Notes) 
 
 def column(raw: Raw, name: str, source: Source, form: Format, *, kept: NDArray[np.int64], notes: Notes) -> Array | None:
     """The samples `kept` (n,) of a column in SI units; None with a finding where there are none."""
-    values, rows = raw.columns[source.column], np.asarray(raw.rows, dtype=np.int64)
+    header, name_in_file = source
+    values, rows = raw.columns[name_in_file], np.asarray(raw.rows, dtype=np.int64)
     if len(values) != len(rows):
-        notes.error(f"{len(values)} samples where another column of the file has {len(rows)}", source.header)
+        notes.error(f"{len(values)} samples where another column of the file has {len(rows)}", header)
         return None
     if len(kept) < len(rows):
         values, rows = values[kept] if isinstance(values, np.ndarray) else [values[i] for i in kept], rows[kept]
     try:
         if name == "time" and any(is_stamp(cell) for cell in values[:1]):
-            return stamped(values, source.header, rows, notes)
+            return stamped(values, header, rows, notes)
         channel = form.channels.get(name, AS_STATED)
-        carried, stated = raw.units.get(source.column, ""), split_header(source.header)[1]
+        carried, stated = raw.units.get(name_in_file, ""), split_header(header)[1]
         decimal = raw.decimal or form.decimal
         if name == "temperature":
-            read = slow_cells(values, source.header, rows, decimal, notes)
+            read = slow_cells(values, header, rows, decimal, notes)
         else:
-            read = cells(values, source.header, rows, decimal, notes, empty=raw.nothing)
+            read = cells(values, header, rows, decimal, notes, empty=raw.nothing)
         numbers = scaled(read, name, stated or carried, channel)
         if channel.gain is None and carried and stated and not equal_units(name, carried, stated):
-            notes.error(f"the file gives {shown(source.column)} in {printable(carried)}, not in {stated}", source.header)
+            notes.error(f"the file gives {shown(name_in_file)} in {printable(carried)}, not in {stated}", header)
     except ValueError as error:
-        notes.error(str(error), source.header)
+        notes.error(str(error), header)
         return None
     return numbers
 
@@ -165,10 +158,10 @@ def column(raw: Raw, name: str, source: Source, form: Format, *, kept: NDArray[n
 def stamped(values: Sequence[str], header: str, rows: NDArray[np.int64], notes: Notes) -> Array:
     """Seconds (n,) of times of day or date-time stamps; raises ValueError."""
     numbers = seconds(values)
-    bad = np.flatnonzero(~np.isfinite(numbers))
-    if len(bad):
-        tail = more(len(bad), int(rows[bad[-1]]), notes.counted)
-        notes.error(f"{shown(values[bad[0]])} is no time like {shown(values[0])}{tail}", header, int(rows[bad[0]]))
+    bad = ~np.isfinite(numbers)
+    if where := notes.places(bad, rows):
+        wrong = values[int(np.argmax(bad))]
+        notes.error(f"{shown(wrong)} is no time like {shown(values[0])}{where.tail}", header, where.first)
     return numbers
 
 
@@ -194,24 +187,15 @@ def missing(
         known = rising(raw, form.decimal) if name == "time" else list(raw.columns)
         hint = suggestion(name, [split_header(text)[0] for text in known])
         hint = hint or (f", did you mean {printable(known[0])}?" if name == "time" and known else "")
-        rate = (
-            "; without times set sample_rate_Hz"
-            if name == "time" and not hint
-            else "; name it by `columns`"
-            if raw.meant
-            else ""
-        )
+        rate = "; name it by `columns`" if raw.meant else ""
+        rate = "; without times set sample_rate_Hz" if name == "time" and not hint else rate
         notes.error(f"no column {EXAMPLES[name]!r} among {there}{hint}{rate}", name)
 
 
 def rising(raw: Raw, decimal: str) -> list[str]:
     """The columns whose first cells rise from each to the next, as times do."""
-    found = []
-    for name, values in raw.columns.items():
-        first = np.array([number(cell, decimal) for cell in values[:LOOK]], dtype=float)
-        if len(first) > 2 and len(values) == len(raw.rows) and np.all(np.diff(first) > 0.0):
-            found.append(name)
-    return found
+    whole = {name: values for name, values in raw.columns.items() if len(values) == len(raw.rows) > 2}
+    return [name for name, values in whole.items() if np.all(np.diff(floats(values[:LOOK], decimal)) > 0.0)]
 
 
 def chosen(raw: Raw, form: Format, notes: Notes, needed: Sequence[str]) -> dict[str, Source]:
@@ -241,9 +225,9 @@ def chosen(raw: Raw, form: Format, notes: Notes, needed: Sequence[str]) -> dict[
         elif column in without and name not in needed:
             continue
         elif name in sources:
-            notes.error(f"{name} is there already as {shown(sources[name].header)}", header)
+            notes.error(f"{name} is there already as {shown(sources[name][0])}", header)
         else:
-            sources[name] = Source(header, column)
+            sources[name] = header, column
     if unused and sources and raw.counted == "row":
         notes.warning(f"not used: {listed(unused)}; used are {', '.join(UNITS)}")
     return sources

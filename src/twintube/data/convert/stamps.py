@@ -82,16 +82,11 @@ def numbered(dates: set[str], order: str) -> dict[str, int] | None:
     for text in dates:
         try:
             a, b, c = (int(x) if x.isdigit() else MONTHS.index(x.lower()) + 1 for x in PARTS.split(text))
-        except ValueError:  # a word that is no month
-            return None
-        if a > 99:
-            year, month, day = a, b, c
-        else:
-            year = c if c > 99 else 2000 + c
-            day, month = (b, a) if order == "mdy" and "/" in text else (a, b)
-        try:
+            year, month, day = (a, b, c) if a > 99 else (c if c > 99 else 2000 + c, b, a)
+            if order == "mdy" and "/" in text and a <= 99:
+                month, day = day, month
             ordinals[text] = date(year, month, day).toordinal()
-        except ValueError:
+        except ValueError:  # no such month, or no such day in it
             return None
     first = min(ordinals.values(), default=0)
     return {text: number - first for text, number in ordinals.items()}

@@ -2,13 +2,14 @@
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from twintube.dampers.quantity import quantity
 from twintube.data.dataset_toml.channels import good_channels
 from twintube.data.formats import MOST_COLUMNS, MOST_SKIPPED, known_encoding
 
+Rule = tuple[Callable[[Any], bool], str]  # what a value must be, and that in words
 FILE = "dataset.toml"
 MEASUREMENTS = ("quasi-static", "harmonic", "stochastic")
 SPLITS = ("fit", "heldout")
@@ -28,8 +29,7 @@ UNKNOWN = "unknown"  # where nobody knows the fill
 MOST_GROUPS = 65_535  # of an MDF file, whose format counts them in 16 bits
 # How to read the files: at the top for all records, or in a record.
 READING = ("columns", "channels", "sample_rate_Hz", "delimiter", "decimal", "encoding", "skip_rows", "sheet", "group",
-           "force_sign",
-           "stroke_sign", "stroke_offset")  # fmt: skip
+           "force_sign", "stroke_sign", "stroke_offset")  # fmt: skip
 NOT_SURE = "not_sure"
 TOP = ("title", "damper", "record", NOT_SURE, *READING)
 OIL = ("oil_level", "oil_volume_mL")
@@ -49,35 +49,21 @@ def good_columns(value: Any) -> bool:
     return isinstance(texts, list) and 0 < len(texts) <= MOST_COLUMNS and all(isinstance(text, str) for text in texts)
 
 
-def good_offset(value: Any) -> bool:
-    """A length with its unit."""
-    try:
-        return isinstance(value, str) and abs(quantity(value, "m")) <= LARGEST_OFFSET
-    except ValueError:
-        return False
+def measured(unit: str, low: float, high: float) -> Callable[[Any], bool]:
+    """A text of a number with its unit, from low to high in the SI `unit`."""
+
+    def good(value: Any) -> bool:
+        try:
+            return isinstance(value, str) and low <= quantity(value, unit) <= high
+        except ValueError:
+            return False
+
+    return good
 
 
-def good_pressure(value: Any) -> bool:
-    """A gauge pressure with its unit."""
-    try:
-        return isinstance(value, str) and 0.0 <= quantity(value, "Pa") <= MOST_PRESSURE
-    except ValueError:
-        return False
-
-
-def good_windows(value: Any) -> bool:
-    """A list of pairs of times, each from the earlier to the later."""
-    return (
-        isinstance(value, list)
-        and 0 < len(value) <= MOST_WINDOWS
-        and all(isinstance(pair, list) and len(pair) == 2 and all(map(number, pair)) for pair in value)
-        and all(low <= high for low, high in value)
-    )
-
-
-def good_window(value: Any) -> bool:
+def pair(value: Any) -> bool:
     """A pair of times, the earlier one first."""
-    return isinstance(value, list) and len(value) == 2 and all(map(number, value)) and value[0] < value[1]
+    return isinstance(value, list) and len(value) == 2 and all(map(number, value)) and value[0] <= value[1]
 
 
 def text(value: Any, most: int = LONGEST_TEXT) -> bool:
@@ -90,76 +76,84 @@ def label(value: Any) -> bool:
     return text(value, LONGEST_LABEL) and value.isprintable() and value == value.strip()
 
 
-def good_doubts(value: Any) -> bool:
-    """A list of texts; empty once all is confirmed."""
-    return isinstance(value, list) and len(value) <= MOST_DOUBTS and all(text(doubt, LONGEST_DOUBT) for doubt in value)
-
-
 def good_path(value: Any) -> bool:
     """A path of a file that systems take; `a.csv/` is that of a folder."""
     return text(value, LONGEST_PATH) and re.search(r"[/\\]\.{0,2}$", value) is None
 
 
-def good_delimiter(value: Any) -> bool:
-    """What the csv module takes as a delimiter, or the word `whitespace`."""
-    return value == "whitespace" or (isinstance(value, str) and len(value) == 1 and value not in "\r\n\"'")
+def between(low: float, high: float, said: str = "a number {}") -> Rule:
+    """A number within a range."""
+    return lambda x: number(x) and low <= x <= high, said.format(f"from {low:g} to {high:g}")
 
 
-RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
+def whole(low: int, high: int, said: str = "") -> Rule:
+    """A whole number within a range."""
+    return lambda x: type(x) is int and low <= x <= high, f"an integer from {low} to {high}{said}"
+
+
+def one_of(texts: Sequence[str], said: str = "one of {}") -> Rule:
+    """One of some texts."""
+    return lambda x: isinstance(x, str) and x in texts, said.format(", ".join(texts))
+
+
+SIGN: Rule = (lambda x: type(x) in (int, float) and x in (1, -1), "1 or -1")
+TEMPERATURE = between(COLDEST, HOTTEST, "{} degC")
+RULES: dict[str, Rule] = {
     "title": (text, f"a text of one line and at most {LONGEST_TEXT} characters"),
     "damper": (good_path, "the name of a damper or of a parameter file"),
     NOT_SURE: (
-        good_doubts,
+        lambda x: isinstance(x, list) and len(x) <= MOST_DOUBTS and all(text(doubt, LONGEST_DOUBT) for doubt in x),
         f"a list of at most {MOST_DOUBTS} texts of one line, of at most {LONGEST_DOUBT} characters each",
     ),
     "file": (good_path, f"the name of a file, not of a folder, at most {LONGEST_PATH} characters"),
-    "block": (
-        lambda x: type(x) is int and 1 <= x <= MOST_RECORDS,
-        f"an integer from 1 to {MOST_RECORDS}, the number of a table in a text or sheet",
-    ),
-    "measurement": (lambda x: isinstance(x, str) and x in MEASUREMENTS, f"one of {', '.join(MEASUREMENTS)}"),
+    "block": whole(1, MOST_RECORDS, ", the number of a table in a text or sheet"),
+    "measurement": one_of(MEASUREMENTS),
     "oil_level": (
         lambda x: x == UNKNOWN or (number(x) and 0 <= x <= 1),
         f"a number from 0 to 1, the share of the intact oil volume, or '{UNKNOWN}'",
     ),
-    "oil_volume_mL": (
-        lambda x: number(x) and 0 <= x <= LARGEST_VOLUME,
-        f"a number from 0 to {LARGEST_VOLUME:g}; where nobody knows it, oil_level = '{UNKNOWN}' instead",
-    ),
+    "oil_volume_mL": between(0, LARGEST_VOLUME, f"a number {{}}; where nobody knows it, oil_level = '{UNKNOWN}' instead"),
     "gas_preload": (
         lambda x: x == UNKNOWN or isinstance(x, bool) or (number(x) and 0 <= x <= 1),
         f"true (present), false (lost), a share from 0 to 1 or '{UNKNOWN}'",
     ),
     "state": (label, f"a text like 'as delivered' of at most {LONGEST_LABEL} characters"),
     "reference": (lambda x: isinstance(x, bool), "true or false"),
-    "reference_s": (good_window, "a list like [0, 10] of from and to in seconds"),
-    "start_temperature_degC": (lambda x: number(x) and COLDEST <= x <= HOTTEST, f"from {COLDEST:g} to {HOTTEST:g} degC"),
-    "temperature_degC": (lambda x: number(x) and COLDEST <= x <= HOTTEST, f"from {COLDEST:g} to {HOTTEST:g} degC"),
-    "gas_pressure": (good_pressure, f"a gauge pressure like '10 bar' or '150 psi', at most {MOST_PRESSURE / 1e5:g} bar"),
+    "reference_s": (lambda x: pair(x) and x[0] < x[1], "a list like [0, 10] of from and to in seconds"),
+    "start_temperature_degC": TEMPERATURE,
+    "temperature_degC": TEMPERATURE,
+    "gas_pressure": (
+        measured("Pa", 0.0, MOST_PRESSURE),
+        f"a gauge pressure like '10 bar' or '150 psi', at most {MOST_PRESSURE / 1e5:g} bar",
+    ),
     "setting": (text, "a text like 'C3'"),
     "start_s": (number, "a time in seconds"),
     "end_s": (number, "a time in seconds"),
-    "exclude": (good_windows, f"a list like [[1.25, 1.3]] of from and to in seconds, at most {MOST_WINDOWS}"),
-    "split": (lambda x: isinstance(x, str) and x in SPLITS, f"one of {', '.join(SPLITS)}"),
+    "exclude": (
+        lambda x: isinstance(x, list) and 0 < len(x) <= MOST_WINDOWS and all(map(pair, x)),
+        f"a list like [[1.25, 1.3]] of from and to in seconds, at most {MOST_WINDOWS}",
+    ),
+    "split": one_of(SPLITS),
     "columns": (
         good_columns,
-        "a list of headers, or a table like {'stroke [mm]' = 'name in the file'}, at most " + str(MOST_COLUMNS),
+        f"a list of headers, or a table like {{'stroke [mm]' = 'name in the file'}}, at most {MOST_COLUMNS}",
     ),
     "channels": (good_channels, "tables like {force = {column = 'AI1', scale = '500 N/V', offset = '-12 N'}}"),
-    "sample_rate_Hz": (
-        lambda x: number(x) and SLOWEST_RATE <= x <= FASTEST_RATE,
-        f"a number from {SLOWEST_RATE:g} to {FASTEST_RATE:g}",
-    ),
+    "sample_rate_Hz": between(SLOWEST_RATE, FASTEST_RATE),
     "sheet": (text, "the name of a sheet of a workbook"),
     "group": (
         lambda x: text(x) or (type(x) is int and 0 <= x <= MOST_GROUPS),
         f"the name of a channel group of an MDF file, or its number from 0 to {MOST_GROUPS}",
     ),
-    "delimiter": (good_delimiter, "one character or 'whitespace'"),
-    "decimal": (lambda x: isinstance(x, str) and x in (".", ","), "'.' or ','"),
+    # What the csv module takes as a delimiter, or the word.
+    "delimiter": (
+        lambda x: x == "whitespace" or (isinstance(x, str) and len(x) == 1 and x not in "\r\n\"'"),
+        "one character or 'whitespace'",
+    ),
+    "decimal": one_of((".", ","), "'.' or ','"),
     "encoding": (lambda x: isinstance(x, str) and known_encoding(x), "a text encoding like 'utf-8' or 'latin-1'"),
-    "skip_rows": (lambda x: type(x) is int and 0 <= x <= MOST_SKIPPED, f"an integer from 0 to {MOST_SKIPPED}"),
-    "force_sign": (lambda x: type(x) in (int, float) and x in (1, -1), "1 or -1"),
-    "stroke_sign": (lambda x: type(x) in (int, float) and x in (1, -1), "1 or -1"),
-    "stroke_offset": (good_offset, "a length with unit like '-12.5 mm'"),
+    "skip_rows": whole(0, MOST_SKIPPED),
+    "force_sign": SIGN,
+    "stroke_sign": SIGN,
+    "stroke_offset": (measured("m", -LARGEST_OFFSET, LARGEST_OFFSET), "a length with unit like '-12.5 mm'"),
 }

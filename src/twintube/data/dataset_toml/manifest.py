@@ -16,7 +16,7 @@ from twintube.data.dataset_toml.channels import read_channels, wrong_channels
 from twintube.data.dataset_toml.keys import MOST_RECORDS, MOST_UNKNOWN, NOT_SURE, OIL, READING, RECORD, RULES, TOP, UNKNOWN
 from twintube.data.dataset_toml.keys import number as is_number
 from twintube.data.findings import UNCONFIRMED, Notes
-from twintube.data.formats import DEFAULT_ENCODING, Format
+from twintube.data.formats import Format
 
 
 @dataclass(frozen=True)
@@ -33,10 +33,10 @@ class Entry:
     oil_volume: float | None  # [m3]
     gas_preload: float | None  # share [1], true and false where it is there or lost; None: unknown
     gas_pressure: float | None  # gauge [Pa]
-    state: str | None  # label of the state of filling, None where it has none
-    setting: str | None
     temperature: float | None  # [degC]
     start_temperature: float | None  # [degC]
+    state: str | None  # label of the state of filling, None where it has none
+    setting: str | None
     split: str | None
     reference: bool
     reference_window: tuple[float, float] | None  # [s] of the file's own time
@@ -150,25 +150,19 @@ def valid(
 
 def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[str, Any], notes: Notes) -> Entry:
     """One `[[record]]`, with the keys at the top where it has none of its own."""
-    where = f"record {number}: "
-    before = sum(finding.severity == "error" for finding in notes.findings)
-
-    def line(key: str) -> int | None:
-        return section.line_of(key)
-
-    good = valid(table, RECORD, where, line, notes)
+    where, line, own = f"record {number}: ", section.line_of, Notes(notes.file, notes.counted)
+    good = valid(table, RECORD, where, line, own)
     for key in ("file", "measurement", "gas_preload"):
         if key not in table:
             hint = f"; '{UNKNOWN}' where nobody knows it" if key == "gas_preload" else ""
-            notes.error(f"{where}{key} is missing{hint}", key, line(""))
-    if sum(key in table for key in OIL) != 1:
-        both_given = all(key in table for key in OIL)
-        what = "both are given" if both_given else "is missing"
-        hint = "" if both_given else f"; oil_level = '{UNKNOWN}' where nobody knows it"
-        notes.error(f"{where}{' or '.join(OIL)} {what}, must be one of the two{hint}", "oil_level", line(""))
+            own.error(f"{where}{key} is missing{hint}", key, line(""))
+    if (count := sum(key in table for key in OIL)) != 1:
+        what = "both are given" if count else "is missing"
+        hint = "" if count else f"; oil_level = '{UNKNOWN}' where nobody knows it"
+        own.error(f"{where}{' or '.join(OIL)} {what}, must be one of the two{hint}", "oil_level", line(""))
     window = float(good.get("start_s", WHOLE[0])), float(good.get("end_s", WHOLE[1]))
     if window[0] >= window[1]:
-        notes.error(f"{where}start_s = {window[0]:g} must be before end_s = {window[1]:g}", "start_s", line("start_s"))
+        own.error(f"{where}start_s = {window[0]:g} must be before end_s = {window[1]:g}", "start_s", line("start_s"))
     pressure = quantity(good["gas_pressure"], "Pa") if "gas_pressure" in good else None
     level, preload = (None if good.get(key) == UNKNOWN else good.get(key) for key in ("oil_level", "gas_preload"))
     if preload in (0, 1):
@@ -176,16 +170,17 @@ def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[s
     if pressure and preload is not True and "gas_preload" in good:
         stated = f"'{UNKNOWN}'" if preload is None else str(preload).lower()
         message = f"{where}gas_pressure = {good['gas_pressure']}: must be left out where gas_preload = {stated}"
-        notes.error(message, "gas_pressure", line("gas_pressure"))
+        own.error(message, "gas_pressure", line("gas_pressure"))
     part = good.get("reference_s")
     if part and (wrong := wrong_part(part, window, bool(good.get("reference")))):
-        notes.error(f"{where}reference_s = {part}: {wrong}", "reference_s", line("reference_s"))
+        own.error(f"{where}reference_s = {part}: {wrong}", "reference_s", line("reference_s"))
+    notes.findings += own.findings
     both = shared | good
     volume = good.get("oil_volume_mL")
     return Entry(
         where=where,
         section=section,
-        complete=sum(finding.severity == "error" for finding in notes.findings) == before,
+        complete=not own.failed,
         file=good.get("file", ""),
         label=good.get("file", ""),
         measurement=good.get("measurement", ""),
@@ -193,11 +188,9 @@ def entry(table: dict[str, Any], number: int, section: "Section", shared: dict[s
         oil_volume=None if volume is None else volume * 1e-6,
         gas_preload=preload,
         gas_pressure=pressure,
-        state=good.get("state"),
-        setting=good.get("setting"),
         temperature=good.get("temperature_degC"),
         start_temperature=good.get("start_temperature_degC"),
-        split=good.get("split"),
+        **{key: good.get(key) for key in ("state", "setting", "split")},
         reference=good.get("reference", False),
         reference_window=None if part is None else (float(part[0]), float(part[1])),
         window=window,
@@ -220,18 +213,9 @@ def wrong_part(part: Sequence[float], window: tuple[float, float], whole: bool) 
 
 def form_of(reading: dict[str, Any]) -> Format:
     """How a file is to be read, by the keys of READING."""
-    return Format(
-        columns=reading.get("columns"),
-        delimiter=reading.get("delimiter"),
-        decimal=reading.get("decimal", "."),
-        encoding=reading.get("encoding", DEFAULT_ENCODING),
-        skip_rows=reading.get("skip_rows", 0),
-        sheet=reading.get("sheet"),
-        block=reading.get("block"),
-        group=reading.get("group"),
-        sample_rate=reading.get("sample_rate_Hz"),
-        channels=read_channels(reading.get("channels", {})),
-    )
+    alike = ("columns", "delimiter", "decimal", "encoding", "skip_rows", "sheet", "block", "group")
+    given = {key: reading[key] for key in alike if key in reading}
+    return Format(**given, sample_rate=reading.get("sample_rate_Hz"), channels=read_channels(reading.get("channels", {})))
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twintube.data.convert.cells import number
+from twintube.data.convert.cells import floats
 from twintube.data.convert.quantities import quantity_of
 from twintube.data.convert.stamps import is_stamp
 from twintube.data.convert.units import units_row
@@ -73,7 +73,7 @@ def restarts(table: Sequence[Row], head: int, end: int, form: Format) -> list[in
     try:
         times = np.array([cell.replace(",", ".") for cell in cells] if form.decimal == "," else cells, dtype=float)
     except ValueError:
-        times = np.array([number(cell, form.decimal) for cell in cells], dtype=float)
+        times = floats(cells, form.decimal)
     steps = np.diff(times)
     if not (steps < 0).any() or not (steps > 0).any():
         return [head]

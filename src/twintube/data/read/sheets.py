@@ -6,8 +6,7 @@ from twintube.common.words import listed, shown
 from twintube.data.findings import UnreadableError
 from twintube.data.formats import Format, Raw
 from twintube.data.read.blocks import Row, Rows, ruled
-from twintube.data.read.own_header import texts_over
-from twintube.data.read.tables import table_of
+from twintube.data.read.tables import table_of, texts_over
 
 Cells = list[float | str | None]
 

@@ -1,5 +1,10 @@
-"""Rows of cells, of a text or of a sheet, as columns by name: unconverted and unjudged."""
+"""Rows of cells, of a text or of a sheet, as columns by name: unconverted and unjudged.
 
+Where dataset.toml names the columns in place of the file's own header, that is looked at, too: it may say other units.
+"""
+
+import csv
+import re
 from bisect import bisect_left
 from collections import Counter
 from collections.abc import Sequence
@@ -16,6 +21,8 @@ from twintube.data.formats import MOST_COLUMNS, Format, Raw
 from twintube.data.read.blocks import Row, Rows, chosen, is_numbers
 
 DELIMITERS = {";": "';'", "\t": "'\\t'", ",": "','"}
+NEAREST = 3  # rows over the numbers: names, units and a blank one
+BLANKS = re.compile(r"[ \t\r\n\f\v]+")
 
 
 def table_of(rows: Rows, form: Format, delimiter: str) -> Raw:
@@ -71,12 +78,7 @@ def columns_of(table: Sequence[Row], form: Format, delimiter: str) -> Raw:
     numbers = np.array([number for number, _ in body], dtype=np.int64)
     if headers is form.columns:
         # The block's own names and units, which the list replaces.
-        rows_over = [names, [f"[{unit}]" if unit else "" for unit in units or []]] if named else []
-        over = {
-            header: said
-            for i, header in enumerate(headers)
-            if header and (said := [row[i].strip() for row in rows_over if i < len(row) and row[i].strip()])
-        }
+        over = texts_over([row + [""] * width for row in (names, units or []) if named], headers)
         return Raw(columns, numbers, "row", over=over, without=without, empty=empty)
     carried = {header: unit for header, unit in zip(headers, units or [], strict=False) if header and unit}
     return Raw(columns, numbers, "row", carried, without=without, empty=empty)
@@ -112,3 +114,34 @@ def other_delimiter(line: str, delimiter: str, decimal: str) -> str:
         return ""
     comma = " and, where numbers are written 1,5, decimal = ','" if sign != "," else ""
     return f"set delimiter = {DELIMITERS[sign]}{comma}"
+
+
+def split(line: str, delimiter: str) -> list[str]:
+    """The cells of a line; no-break and thin spaces part thousands, and no cells."""
+    if delimiter == "whitespace":
+        return line.split() if line.isascii() else [cell for cell in BLANKS.split(line) if cell]
+    try:
+        return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])
+    except csv.Error:
+        return []
+
+
+def single_names(cells: list[str], width: int) -> list[str]:
+    """The names of a row that is parted by spaces: `Time [s]` is a single one."""
+    return cells if len(cells) <= width else re.split(r"\s+(?![\[(])", " ".join(cells))
+
+
+def texts_over(rows: Sequence[Sequence[str]], headers: Sequence[str]) -> dict[str, list[str]]:
+    """By header of `columns`: what the last rows that are skipped hold over that column, units in square brackets.
+
+    A row with fewer cells than columns is none of names; one with more has names without cells.
+    """
+    over: dict[str, list[str]] = {}
+    for cells in rows[-NEAREST:]:
+        if len(cells) < len(headers) or is_numbers(cells):
+            continue
+        units = units_row(cells)
+        for header, cell, unit in zip(headers, cells, units or cells, strict=False):
+            if header and cell.strip():
+                over.setdefault(header, []).append(f"[{unit}]" if units else cell.strip())
+    return over

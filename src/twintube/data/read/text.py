@@ -3,7 +3,6 @@
 import codecs
 import csv
 import io
-import re
 from dataclasses import dataclass, field, replace
 from itertools import islice, pairwise
 from pathlib import Path
@@ -13,11 +12,9 @@ from twintube.data.findings import UnreadableError
 from twintube.data.formats import DEFAULT_ENCODING, Format, Raw, usual_delimiter
 from twintube.data.read.blocks import Rows, chosen, is_numbers, ruled
 from twintube.data.read.lvm import MAGIC, Layout, Segment, completed, layout_of, names_of, segment, segments_of
-from twintube.data.read.own_header import NEAREST, cells_of, texts_over
-from twintube.data.read.tables import columns_of, with_blank
+from twintube.data.read.tables import NEAREST, columns_of, single_names, split, texts_over, with_blank
 
 LOOK = 400  # rows in which the table must begin
-BLANKS = re.compile(r"[ \t\r\n\f\v]+")
 MOST_LOOKED = 1000  # bytes that tell an encoding
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)  # how a text in UTF-16 begins
 
@@ -79,7 +76,8 @@ def cut_text(path: Path, form: Format) -> Cut:
     if isinstance(form.columns, list):
         width = len(form.columns)
         skipped = list(islice(io.StringIO(text), form.skip_rows))[-NEAREST:]
-        over = texts_over([cells_of(line.rstrip("\r\n"), delimiter, width) for line in skipped], form.columns)
+        cells = [split(line.rstrip("\r\n"), delimiter) for line in skipped]
+        over = texts_over([single_names(row, width) for row in cells] if delimiter == "whitespace" else cells, form.columns)
     return Cut(ruled(split_text(text, delimiter, form.skip_rows), form), delimiter, over=over)
 
 
@@ -129,11 +127,6 @@ def tabbed(text: str, form: Format) -> bool:
     )
 
 
-def split_white(line: str) -> list[str]:
-    """The cells between spaces and tabs; no-break and thin spaces part thousands."""
-    return line.split() if line.isascii() else [cell for cell in BLANKS.split(line) if cell]
-
-
 def split_text(text: str, delimiter: str, skipped: int) -> list[tuple[int, list[str]]]:
     """Rows with their number in the file, without `skipped` at the top and empty ones at the end; raises UnreadableError."""
     lines = io.StringIO(text, newline="")
@@ -142,7 +135,7 @@ def split_text(text: str, delimiter: str, skipped: int) -> list[tuple[int, list[
             raise UnreadableError(f"skip_rows = {skipped}: the file has fewer rows")
     try:
         if delimiter == "whitespace":
-            table = [(number, split_white(line)) for number, line in enumerate(lines, start=skipped + 1)]
+            table = [(number, split(line, delimiter)) for number, line in enumerate(lines, start=skipped + 1)]
         else:
             reader = csv.reader(lines, delimiter=delimiter, skipinitialspace=True)
             table = [(reader.line_num + skipped, cells) for cells in reader]

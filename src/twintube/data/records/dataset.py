@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from twintube.common.grouping import grouped
 from twintube.common.reading import ReadError, read_toml
 from twintube.common.words import listed, printable
 from twintube.core.checks import KELVIN
@@ -55,7 +56,11 @@ def load_dataset(path: str | Path) -> LoadedDataset:
         DataError: with all findings of all records, if one of them is an error. Warnings stay in `findings`.
 
     """
-    dataset = check_dataset(path)
+    return sound(check_dataset(path))
+
+
+def sound(dataset: Dataset) -> LoadedDataset:
+    """The dataset; raises DataError where it has errors."""
     if dataset.errors or dataset.damper is None:
         raise DataError(dataset.title, dataset.findings)
     return LoadedDataset(dataset.title, dataset.damper, dataset.records, dataset.findings)
@@ -78,11 +83,10 @@ def listed_record(path: Path, block: int | None = None) -> tuple[Damper, Record]
     toml = path.parent / FILE
     if not toml.is_file() or path.name == FILE:
         return None
-    dataset = read_dataset(toml, 1, path, block)
-    if not dataset.errors and not dataset.records:
+    found = read_dataset(toml, 1, path, block)
+    if not found.errors and not found.records:
         return None
-    if dataset.errors or dataset.damper is None:
-        raise DataError(dataset.title, dataset.findings)
+    dataset = sound(found)
     if len(dataset.records) > 1:
         there = listed([record.file for record in dataset.records], 5)
         raise InputError(f"{toml} names {len(dataset.records)} records of this file: {there}; choose by --block")
@@ -144,9 +148,7 @@ def read_dataset(path: str | Path, force_factor: int, only: Path | None = None, 
 
 def check_settings(manifest: Manifest, notes: Notes) -> None:
     """A warning that names the settings where the records are of several."""
-    groups: dict[str | None, list[str]] = {}
-    for entry in manifest.entries:
-        groups.setdefault(entry.setting, []).append(entry.label)
+    groups = grouped((entry.setting, entry.label) for entry in manifest.entries)
     if len(groups) > 1:
         named = [f"{printable(key or 'none given')} ({listed(files, 5)})" for key, files in groups.items()]
         line = next(entry.line for entry in manifest.entries if entry.setting is not None)

@@ -11,7 +11,7 @@ from twintube.data.convert.quantities import Table, convert
 from twintube.data.findings import Finding, Notes, UnreadableError
 from twintube.data.formats import Format
 from twintube.data.read.columns import read_raw
-from twintube.data.records.record import Record, velocity_of
+from twintube.data.records.record import Record, samples, velocity_of
 from twintube.data.sniff.values import kind_of
 from twintube.engine.simulate import InputError
 
@@ -43,10 +43,9 @@ def read_moved(path: Path, fill: tuple[float, float], block: int | None = None) 
     """
     notes = Notes(path.name)
     table = read_table(path, notes, block)
-    columns = table.columns
-    time, stroke, (velocity, source) = columns["time"], columns["stroke"], velocity_of(columns)
-    if "force" not in columns:
-        return Motion(time, stroke, velocity, columns.get("temperature")), notes.findings
+    time, stroke, temperature = table.columns["time"], table.columns["stroke"], table.columns.get("temperature")
+    if "force" not in table.columns:
+        return Motion(time, stroke, velocity_of(table.columns)[0], temperature), notes.findings
     kind = kind_of(time, stroke) or "stochastic"
     notes.remark(f"taken as {kind}, judged by the speed and the turning points of the stroke")
     usable = check_quality(table, np.zeros(len(time), dtype=bool), notes)
@@ -58,12 +57,8 @@ def read_moved(path: Path, fill: tuple[float, float], block: int | None = None) 
         gas_preload=fill[1],
         start_temperature=None,
         split=None,
-        time=time,
-        stroke=stroke,
-        force=columns["force"],
-        velocity=velocity,
-        velocity_source=source,
-        temperature=columns.get("temperature"),
+        **samples(table),
+        temperature=temperature,
         findings=(),
         usable=usable,
     )

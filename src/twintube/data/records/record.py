@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,8 @@ MEASURED = "measured"
 GIVEN = "given, but recomputable from the stroke"
 GRADIENT = "central difference of the stroke over its actual times (numpy.gradient)"
 FILL = ("oil_level", "gas_preload")
+# What dataset.toml says of a record in the same words
+STATED = (*FILL, "measurement", "start_temperature", "split", "setting", "gas_pressure", "reference", "reference_window")
 ALL: NDArray[np.bool_] = np.ones(0, dtype=bool)  # every sample of a record is usable
 ALL.flags.writeable = False
 
@@ -130,30 +133,23 @@ def read_record(entry: Entry, outcome: Outcome | None, damper: Damper | None, no
     usable = check_quality(table, excluded, own)
     if own.failed or not entry.complete or not check_part(entry, table.columns["time"], usable, notes):
         return None
-    c = table.columns
-    velocity, source = velocity_of(c)
     return Record(
         name=Path(entry.file).stem + entry.label.removeprefix(entry.file),
         file=entry.label,
-        measurement=entry.measurement,
-        oil_level=entry.oil_level,
-        gas_preload=entry.gas_preload,
-        start_temperature=entry.start_temperature,
-        split=entry.split,
-        time=c["time"],
-        stroke=c["stroke"],
-        force=c["force"],
-        velocity=velocity,
-        velocity_source=source,
+        **{key: getattr(entry, key) for key in STATED},
+        **samples(table),
         temperature=temperature(table, entry, own),
         findings=tuple(own.findings),
-        setting=entry.setting,
-        gas_pressure=entry.gas_pressure,
         usable=usable,
         state=entry.state or "",
-        reference=entry.reference,
-        reference_window=entry.reference_window,
     )
+
+
+def samples(table: Table) -> dict[str, Any]:
+    """The arrays of a record, by its fields."""
+    velocity, source = velocity_of(table.columns)
+    given = {name: table.columns[name] for name in ("time", "stroke", "force")}
+    return given | {"velocity": velocity, "velocity_source": source}
 
 
 def velocity_of(columns: Mapping[str, Array]) -> tuple[Array, str]:

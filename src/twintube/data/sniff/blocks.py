@@ -1,8 +1,10 @@
 """The records of a text file or a workbook for a new dataset.toml: one, or one for each of its sheets, runs and blocks."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from copy import deepcopy
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from twintube.common.words import listed, shown
@@ -16,11 +18,11 @@ from twintube.data.formats import Format, Raw, usual_delimiter
 from twintube.data.read.binary import check_package, first_rows, is_binary
 from twintube.data.read.blocks import Rows
 from twintube.data.read.lvm import X
-from twintube.data.read.sheets import Cells, sheet_rows
+from twintube.data.read.sheets import sheet_rows
 from twintube.data.read.tables import table_of
 from twintube.data.read.text import TextReader, cut_text, is_lvm
 from twintube.data.read.text import decoded as whole_text
-from twintube.data.sniff.grids import Grid, Lines, Sheet
+from twintube.data.sniff.grids import Grid
 from twintube.data.sniff.text import LINE_END, MOST_ROWS, decoded, sniff, sniffed, with_encoding
 from twintube.data.sniff.values import Sniffed, judge, say_motion
 from twintube.engine.simulate import InputError
@@ -32,16 +34,15 @@ def sniff_records(path: Path) -> list[Sniffed]:
         return sniff_sheets(path)
     if is_lvm(path):
         return sniff_lvm(path)
-    found = sniff(path)
+    found, usual = sniff(path), usual_delimiter(path)
     if len(found) > 1:
         return found
-    (whole,) = found
+    delimiter, encoding = found[0].reading.get("delimiter", usual), form_of(found[0].reading).encoding
 
-    def grid(start: int, end: int | None) -> Grid:
-        lines = LINE_END.split(whole_text(path, form_of(whole.reading).encoding))
-        return Lines(lines[start:end], usual_delimiter(path), [whole.reading.get("delimiter") or usual_delimiter(path)])
+    def grid() -> Grid:
+        return Grid(LINE_END.split(whole_text(path, encoding)), usual, [delimiter])
 
-    return with_blocks(str(path), whole, lambda form: cut_text(path, form).rows, grid)
+    return with_blocks(str(path), found[0], lambda form: cut_text(path, form).rows, grid)
 
 
 def sniff_sheets(path: Path) -> list[Sniffed]:
@@ -54,9 +55,10 @@ def sniff_sheets(path: Path) -> list[Sniffed]:
     found: list[Sniffed] = []
     refused = {}
     for name, rows in sheets.items():
-        place = f"{path}, sheet {shown(name)}"
+        place, cut = f"{path}, sheet {shown(name)}", partial(sheet_rows, rows)
         try:
-            own = of_sheet(place, rows)
+            own = sniffed(place, Grid(rows))
+            own = own if len(own) > 1 else with_blocks(place, own[0], cut, partial(Grid, rows))
         except InputError as error:
             refused[name] = str(error)
             continue
@@ -70,41 +72,31 @@ def sniff_sheets(path: Path) -> list[Sniffed]:
     return found
 
 
-def of_sheet(place: str, rows: list[Cells]) -> list[Sniffed]:
-    """The tables of a sheet; raises InputError where it has none."""
-    found = sniffed(place, Sheet(rows))
-    if len(found) > 1:
-        return found
-    cut = lambda form: sheet_rows(rows, form)  # noqa: E731 - said once
-    return with_blocks(place, found[0], cut, lambda start, end: Sheet(rows[start:end]))
-
-
-def with_blocks(
-    place: str, whole: Sniffed, cut: Callable[[Format], Rows], grid: Callable[[int, int | None], Grid]
-) -> list[Sniffed]:
+def with_blocks(place: str, whole: Sniffed, cut: Callable[[Format], Rows], grid: Callable[[], Grid]) -> list[Sniffed]:
     """The records of a table's blocks, or the one of the `whole` table.
 
-    `cut` gives its rows as a form says, `grid` a part of it by the numbers of rows from 0.
+    `cut` gives its rows as a form says, `grid` all rows of it, to be looked at.
     """
     form = form_of(whole.reading)
     try:
         rows = cut(form if isinstance(form.columns, list) else replace(form, skip_rows=0))
         if isinstance(form.columns, list) and len(set(rows.heads)) != 1:
-            rows = cut(replace(form, columns=None, skip_rows=0))
             form = replace(form, columns=None)
+            rows = cut(replace(form, skip_rows=0))
     except UnreadableError:  # the checks of the new dataset say why
         return [whole]
     if not 1 < len(rows.starts) <= MOST_RECORDS:
         return [whole]
     firsts = [rows.table[i][0] - 1 for i in rows.starts]
     found: list[Sniffed] = []
-    last = whole
-    for number, start in enumerate(firsts, start=1):
+    last, looked = whole, None
+    for number, (start, end) in enumerate(zip(firsts, [*firsts[1:], None], strict=True), start=1):
         named = rows.heads[number - 1] == rows.starts[number - 1] and not isinstance(form.columns, list)
-        end = firsts[number] if number < len(firsts) else None
         if named:
+            looked = looked or grid()
+            part = looked.rows[start : min(end or start + MOST_ROWS, start + MOST_ROWS)]
             try:
-                (last,) = sniffed(place, grid(start, min(end or start + MOST_ROWS, start + MOST_ROWS)), [form.decimal])
+                (last,) = sniffed(place, replace(looked, rows=part), [form.decimal])
             except (InputError, ValueError):
                 continue
             last.reading.pop("skip_rows", None)  # a block begins with its names
@@ -122,12 +114,10 @@ def of_restart(guess: Sniffed, rows: Rows) -> None:
     """Sampling and kind of a block that shares its names with the one before."""
     form = form_of(guess.reading)
     guess.facts = [fact for fact in guess.facts if "rows looked at" not in fact]
-    try:
+    with suppress(UnreadableError):
         table = convert(table_of(rows, form, form.delimiter or ""), form, Notes(""))
-    except UnreadableError:
-        return
-    if table is not None:
-        say_motion(table.columns["time"], table.columns["stroke"], guess)
+        if table is not None:
+            say_motion(table.columns["time"], table.columns["stroke"], guess)
 
 
 def sniff_lvm(path: Path) -> list[Sniffed]:
@@ -150,8 +140,8 @@ def of_lvm(raw: Raw) -> Sniffed:
     """What the names and units of a segment tell."""
     result = Sniffed({})
     names = list(raw.columns)
-    units = [raw.units.get(name, "") for name in names]
-    pairs = [("time" if name == X else name, unit_of(unit) or unit) for name, unit in zip(names, units, strict=True)]
+    units = {name: raw.units.get(name, "") for name in names}
+    pairs = [("time" if name == X else name, unit_of(unit) or unit) for name, unit in units.items()]
     columns = assigned(pairs, result.doubts)
     result.facts.append("columns in the file: " + ", ".join(names))
     result.reading["columns"] = dict(enumerate(names))

@@ -1,16 +1,10 @@
 """A first `columns` for a record whose columns dataset.toml does not name yet."""
 
 import json
-from collections.abc import Sequence
-from typing import Any
 
-import numpy as np
-
-from twintube.common.arrays import Array
 from twintube.common.words import printable
-from twintube.data.convert.cells import number
-from twintube.data.convert.column_names import assigned
-from twintube.data.convert.curves import CURVE, is_curve
+from twintube.data.convert.cells import floats
+from twintube.data.convert.column_names import CURVE, assigned, is_curve
 from twintube.data.convert.quantities import EXAMPLES, quantity_of, rising
 from twintube.data.convert.units import name_and_unit
 from twintube.data.findings import Notes
@@ -43,13 +37,8 @@ def suggest_columns(raw: Raw, form: Format, notes: Notes) -> None:
     texts = []
     for quantity in EXAMPLES:
         name, unit = found.get(quantity, ("name in the file", ""))
-        values = floats(raw.columns.get(name, []), form.decimal)
+        values = floats(raw.columns.get(name, [])[:LOOK], form.decimal)
         texts.append(
             f'"{quantity} [{unit or guessed(quantity, values)}]" = {json.dumps(printable(name), ensure_ascii=False)}'
         )
     notes.remark(f"name columns and units like columns = {{{', '.join(texts)}}}; check them, they are a guess")
-
-
-def floats(values: Sequence[Any], decimal: str) -> Array:
-    """The first numbers (n,) of a column, NaN where a cell is none."""
-    return np.array([number(cell, decimal) for cell in values[:LOOK]], dtype=float)

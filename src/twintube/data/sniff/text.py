@@ -10,15 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from twintube.data.check.column_claims import claims
-from twintube.data.convert.column_names import assigned
-from twintube.data.convert.curves import CURVE, is_curve
+from twintube.data.convert.column_names import CURVE, assigned, is_curve
 from twintube.data.convert.units import name_and_unit
 from twintube.data.formats import usual_delimiter
-from twintube.data.read.text import utf_16
-from twintube.data.sniff.body import Body, body, is_number
-from twintube.data.sniff.grids import LONGEST, Grid, Lines
-from twintube.data.sniff.names import Names, names_over
-from twintube.data.sniff.runs import side_by_side
+from twintube.data.read.text import UTF_16, utf_16
+from twintube.data.sniff.grids import DELIMITERS, LONGEST, Body, Grid, body, is_number
+from twintube.data.sniff.names import Names, names_over, side_by_side
 from twintube.data.sniff.values import NUMBER, Sniffed, judge, velocity_apart
 from twintube.engine.simulate import InputError
 
@@ -41,8 +38,7 @@ def sniff(path: Path) -> list[Sniffed]:
     lines = LINE_END.split(text)
     if len(text) > MOST_BYTES // 4 and path.stat().st_size > MOST_BYTES:
         lines.pop()  # cut within a row
-    found = sniffed(str(path), Lines(lines, usual_delimiter(path)))
-    return with_encoding(found, encoding)
+    return with_encoding(sniffed(str(path), Grid(lines, usual_delimiter(path), DELIMITERS)), encoding)
 
 
 def with_encoding(found: list[Sniffed], encoding: str) -> list[Sniffed]:
@@ -55,15 +51,16 @@ def with_encoding(found: list[Sniffed], encoding: str) -> list[Sniffed]:
 
 def sniffed(place: str, grid: Grid, decimals: Iterable[str] = NUMBER) -> list[Sniffed]:
     """What the first rows tell, cut in one of these ways; raises InputError that begins with the `place`."""
-    looked = [i for i in range(min(len(grid), 2 * LOOK)) if not grid.blank(i)][:LOOK]
-    if any(grid.too_long(i) for i in range(min(len(grid), LOOK))):
+    count = len(grid.rows)
+    looked = [i for i in range(min(count, 2 * LOOK)) if not grid.blank(i)][:LOOK]
+    if any(grid.too_long(i) for i in range(min(count, LOOK))):
         raise InputError(f"{place}: a row of more than {LONGEST} characters, so not a table of channels")
     ways = [(sign, decimal) for sign in grid.delimiters for decimal in decimals if sign != decimal or grid.quoted]
     best = max((body(grid.cells(looked, *way), *way) for way in ways), key=lambda found: found.score)
     if best.score <= 0.0:
         raise InputError(f"{place}: no table of at least two columns of numbers in its first {LOOK} rows")
     start = looked[best.first]
-    rows = grid.cells(range(start, min(len(grid), start + MOST_ROWS)), best.delimiter, best.decimal)
+    rows = grid.cells(range(start, min(count, start + MOST_ROWS)), best.delimiter, best.decimal)
     rows = [row for row in rows if best.takes(row)]
     refuse_equal_signs(place, best, rows[:LOOK])
     reading = {"delimiter": best.delimiter} if best.delimiter != grid.usual else {}
@@ -77,7 +74,8 @@ def sniffed(place: str, grid: Grid, decimals: Iterable[str] = NUMBER) -> list[Sn
         return [by_order(held, rows, best.decimal, Sniffed(reading | skipped))]
     parts = side_by_side(names, held)
     keys = by_name(best, names, looked, width) if len(parts) == 1 else by_place(names, start, width)
-    results = [Sniffed(reading | keys, doubts=doubts_of(parts)) for _ in parts]
+    doubts = [f"columns: {len(parts)} runs side by side are taken for records of their own"] * (len(parts) > 1)
+    results = [Sniffed(reading | keys, doubts=list(doubts)) for _ in parts]
     return [by_names(place, names, *both, rows, best.decimal) for both in zip(parts, results, strict=True)]
 
 
@@ -126,18 +124,11 @@ def by_names(  # noqa: PLR0917 - the table and what is read from it
     return result
 
 
-def doubts_of(parts: Sequence[Sequence[int]]) -> list[str]:
-    """What is not sure where columns are read as several runs."""
-    return [f"columns: {len(parts)} runs side by side are taken for records of their own"] if len(parts) > 1 else []
-
-
 def decoded(path: Path) -> tuple[str, str]:
     """The beginning of a file as text, and its encoding."""
     with path.open("rb") as file:
         data = file.read(MOST_BYTES)
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return data.decode("utf-16", errors="replace"), "utf-16"
-    if other := utf_16(data):
+    if other := "utf-16" if data.startswith(UTF_16) else utf_16(data):
         return data.decode(other, errors="replace"), other
     try:
         return data.decode("utf-8-sig"), "utf-8-sig"

@@ -2,16 +2,17 @@
 
 import re
 from collections import Counter
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from twintube.common.arrays import Array
-from twintube.data.convert.grouping import SPACES
-from twintube.data.convert.masses import WEIGHTS
+from twintube.data.convert.cells import SPACES
 from twintube.data.convert.quantities import UNITS, in_si
 from twintube.data.convert.stamps import is_stamp, seconds
+from twintube.data.convert.units import WEIGHTS
 
 ALIKE = 0.15  # spread of the turning points of a harmonic record over their mean
 FEWEST = 16  # samples of which a kind is told
@@ -88,34 +89,36 @@ def say_motion(time: Array, stroke: Array | None, result: Sniffed) -> None:
 
 def write_columns(columns: dict[str, tuple[int, str]], headers: dict[str, str], result: Sniffed) -> None:
     """`columns` as dataset.toml wants it: left out, header = name in the file, or a list by position."""
-    stated = result.reading["columns"]
-    if isinstance(stated, dict):
-        pairs = {headers[name]: stated[i] for name, (i, _) in columns.items()}
-        result.reading["columns"] = pairs
-        if all(header == source for header, source in pairs.items()):
-            del result.reading["columns"]
+    stated, by_place = result.reading["columns"], {i: headers[name] for name, (i, _) in columns.items()}
+    if not isinstance(stated, dict):
+        result.reading["columns"] = [by_place.get(i, "") for i in range(len(stated))]
         return
-    listed = [""] * len(stated)
-    for name, (i, _) in columns.items():
-        listed[i] = headers[name]
-    result.reading["columns"] = listed
+    result.reading["columns"] = {header: stated[i] for i, header in by_place.items()}
+    if all(header == stated[i] for i, header in by_place.items()):
+        del result.reading["columns"]
+
+
+def cells_of(body: list[list[str]], i: int) -> list[str]:
+    """The cells of a column."""
+    return [row[i] if i < len(row) else "" for row in body]
 
 
 def column(body: list[list[str]], i: int, decimal: str) -> Array:
     """The numbers of a column, NaN where a cell is not one."""
-    cells = [row[i] if i < len(row) else "" for row in body]
     parts = str.maketrans(dict.fromkeys([" ", "'", "’", *SPACES, "." if decimal == "," else ","], None))
-    numbers = [cell.translate(parts).replace(",", ".") if NUMBER[decimal].match(cell) else "nan" for cell in cells]
+    numbers = [
+        cell.translate(parts).replace(",", ".") if NUMBER[decimal].match(cell) else "nan" for cell in cells_of(body, i)
+    ]
     return np.array(numbers, dtype=float)
 
 
 def times(body: list[list[str]], i: int) -> Array:
     """Seconds since the first stamp in a column, NaN where it holds none."""
-    cells = [row[i] if i < len(row) else "" for row in body]
-    try:
-        return seconds(cells) if any(map(is_stamp, cells[:1])) else np.full(len(cells), np.nan)
-    except ValueError:
-        return np.full(len(cells), np.nan)
+    cells = cells_of(body, i)
+    with suppress(ValueError):
+        if any(map(is_stamp, cells[:1])):
+            return seconds(cells)
+    return np.full(len(cells), np.nan)
 
 
 def guessed(name: str, values: Array) -> str:

@@ -13,6 +13,7 @@ from twintube.common.arrays import Array
 from twintube.dampers import Damper
 from twintube.dampers.freed_gas import DEFAULT, SCALAR
 from twintube.engine.simulate import InputError
+from twintube.report.car.figures import road_of
 from twintube.report.common.html_page import Picture
 from twintube.report.common.style import BLUE, GREY, INK, ORANGE, RED, grid, legend_above, title
 from twintube.vehicle.cars import CarSet
@@ -103,7 +104,7 @@ def drawn(driven: Mapping[str, Sequence[Course]], narrow: bool = False) -> Figur
     for row, (road, several) in zip(rows, driven.items(), strict=True):
         for course in several:
             draw(row, course)
-        title(row[0], "smooth road" if road == "smooth" else f"class {road}")
+        title(row[0], road_of(road))
     legend_above(figure, *axes.flat)
     return figure
 
@@ -119,8 +120,7 @@ def draw(row: Sequence[Any], course: Course) -> None:
         keep &= run.time > standards.TURN_APPROACH
     for ax, (name, read) in zip(row, panels, strict=True):
         ax.plot(x[keep][::5], read(run)[keep][::5], color=course.colour, lw=1.2, label=course.words, alpha=0.9)
-        ax.set_xlabel(across)
-        ax.set_ylabel(name)
+        ax.set(xlabel=across, ylabel=name)
     if case.maneuver == "lane_change":
         for lane in lanes(course.width):
             for side in (lane.left, lane.right):

@@ -4,11 +4,11 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
+from twintube.common.grouping import grouped
 from twintube.common.words import counted, listed
 from twintube.dampers.freed_gas import SCALAR
 from twintube.report.car import conclusion
-from twintube.report.car.pictures import TITLES, answer, drives, over_levels
-from twintube.report.car.tables import tables
+from twintube.report.car.figures import TITLES, answer, drives, over_levels, tables
 from twintube.report.common.html_page import Headline, Page, Picture, Section, Table
 from twintube.vehicle.cars import CarSet
 from twintube.vehicle.full.catalogue import MANEUVERS
@@ -33,9 +33,9 @@ def page(
     `courses` are pictures of drives, by manoeuvre.
     """
     sections = [conclusion.section(seen, rows)] if seen is not None else []
-    drawn = {"car": Picture.drawn(partial(over_levels, rows), LEVELS)} if drives(rows) else {}
-    if drawn:
-        sections.append(Section("levels", "Change over the oil level", pictures=list(drawn.values())))
+    if drives(rows):
+        drawn = Picture.drawn(partial(over_levels, rows), LEVELS, "car")
+        sections.append(Section("levels", "Change over the oil level", pictures=[drawn]))
     for name, words in TITLES.items():
         own = [entry for entry in entries if entry["maneuver"] == name]
         if own:
@@ -63,7 +63,7 @@ def page(
         "cavitation frees. F-v curves are stand-ins (assumed)."
     )
     head = headline(rows, seen, conditions["gas_preload"])
-    return Page(f"Whole car: {car.title}", sections, [lead], headline=head, pictures=drawn)
+    return Page(f"Whole car: {car.title}", sections, [lead], headline=head)
 
 
 def warm(conditions: Mapping[str, Any]) -> str:
@@ -89,9 +89,7 @@ def felt(rows: Sequence[Mapping[str, Any]]) -> tuple[list[Mapping[str, Any]], li
 def headline(rows: Sequence[Mapping[str, Any]], seen: Mapping[str, Any] | None, gas: str) -> Headline:
     """What the first screen says: what is felt first on the road, and what an inspection sees; `gas` tells the preload."""
     firsts, without = felt(rows)
-    levels: dict[float, list[str]] = {}
-    for row in firsts:
-        levels.setdefault(row["oil_level"], []).append(f"{row['figure']} {row['change']:+.0%}")
+    levels = grouped((row["oil_level"], f"{row['figure']} {row['change']:+.0%}") for row in firsts)
     driven = sorted({row["oil_level"] for row in rows}, reverse=True)
     state = f"{listed(f'{x:.0%}' for x in driven)} oil (gas preload {gas})"
     if len(driven) == 1:

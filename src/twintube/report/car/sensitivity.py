@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from twintube.common.readable import unit_of
 from twintube.common.words import counted
 from twintube.inspection.tables import markdown
+from twintube.report.car.figures import road_of
 from twintube.report.common.framed import framed, oil
 from twintube.report.common.html_page import Headline, Page, Picture, Section, Table
 from twintube.report.common.style import BLUE, FAINT, INK, ORANGE, grid, title
@@ -26,12 +27,7 @@ READ = "Measure or look up the values with the longest bars before the headline 
 
 def name_of(drive: tuple[str, str]) -> str:
     """A drive's headline in a few words."""
-    return f"{SHORT[drive[0]]}, {'smooth' if drive[1] == 'smooth' else 'class ' + drive[1]}"
-
-
-def road_of(drive: tuple[str, str]) -> str:
-    """The road of a drive."""
-    return "smooth road" if drive[1] == "smooth" else f"class {drive[1]} road"
+    return f"{SHORT[drive[0]]}, {road_of(drive[1]).removesuffix(' road')}"
 
 
 def percent(value: float) -> str:
@@ -121,7 +117,7 @@ def drawn(result: Sensitivity, narrow: bool = False) -> Figure:
         ax.axvline(centre, color=INK, lw=0.8)
         ax.axvline(0.0, color=INK, lw=1.0, ls=":")
         ax.grid(visible=False, axis="y")
-        title(ax, f"{MANEUVERS[drive[0]].headline[1]},\n{road_of(drive)}")
+        title(ax, f"{MANEUVERS[drive[0]].headline[1]},\n{road_of(drive[1]).removesuffix(' road')} road")
         ax.set_xlabel("worn against intact [%]")
     told = (
         f"Change from intact to worn dampers, whole car at {SPEED:g} km/h, mean of {counted(result.seeds, 'seed')}. "
@@ -157,11 +153,11 @@ def page(result: Sensitivity, conditions: Mapping[str, Any]) -> Page:
     held = "; ".join(f"{name_of(d)}, in {same_sign(result, d):.0%}" for d in DRIVES) if count else "no draws"
     sentence = f"How many of {count} draws of all assumed values keep the sign of the change: {held}."
     reasons = [(f"{item.title}, {range_of(item)}", item.reason) for item in ASSUMED]
-    picture = Picture.drawn(partial(drawn, result), CAPTION)
+    picture = Picture.drawn(partial(drawn, result), CAPTION, "sensitivity")
     return Page(
         f"Whole car: what the assumed values do, {conditions['car']}",
         [Section("table", "All assumed values", tables=[Table(head, rows)]), Section("ranges", "Ranges", notes=reasons)],
-        lead, headline=Headline(sentence, next=READ, picture=picture), pictures={"sensitivity": picture},
+        lead, headline=Headline(sentence, next=READ, picture=picture),
     )  # fmt: skip
 
 

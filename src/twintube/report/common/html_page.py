@@ -33,21 +33,12 @@ class Picture:
     alt: str
     caption: str = ""
     narrow: bytes = b""  # the PNG for small screens, if there is one
+    name: str = ""  # of the file that stands beside the page, if one does
 
     @classmethod
-    def drawn(cls, draw: Callable[[bool], Figure], caption: str, alt: str = "") -> "Picture":
+    def drawn(cls, draw: Callable[[bool], Figure], caption: str, name: str = "") -> "Picture":
         """A picture in two shapes, for wide and, where `draw` is told so, for narrow screens."""
-        return cls(style.png(draw(False)), alt or caption, caption, style.png(draw(True)))
-
-    @property
-    def uri(self) -> str:
-        """The picture as data URI, so that the page needs no other file."""
-        return data_uri(self.png)
-
-    @property
-    def narrow_uri(self) -> str:
-        """The picture for small screens; empty where the other serves."""
-        return data_uri(self.narrow) if self.narrow else ""
+        return cls(style.png(draw(False)), caption, caption, style.png(draw(True)), name)
 
 
 @dataclass(frozen=True)
@@ -68,11 +59,6 @@ class Finding:
     verdict: str = ""
     facts: Sequence[tuple[str, str]] = ()  # name and text, short
     numbers: Mapping[str, Any] = field(default_factory=dict)  # long listings are folded, and not printed
-
-    @property
-    def mark(self) -> str:
-        """Class in the style sheet."""
-        return MARKS.get(self.verdict, "open")
 
     @property
     def listing(self) -> list[tuple[str, str]]:
@@ -114,15 +100,20 @@ class Section:
     live: str = ""  # HTML of `report.live`
     open: bool = False  # not folded, below a headline
 
-    @property
-    def mark(self) -> str:
-        """Class in the style sheet."""
-        return MARKS.get(self.verdict, "open")
+
+def mark(verdict: str) -> str:
+    """The class of a verdict in the style sheet."""
+    return MARKS.get(verdict, "open")
 
 
 def data_uri(png: bytes) -> str:
-    """A PNG as data URI."""
+    """A PNG as data URI, so that the page needs no other file."""
     return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
+
+
+def upper(text: str) -> str:
+    """A text as a sentence begins."""
+    return text[0].upper() + text[1:]
 
 
 def coded(text: str) -> str:
@@ -143,9 +134,21 @@ def readable(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
+def rendered(module: str, name: str, **values: Any) -> str:
+    """A template beside a module, with these values."""
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters.update({"coded": coded, "mark": mark, "uri": data_uri, "sentence": upper})
+    return environment.from_string(beside(module, name)).render(**values)
+
+
+def beside(module: str, name: str) -> str:
+    """The text of a file in the folder of a module."""
+    return files(module.rpartition(".")[0]).joinpath(name).read_text(encoding="utf-8")
+
+
 @dataclass(frozen=True)
 class Page:
-    """The page of a result, and those of its pictures that stand beside it as files, by name."""
+    """The page of a result."""
 
     title: str
     sections: Sequence[Section]
@@ -153,24 +156,20 @@ class Page:
     summary: Sequence[Table] = ()
     headline: Headline | None = None
     foot: str = ""
-    pictures: Mapping[str, Picture] = field(default_factory=dict)
 
     @property
     def html(self) -> str:
         """The whole page."""
-        environment = jinja2.Environment(
-            autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-        )
-        environment.filters["coded"] = coded
-        source = files("twintube.report.common").joinpath("page.html").read_text(encoding="utf-8")
         foot = ". ".join(text for text in (self.foot.rstrip("."), f"twintube {__version__}") if text)
         named = {name: getattr(self, name) for name in ("title", "lead", "sections", "summary", "headline")}
-        return environment.from_string(source).render(**named, foot=foot)
+        return rendered(__name__, "page.html", **named, foot=foot)
 
     def write(self, folder: Path, name: str = "report.html") -> list[Path]:
-        """Write pictures and page; returns the files."""
-        written = [folder / f"{picture}.png" for picture in self.pictures]
-        for file, picture in zip(written, self.pictures.values(), strict=True):
-            write_bytes(file, picture.png)
+        """Write the page and those of its pictures that have a name; returns the files."""
+        first = [self.headline.picture] if self.headline and self.headline.picture else []
+        shown = [*first, *(picture for section in self.sections for picture in section.pictures)]
+        files = {folder / f"{picture.name}.png": picture.png for picture in shown if picture.name}
+        for file, png in files.items():
+            write_bytes(file, png)
         write_text(folder / name, self.html)
-        return [*written, folder / name]
+        return [*files, folder / name]

@@ -1,13 +1,14 @@
 """Style of the pictures: colours, panels, notes under a plot."""
 
 import textwrap
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from io import BytesIO
-from typing import Any
+from typing import Any, TypeVar
 
 import matplotlib
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -20,6 +21,7 @@ DARK = {  # the same on a dark page
 LEVELS = (INK, ORANGE, RED)  # the intact state, the paper's 60 % and 40 %
 PHASES = {"oil": "#c98b1f", "foam": "#f0d9a8", "gas": "#cfe0ee"}
 STAND_IN = "stand-in: virtual rig, not the paper's measurement"
+T = TypeVar("T")
 DPI = 130
 NOTE_SIZE = 7.5  # points
 RC: Any = {  # matplotlib has a type of its own for the keys
@@ -59,22 +61,37 @@ def canvas(rows: int = 1, columns: int = 1, size: tuple[float, float] = (10.0, 4
     return figure, axes
 
 
-def panels(names: Iterable[str], **options: Any) -> tuple[Figure, dict[str, Axes]]:
+def panels(names: Iterable[str], x: str, y: str) -> tuple[Figure, dict[str, Axes]]:
     """Panels (a) to (h), one per damper, as in the paper."""
     listed = list(names)
-    figure, axes = canvas(2, (len(listed) + 1) // 2, (11.0, 6.2), **options)
+    figure, axes = canvas(2, (len(listed) + 1) // 2, (11.0, 6.2), sharex=True)
     table = dict(zip(listed, axes.flat, strict=False))
     for letter, (name, ax) in zip("abcdefgh", table.items(), strict=False):
         title(ax, f"({letter}) {name}")
+    label(axes, x, y)
     return figure, table
 
 
-def pair(size: tuple[float, float] = (10.0, 4.4), **options: Any) -> tuple[Figure, Any]:
-    """Panels (a) first and (b) 19th oscillation."""
-    figure, axes = canvas(1, 2, size, **options)
-    for ax, text in zip(axes[0], ("(a) 1st oscillation", "(b) 19th oscillation"), strict=True):
-        title(ax, text)
-    return figure, axes[0]
+def pairs(size: tuple[float, float], *rows: str, **options: Any) -> tuple[Figure, Any]:
+    """Panels (a) first and (b) 19th oscillation for the work over the velocity, in `rows` of these names."""
+    figure, axes = canvas(len(rows), 2, size, **options)
+    for row, name in zip(axes, rows, strict=True):
+        for ax, text in zip(row, ("(a) 1st oscillation", "(b) 19th oscillation"), strict=True):
+            title(ax, f"{text}, {name}" if name else text)
+    label(axes, "maximum velocity [m/s]", "work of one oscillation [J]")
+    return figure, axes
+
+
+def from_zero(axes: Any) -> None:
+    """Axes that are drawn begin at 0."""
+    for ax in axes.flat:
+        ax.set_xlim(left=0)
+        ax.set_ylim(bottom=0)
+
+
+def loop(ax: Axes, run: Any, span: slice, unit: float = 1.0, **options: Any) -> None:
+    """Force over stroke [mm] of a part of a record or a simulation, the force [N] times `unit`."""
+    ax.plot(run.stroke[span] * 1e3, run.force[span] * unit, **options)
 
 
 NARROW = 4.3  # [inch] width of a picture for a screen of 400 pixels: its type stays legible
@@ -97,14 +114,20 @@ def grid(
     return figure, axes
 
 
-def title(ax: Axes, text: str) -> None:
-    """A panel's title."""
-    ax.set_title(text, loc="left", fontsize=10.5)
+def spread(several: Sequence[T], most: int) -> list[T]:
+    """At most so many, evenly picked, first and last among them."""
+    return [several[i] for i in sorted({round(x) for x in np.linspace(0, len(several) - 1, min(most, len(several)))})]
 
 
-def small_title(ax: Axes, text: str) -> None:
-    """A panel's title in small type, where there are many."""
-    ax.set_title(text, loc="left", fontsize=9)
+def bars(ax: Axes, rows: Sequence[tuple[str, float, str]], letters: int) -> None:
+    """A bar for each name, size and colour, the first at the top; the names in lines of so many letters."""
+    names, sizes, colours = zip(*rows[::-1], strict=True)
+    ax.barh(["\n".join(textwrap.wrap(name, letters)) for name in names], sizes, color=colours)
+
+
+def title(ax: Axes, text: str, size: float = 10.5) -> None:
+    """A panel's title, in smaller type where there are many."""
+    ax.set_title(text, loc="left", fontsize=size)
 
 
 def plain(text: str) -> str:

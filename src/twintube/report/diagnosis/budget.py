@@ -1,7 +1,8 @@
-"""The budget of the error for people: a line for each contribution, a table, and a picture."""
+"""The error for people: its budget in lines, a table and a picture, and loops of the records where it is largest."""
 
-import textwrap
+from functools import partial
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from twintube.common.readable import amount
@@ -10,9 +11,10 @@ from twintube.diagnosis import Answer, Budget, Line
 from twintube.report.common import style
 from twintube.report.common.html_page import Picture, Section, Table
 from twintube.report.common.titles import title_of
-from twintube.report.diagnosis.repairs import REPAIRS
+from twintube.report.diagnosis.state import REPAIRS
 
 SHOWN = 6  # contributions
+MOST_LOOPS = 3  # records
 TRACE = 0.1  # of the noise, below which a contribution is not shown
 # What a contribution is, and what tells it from its neighbours.
 WORDS = {
@@ -70,7 +72,7 @@ def section(answer: Answer) -> Section:
     )
     table = Table(("contribution", "size", "beside what is usual", "what tells it apart"), rows, caption, (1,))
     text = [f"The simulation is {amount(budget.error, 'N')} off; the largest measured force is {budget.peak:.0f} N."]
-    drawn = Picture.drawn(lambda narrow: picture(budget, narrow), "From the whole error to the noise. Blue: a finding.")
+    drawn = Picture.drawn(partial(picture, budget), "From the whole error to the noise. Blue: a finding.")
     return Section("budget", "What the error consists of", text=text, pictures=[drawn], tables=[table], open=True)
 
 
@@ -79,9 +81,35 @@ def picture(budget: Budget, narrow: bool = False) -> Figure:
     bars = [("Whole error", budget.error, style.INK)]
     bars += [(words(x)[0], x.force, style.BLUE if x.finding else style.FAINT) for x in shown(budget)]
     bars.append(("Noise", budget.noise, style.FAINT))
-    figure, axes = style.grid(1, (9.0, 0.8 + 0.42 * len(bars)), narrow, most=1)
-    ax = axes.flat[0]
-    names = ["\n".join(textwrap.wrap(name, 24 if narrow else 44)) for name, _, _ in bars]
-    ax.barh(names[::-1], [size for _, size, _ in bars[::-1]], color=[colour for _, _, colour in bars[::-1]])
+    figure, ((ax,),) = style.grid(1, (9.0, 0.8 + 0.42 * len(bars)), narrow, most=1)
+    style.bars(ax, bars, 24 if narrow else 44)
     ax.set_xlabel("force, RMS [N]")
+    return figure
+
+
+def loops(answer: Answer) -> Section:
+    """The part of the page with the loops."""
+    caption = "Force over velocity, one oscillation of each record, largest error first."
+    caption += " The simulation is that of the stated damper, without faults of the bench."
+    drawn = Picture.drawn(partial(drawn_loops, answer), caption)
+    return Section("loops", "Where the simulation is wrong", pictures=[drawn])
+
+
+def drawn_loops(answer: Answer, narrow: bool = False) -> Figure:
+    """Loops of the records with the largest errors: measured, simulated, and with the cause that is named."""
+    assert answer.changes is not None
+    search, found = answer.changes.search, answer.cause
+    bench, once = search.bench, search.bench.once()
+    errors = [float(np.sqrt(np.mean((bench.measured - search.none.force)[at] ** 2))) for at in bench.slices]
+    worst = np.argsort(errors)[::-1][:MOST_LOOPS]
+    figure, panels = style.grid(len(worst), (4.2, 3.4), narrow)
+    for i, ax in zip(worst, panels.flat, strict=False):
+        rows = np.arange(len(once))[bench.slices[i]][once[bench.slices[i]]]
+        lines = [("measured", bench.measured, style.INK, 2.4), ("simulated", search.none.force, style.RED, 1.2)]
+        lines += [("with the cause", found.force, style.BLUE, 1.2)] if found is not None else []
+        for name, force, colour, width in lines:
+            ax.plot(bench.v[rows], 1e-3 * force[rows], color=colour, lw=width, label=name)
+        style.title(ax, f"{style.plain(bench.records[i].name)}, error {errors[i]:.0f} N")
+        ax.set(xlabel="velocity [m/s]", ylabel="force [kN]")
+    style.legend_above(figure, panels.flat[0])
     return figure

@@ -1,7 +1,7 @@
 """The page about what has happened since the reference: the answer in a sentence, all probabilities, what it is worth."""
 
-import textwrap
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,33 +20,23 @@ from twintube.report.common import style
 from twintube.report.common.html_page import Headline, Picture, Section, Table
 from twintube.report.common.probabilities import LEAST, certain, chance
 from twintube.report.common.titles import title_of
-from twintube.report.diagnosis.repairs import BADGES, REPAIRS
-from twintube.report.diagnosis.state import badge as state_badge
-from twintube.report.diagnosis.state import sentence as state_sentence
-from twintube.report.diagnosis.state import sentences as state_sentences
-from twintube.report.diagnosis.state import undecided
+from twintube.report.diagnosis import state
+from twintube.report.diagnosis.state import BADGES, REPAIRS
 
 PICTURE = "changes"
 SHOWN = 8  # hypotheses of the picture
-TITLES = {
-    True: {
-        NONE: "Nothing has changed",
-        STATE: "Another fill than stated",
-        UNKNOWN: "Something has changed that is not in the catalogue",
-    },
-    False: {
-        NONE: "Nothing is missing",
-        STATE: "Another fill than stated",
-        UNKNOWN: "Another damper than that of the parameter set",
-    },
+OTHER_FILL = "Another fill than stated"
+TITLES = {  # by whether there is a reference
+    True: {NONE: "Nothing has changed", UNKNOWN: "Something has changed that is not in the catalogue"},
+    False: {NONE: "Nothing is missing", UNKNOWN: "Another damper than that of the parameter set"},
 }
 
 
 def title(h: Hypothesis, compared: bool) -> str:
     """A hypothesis in words; `compared` with a reference."""
     cause = h.name.removeprefix(f"{STATE}+")
-    words = TITLES[compared].get(cause) or title_of(cause)
-    return words if cause == h.name else f"{TITLES[compared][STATE]} + {lower(words)}"
+    words = OTHER_FILL if cause == STATE else TITLES[compared].get(cause) or title_of(cause)
+    return words if cause == h.name else f"{OTHER_FILL} + {lower(words)}"
 
 
 def name_of(h: Hypothesis, answer: Answer) -> str:
@@ -76,7 +66,7 @@ def remaining(answer: Answer) -> str:
     if first.kind == STATE:
         told = sorted((one for one in answer.states if one.stated.anything), key=lambda one: one.posterior.as_stated)
         changed = [one for one in told if one.posterior.rather_misstated] or told[:1]  # several may be doubtful, none alone
-        return " ".join(f"{state_sentence(one)} The file says otherwise." for one in changed)
+        return " ".join(f"{state.sentence(one)} The file says otherwise." for one in changed)
     if first.name == NONE and answer.asked:
         what = "has changed" if answer.compared else "is missing"
         return f"Beside the fill nothing {what}{since}. {certain(first.probability)}"
@@ -113,7 +103,7 @@ def worth(answer: Answer) -> str:
 def next_step(answer: Answer) -> str:
     """What to do next."""
     first = answer.named[0]
-    unread = TARED in [h.name for h in answer.named] or any(undecided(one.posterior) for one in answer.asked)
+    unread = TARED in [h.name for h in answer.named] or any(state.undecided(one.posterior) for one in answer.asked)
     steps = [REPAIRS[BOTH_SIGNS if fault.title == BOTH_SIGNS else fault.effect] for fault in answer.faults]
     if answer.unexplained:
         steps.append("look at the rig and at where the error is")
@@ -136,23 +126,22 @@ def next_step(answer: Answer) -> str:
     elif first.kind == UNKNOWN:
         known = "look at where the error is; no cause of the catalogue explains it"
         steps.append(known if answer.compared else "identify this damper first (twintube identify)")
-    return f"Next: {'; '.join(dict.fromkeys(steps)) or 'nothing'}."
+    return f"{'; '.join(dict.fromkeys(steps)) or 'nothing'}."
 
 
 def lines(answer: Answer) -> list[str]:
     """The answer for the terminal."""
     put_right = [f"{remark}." for remark in answer.remarks] if answer.tared or answer.unlike else []
-    return [sentence(answer), *put_right, next_step(answer)]
+    return [sentence(answer), *put_right, f"Next: {next_step(answer)}"]
 
 
 def headline(answer: Answer) -> Headline:
     """What the first screen says."""
     badge, mark = BADGES[answer.verdict]
     if answer.verdict == NONE and answer.asked:
-        badge, mark = state_badge(answer.asked)
+        badge, mark = state.badge(answer.asked)
     elif answer.verdict == NONE and answer.compared:
         badge = "nothing has changed"
-    step = next_step(answer).removeprefix("Next: ")
     later = "later " if answer.compared else ""
     caption = "How likely each answer is (blue: these hold 90 %)"
     caption += f", and the error of each {later}record, predicted from all other records." if gained(answer) else "."
@@ -160,9 +149,9 @@ def headline(answer: Answer) -> Headline:
         caption = "The error of each record, predicted from all other records: no cause of the catalogue takes it away."
     elif answer.doubted:
         caption = "The error of each record, predicted from all other records: in all it is larger with the cause."
-    drawn = Picture.drawn(lambda narrow: picture(answer, narrow), caption)
-    text = " ".join([*state_sentences(answer.asked), sentence(answer)])
-    return Headline(text, badge, mark, next=step[0].upper() + step[1:], picture=drawn)
+    drawn = Picture.drawn(partial(picture, answer), caption, PICTURE)
+    text = " ".join([*state.sentences(answer.asked), sentence(answer)])
+    return Headline(text, badge, mark, next=next_step(answer), picture=drawn)
 
 
 def picture(answer: Answer, narrow: bool = False) -> Figure:
@@ -171,16 +160,13 @@ def picture(answer: Answer, narrow: bool = False) -> Figure:
     if answer.unexplained or answer.doubted:
         return unexplained(answer, narrow)
     several = [h for h in answer.changes.hypotheses[:SHOWN] if h.probability >= LEAST]
-    bars = [(name_of(h, answer), h.probability, h.name in answer.changes.credible) for h in several]
-    bars.append(("Everything else", max(0.0, 1.0 - sum(h.probability for h in several)), False))
+    blue = answer.changes.credible
+    bars = [(name_of(h, answer), 100 * h.probability, style.BLUE if h.name in blue else style.FAINT) for h in several]
+    bars.append(("Everything else", 100 * max(0.0, 1.0 - sum(h.probability for h in several)), style.FAINT))
     known = gained(answer)
     figure, axes = style.grid(2 if known else 1, (5.4 if known else 9.0, max(2.4, 0.8 + 0.45 * len(bars))), narrow, most=2)
-    ax = axes.flat[0]
-    names = ["\n".join(textwrap.wrap(text, 24 if narrow else 32)) for text, _, _ in bars]
-    colours = [style.BLUE if inside else style.FAINT for _, _, inside in bars]
-    ax.barh(names[::-1], [100.0 * p for _, p, _ in bars[::-1]], color=colours[::-1])
-    ax.set_xlim(0, 100)
-    ax.set_xlabel("probability [%]")
+    style.bars(axes.flat[0], bars, 24 if narrow else 32)
+    axes.flat[0].set(xlim=(0, 100), xlabel="probability [%]")
     if known:
         errors(axes.flat[1], known)
     return figure
@@ -190,8 +176,8 @@ def unexplained(answer: Answer, narrow: bool) -> Figure:
     """What no hypothesis explains, or the only one makes worse: no probability of theirs says anything of that."""
     several = answer.held_out
     figure, axes = style.grid(1, (9.0, max(2.4, 1.4 + 0.45 * len(several))), narrow, most=1)
-    nearest = "with the nearest one" if answer.unexplained else "with the likeliest one"
-    errors(axes.flat[0], several, ("without a cause", nearest))
+    likely = "with the nearest one" if answer.unexplained else "with the likeliest one"
+    errors(axes.flat[0], several, ("without a cause", likely))
     return figure
 
 
@@ -216,14 +202,8 @@ def rows_of(answer: Answer) -> list[Table]:
     """Tables: hypotheses, strengths of the named cause, errors of records that were left out."""
     assert answer.changes is not None
     shown = answer.changes.hypotheses[:SHOWN]
-    several = [
-        [
-            name_of(h, answer),
-            chance(h.probability),
-            f"{h.log_evidence:.1f}" if np.isfinite(h.log_evidence) else "too slight",
-        ]
-        for h in shown
-    ]
+    weights = [f"{h.log_evidence:.1f}" if np.isfinite(h.log_evidence) else "too slight" for h in shown]
+    several = [[name_of(h, answer), chance(h.probability), weight] for h, weight in zip(shown, weights, strict=True)]
     nothing = lower(TITLES[answer.compared][NONE])
     caption = f"Log evidence: how much better it predicts all records than '{nothing}', whatever its strength is."
     likely = "probability, if one of them were right" if answer.unexplained or answer.doubted else "probability"
@@ -231,19 +211,11 @@ def rows_of(answer: Answer) -> list[Table]:
     if answer.cause is not None:
         f = answer.cause
         rows = [[n, f"{x:.3g}", f"{f.spread[n]:.2g}", unit_of(n)] for n, x in f.values.items()]
-        tables.append(
-            Table(("parameter", "value", "standard deviation", "unit"), rows, title_of(f.mechanism.effect), (1, 2))
-        )
+        head = ("parameter", "value", "standard deviation", "unit")
+        tables.append(Table(head, rows, title_of(f.mechanism.effect), (1, 2)))
     if answer.held_out:
-        left = [
-            [
-                h.record,
-                amount(h.without, "N"),
-                "" if h.with_cause is None else amount(h.with_cause, "N"),
-                amount(h.noise, "N"),
-            ]
-            for h in answer.held_out
-        ]
+        errors_of = ((h.record, (h.without, h.with_cause, h.noise)) for h in answer.held_out)
+        left = [[name, *("" if x is None else amount(x, "N") for x in several)] for name, several in errors_of]
         head = ("record left out", "without the cause", "with it", "noise")
         tables.append(Table(head, left, "Force error (RMS) of each record, predicted from all others.", (1, 2, 3)))
     return tables

@@ -1,20 +1,34 @@
 """The page about oil level and preload that nobody knows: what the records say, with a picture of its probability."""
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from twintube.common.words import listed
+from twintube.common.words import listed, lower
 from twintube.diagnosis import StateAnswer
+from twintube.diagnosis.channels import FAULTS
 from twintube.diagnosis.channels import TARED as TARED_CELL
+from twintube.diagnosis.measurement.faults import BOTH_SIGNS
 from twintube.diagnosis.numbers import numbers
 from twintube.diagnosis.posterior import LOST, PARTLY, TARED, THERE, StatePosterior
 from twintube.report.common import style
 from twintube.report.common.html_page import Headline, Picture, Section, Table
 from twintube.report.common.probabilities import chance
-from twintube.report.diagnosis.repairs import REPAIRS
 
+BADGES = {  # of answers about changes: verdict -> badge, class of the style sheet
+    "cause": ("cause named", "found"),
+    "none": ("nothing missing", "yes"),
+    "tolerance": ("within tolerance", "yes"),
+    "state": ("another fill than stated", "warn"),
+    "ambiguous": ("cannot tell apart", "warn"),
+    "unexplained": ("unexplained", "open"),
+    "measurement_fault": ("measurement fault", "no"),
+}
+REPAIRS = {name: fault.repair for name, fault in FAULTS.items()} | {
+    BOTH_SIGNS: "set force_sign = -1 and stroke_sign = -1 in dataset.toml, or leave both out where they stand there"
+}
 PICTURE = "state"
 SURE = 0.95  # probability from which a preload is said to be there or lost
 BAR = 0.02  # width of a bar of the picture
@@ -67,7 +81,7 @@ def undecided(posterior: StatePosterior) -> bool:
 
 def lines(answers: Sequence[StateAnswer]) -> list[str]:
     """The answers for the terminal."""
-    return [*sentences(answers), next_step(answers)]
+    return [*sentences(answers), f"Next: {next_step(answers)}"]
 
 
 def sentences(answers: Sequence[StateAnswer]) -> list[str]:
@@ -78,18 +92,17 @@ def sentences(answers: Sequence[StateAnswer]) -> list[str]:
 def next_step(answers: Sequence[StateAnswer]) -> str:
     """What to do next."""
     if any(answer.posterior.tared > 1.0 - SURE for answer in answers):
-        return f"Next: {REPAIRS[TARED_CELL]}."
+        return f"{REPAIRS[TARED_CELL]}."
     wide = any(high - low > WIDE for low, high in (answer.posterior.interval() for answer in answers))
     if wide:
-        return f"Next: {NARROWER[0].lower()}{NARROWER[1:]}"
-    return "Next: state this fill in dataset.toml; `twintube diagnose` then asks what else the model lacks."
+        return lower(NARROWER)
+    return "state this fill in dataset.toml; `twintube diagnose` then asks what else the model lacks."
 
 
 def headline(answers: Sequence[StateAnswer]) -> Headline:
     """What the first screen says."""
     text = " ".join(sentences(answers))
-    step = next_step(answers).removeprefix("Next: ")
-    return Headline(text, *badge(answers), next=step[0].upper() + step[1:], picture=drawn(answers))
+    return Headline(text, *badge(answers), next=next_step(answers), picture=drawn(answers, PICTURE))
 
 
 def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
@@ -108,9 +121,9 @@ def badge(answers: Sequence[StateAnswer]) -> tuple[str, str]:
     return "no oil lost", "yes"
 
 
-def drawn(answers: Sequence[StateAnswer]) -> Picture:
+def drawn(answers: Sequence[StateAnswer], name: str = "") -> Picture:
     """The picture for wide and narrow screens."""
-    return Picture.drawn(lambda narrow: picture(answers, narrow), CAPTION)
+    return Picture.drawn(partial(picture, answers), CAPTION, name)
 
 
 def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
@@ -129,9 +142,8 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
             height = 100 * np.concatenate([bars[row], p.by_gas[row, -1:]])
             ax.bar(middles, height, 90 * BAR, bottom, color=colour, label=label)
             bottom += height
-        ax.set_xlim(100 * numbers().level_low, 100 * (1.0 + 2 * BAR))
         ax.set_xticks([20, 40, 60, 80, 100 * (1.0 + BAR)], ["20", "40", "60", "80", "full"])
-        ax.set_ylim(0, 1.05 * float(bottom.max()))
+        ax.set(xlim=(100 * numbers().level_low, 100 * (1.0 + 2 * BAR)), ylim=(0, 1.05 * float(bottom.max())))
         ax.set_ylabel("probability [%]")
         if len(answers) > 1:
             style.title(ax, listed(answer.records, 2))
@@ -142,30 +154,13 @@ def picture(answers: Sequence[StateAnswer], narrow: bool = False) -> Figure:
 
 def section(answers: Sequence[StateAnswer], pictures: Sequence[Picture] = ()) -> Section:
     """The part of the page about states of filling; without pictures where the first screen has them."""
-    rows = [
-        [
-            listed(answer.records, 3),
-            f"{100 * answer.posterior.level:.0f} %",
-            "{:.0f} to {:.0f} %".format(*(100 * x for x in answer.posterior.interval())),
-            f"{100 * answer.posterior.gas:.0f} %",
-            "{:.0f} to {:.0f} %".format(*(100 * x for x in answer.posterior.gas_interval())),
-            chance(answer.posterior.gas_lost),
-            chance(answer.posterior.tared),
-            chance(answer.posterior.as_stated) if answer.stated.anything else "",
-        ]
-        for answer in answers
-    ]
-    table = Table(
-        (
-            "records",
-            "oil level",
-            "90 % interval",
-            "gas preload",
-            "90 % interval",
-            "lost",
-            "there, cell set to zero with it",
-            "as the file says",
-        ),
-        rows,
-    )
-    return Section("states", "Oil and gas in numbers", tables=[table], pictures=pictures)
+    rows = []
+    for answer in answers:
+        p, between = answer.posterior, "{:.0f} to {:.0f} %"
+        oil = [f"{100 * p.level:.0f} %", between.format(*(100 * x for x in p.interval()))]
+        gas = [f"{100 * p.gas:.0f} %", between.format(*(100 * x for x in p.gas_interval()))]
+        stated = chance(p.as_stated) if answer.stated.anything else ""
+        rows.append([listed(answer.records, 3), *oil, *gas, chance(p.gas_lost), chance(p.tared), stated])
+    head = ("records", "oil level", "90 % interval", "gas preload", "90 % interval", "lost",
+            "there, cell set to zero with it", "as the file says")  # fmt: skip
+    return Section("states", "Oil and gas in numbers", tables=[Table(head, rows)], pictures=pictures)

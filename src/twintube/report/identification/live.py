@@ -7,14 +7,13 @@ import base64
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from importlib.resources import files
 
-import jinja2
 import numpy as np
 
 from twintube import web
 from twintube.common.arrays import Array
 from twintube.report.common import style
+from twintube.report.common.html_page import beside, rendered
 
 MOST_POINTS = 1200  # of a record
 
@@ -42,17 +41,10 @@ class Look:
     forces: dict[str, Array]
     marks: Sequence[int] = ()
 
-    def thinned(self) -> "Look":
-        """At most MOST_POINTS samples, from the beginning."""
-        n = min(len(self.time), MOST_POINTS)
-        marks = [int(mark) for mark in self.marks if mark < n]
-        some = {name: force[:n] for name, force in self.forces.items()}
-        return Look(self.label, self.remark, self.time[:n], self.stroke[:n], self.velocity[:n], some, marks)
-
 
 def packed(values: Array) -> str:
-    """An array as the page's script reads it."""
-    return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")
+    """An array as the page's script reads it, at most MOST_POINTS from its beginning."""
+    return base64.b64encode(np.asarray(values[:MOST_POINTS], dtype="<f4").tobytes()).decode("ascii")
 
 
 def live(curves: Sequence[Curve], looks: Sequence[Look]) -> str:
@@ -63,23 +55,23 @@ def live(curves: Sequence[Curve], looks: Sequence[Look]) -> str:
         "curves": [asdict(curve) for curve in curves],
         "records": [
             {
-                "label": look.label, "remark": look.remark, "marks": list(look.marks),
+                "label": look.label, "remark": look.remark,
+                "marks": [int(mark) for mark in look.marks if mark < MOST_POINTS],
                 "t": packed(look.time - look.time[0]), "s": packed(1e3 * look.stroke), "v": packed(look.velocity),
                 "forces": {name: packed(force) for name, force in look.forces.items()},
             }
-            for look in (some.thinned() for some in looks)
+            for look in looks
         ],
     }  # fmt: skip
-    source = files("twintube.report.identification").joinpath("live.html").read_text(encoding="utf-8")
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    script = files("twintube.report.identification").joinpath("live.js").read_text(encoding="utf-8")
     # No text of a user can end the element.
     text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    return environment.from_string(source).render(
+    return rendered(
+        __name__,
+        "live.html",
         library=web.library(),
         style=web.library_style(),
         plots=web.plots(),
-        script=script,
+        script=beside(__name__, "live.js"),
         data=text,
         curves=curves,
         dark=style.DARK,

@@ -1,13 +1,10 @@
 """The page of `twintube identify`: what the set is good for, parameters, their intervals, and the errors on the records."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
-
-import numpy as np
-from matplotlib.figure import Figure
 
 from twintube.common.files import write_bytes, write_text
 from twintube.fitting.peak_velocity import as_csv, as_xlsx, peak_velocities
@@ -55,14 +52,8 @@ def percent(part: dict[str, Any] | None, what: str) -> list[str]:
     if part is None:
         return [what, "none", "", "", ""]
 
-    def work(which: str) -> str:
-        if f"work_error_{which}" not in part:
-            return ""
-        text = f"{part[f'work_error_{which}']:.1%} (worst {part[f'work_error_{which}_worst']:.1%})"
-        of_intact = part[f"work_error_{which}_of_intact"]
-        if of_intact is not None:
-            text += f"; of the intact work {of_intact:.1%} (worst {part[f'work_error_{which}_of_intact_worst']:.1%})"
-        return text
+    def both(key: str, before: str = "") -> str:
+        return "" if part.get(key) is None else f"{before}{part[key]:.1%} (worst {part[f'{key}_worst']:.1%})"
 
     force = (
         f"{part['force_rmse_N']:.1f} N, {part['force_rmse_of_peak']:.1%} of the peak "
@@ -71,35 +62,20 @@ def percent(part: dict[str, Any] | None, what: str) -> list[str]:
     if "force_rmse_recorded_N" in part:
         force += f"; {part['force_rmse_recorded_N']:.1f} N over the strokes with their noise"
     drives = f", {part['stochastic']} stochastic" if part["stochastic"] else ""
-    return [what, f"{part['records']}{drives}", force, work("first"), work("last")]
+    keys = ("work_error_first", "work_error_last")
+    works = [both(key) + both(f"{key}_of_intact", "; of the intact work ") for key in keys]
+    return [what, f"{part['records']}{drives}", force, *works]
 
 
 def parameter_table(result: Result) -> Table:
     """All identified parameters with their intervals and doubts."""
     rows = []
     for e in result.identification.estimates:
-        doubts = ([] if e.determined else ["not determined"]) + (["at its bound"] if e.at_bound else [])
-        rows.append(
-            [
-                e.name,
-                meaning(e.name),
-                f"{e.value:.3g}",
-                unit(e.name),
-                f"{e.low:.3g} to {e.high:.3g}",
-                f"{e.bounds[0]:g} to {e.bounds[1]:.3g}",
-                ", ".join(doubts),
-            ]
-        )
-    return Table(
-        ["parameter", "meaning", "value", "unit", "interval", "allowed", ""],
-        rows,
-        "Intervals hold with 95 % for all parameters together",
-    )
-
-
-def spread(several: Sequence[tuple[Harmonic, str]], most: int) -> list[tuple[Harmonic, str]]:
-    """At most so many records, evenly picked from first to last."""
-    return [several[i] for i in sorted({round(x) for x in np.linspace(0, len(several) - 1, min(most, len(several)))})]
+        doubts = ", ".join((["not determined"] * (not e.determined)) + (["at its bound"] * e.at_bound))
+        interval, allowed = f"{e.low:.3g} to {e.high:.3g}", f"{e.bounds[0]:g} to {e.bounds[1]:.3g}"
+        rows.append([e.name, meaning(e.name), f"{e.value:.3g}", unit(e.name), interval, allowed, doubts])
+    head = ["parameter", "meaning", "value", "unit", "interval", "allowed", ""]
+    return Table(head, rows, "Intervals hold with 95 % for all parameters together")
 
 
 def headline(result: Result, folder: str, chosen: Sequence[tuple[Harmonic, str]]) -> Headline:
@@ -109,37 +85,11 @@ def headline(result: Result, folder: str, chosen: Sequence[tuple[Harmonic, str]]
     good = [text for text in sentences if text not in limits]
     words = [text.split()[0] for text in good]
     badge = next((BADGES[word] for word in reversed(BADGES) if word in words), ("", "open"))
-    step = next_step(result, folder)
+    some = partial(drawings.loops, result, style.spread(chosen, FIRST))
     return Headline(
-        good[0] if good else "Identified.", *badge, " ".join([*good[1:], *limits]), f"{step[0].upper()}{step[1:]}.",
-        Picture.drawn(partial(drawings.loops, result, spread(chosen, FIRST)), "First and last oscillation of some records."),
+        good[0] if good else "Identified.", *badge, " ".join([*good[1:], *limits]), f"{next_step(result, folder)}.",
+        Picture.drawn(some, "First and last oscillation of some records."),
     )  # fmt: skip
-
-
-def pictures(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> dict[str, Picture]:
-    """All pictures that the result has something to show in, by name."""
-    harmonics = [row for row in result.validation if row.measurement == "harmonic"]
-    relative = [row for row in result.validation if row.relative_measured is not None]
-    top = reach([h for h, split in result.harmonics if h.intact and split == "fit"])
-    continued = f" Measured up to {top:.3g} m/s; the parameter file continues it by its last slope." if top else ""
-    drawn: dict[str, tuple[Callable[[bool], Figure], str]] = {
-        "works": (partial(drawings.works, harmonics), "Filled: fitted, open: not fitted."),
-        "loops": (
-            partial(drawings.loops, result, chosen),
-            "First and last oscillation; records not fitted come first.",
-        ),
-        "fv_curve": (partial(drawings.curve, result), f"The first step of the identification.{continued}"),
-    }
-    if result.identification.steps:
-        drawn["convergence"] = partial(drawings.convergence, result), "Error of the best set after each generation."
-        if result.identification.estimates:
-            drawn["intervals"] = (
-                partial(drawings.intervals, result),
-                "Bar: interval, line: value, within the allowed range. Grey: these records do not tell the value.",
-            )
-    if relative:
-        drawn["drives"] = partial(drawings.drives, relative), "Not used for fitting."
-    return {name: Picture.drawn(draw, text) for name, (draw, text) in drawn.items()}
 
 
 def error_table(result: Result) -> Table:
@@ -172,38 +122,50 @@ def step_table(result: Result) -> Table:
     return Table(["step", "parameters", "error", "simulations"], rows, numeric=(3,))
 
 
-def sections(result: Result, drawn: dict[str, Picture], chosen: Sequence[tuple[Harmonic, str]]) -> list[Section]:
+def record_section(result: Result) -> Section:
+    """The errors on all records."""
+    harmonics = [row for row in result.validation if row.measurement == "harmonic"]
+    relative = [row for row in result.validation if row.relative_measured is not None]
+    drawn = [Picture.drawn(partial(drawings.works, harmonics), "Filled: fitted, open: not fitted.", "works")]
+    drawn += [Picture.drawn(partial(drawings.drives, relative), "Not used for fitting.", "drives")] if relative else []
+    return Section("records", "Errors of all records", pictures=drawn, tables=[error_table(result), record_table(result)])
+
+
+def parameter_section(result: Result) -> Section:
+    """The identified parameters."""
+    found = result.identification
+    alike = [f"{a} and {b} act alike on these records (correlation {c:.2f})." for a, b, c in found.pairs]
+    caption = "Bar: interval, line: value, within the allowed range. Grey: these records do not tell the value."
+    drawn = [Picture.drawn(partial(drawings.intervals, result), caption, "intervals")] if found.steps else []
+    return Section("parameters", "Parameters", text=alike, tables=[parameter_table(result)], pictures=drawn)
+
+
+def sections(result: Result, chosen: Sequence[tuple[Harmonic, str]]) -> list[Section]:
     """The page below the answer; what has nothing to show is left out."""
-
-    def has(*names: str) -> list[Picture]:
-        return [drawn[name] for name in names if name in drawn]
-
-    identified = result.identification
-    parts = [Section("records", "Errors of all records", pictures=has("works", "drives"),
-                     tables=[error_table(result), record_table(result)])]  # fmt: skip
-    if identified.estimates:
-        alike = [f"{a} and {b} act alike on these records (correlation {c:.2f})." for a, b, c in identified.pairs]
-        parts.append(
-            Section("parameters", "Parameters", text=alike, tables=[parameter_table(result)], pictures=has("intervals"))
-        )
+    top = reach([h for h, split in result.harmonics if h.intact and split == "fit"])
+    continued = f" Measured up to {top:.3g} m/s; the parameter file continues it by its last slope." if top else ""
+    curve = Picture.drawn(partial(drawings.curve, result), f"The first step of the identification.{continued}", "fv_curve")
+    caption = "First and last oscillation; records not fitted come first."
+    loops = Picture.drawn(partial(drawings.loops, result, chosen), caption, "loops")
+    parts = [record_section(result), *([parameter_section(result)] if result.identification.estimates else [])]
     parts += [
         Section("records-live", "Look into the records", live=live_part(result, chosen)),
-        Section("loops", "Force over stroke", pictures=has("loops")),
-        Section("fv_curve", "F-v curve", pictures=has("fv_curve")),
+        Section("loops", "Force over stroke", pictures=[loops]),
+        Section("fv_curve", "F-v curve", pictures=[curve]),
     ]
-    if identified.steps:
-        parts.append(Section("search", "Search", pictures=has("convergence"), tables=[step_table(result)]))
-    if result.remarks:
-        parts.append(Section("remarks", "Remarks", items=result.remarks))
-    return parts
+    if result.identification.steps:
+        caption = "Error of the best set after each generation."
+        drawn = Picture.drawn(partial(drawings.convergence, result), caption, "convergence")
+        parts.append(Section("search", "Search", pictures=[drawn], tables=[step_table(result)]))
+    return parts + ([Section("remarks", "Remarks", items=result.remarks)] if result.remarks else [])
 
 
 def page(result: Result, folder: str) -> Page:
-    """The page of a result with its pictures; `folder` is named in the next step."""
+    """The page of a result; `folder` is named in the next step."""
     ordered = sorted(result.harmonics, key=lambda pair: (pair[1] != "heldout", pair[0].top_speed))
-    chosen = spread([pair for pair in ordered if not pair[0].intact] or ordered, LOOPS)
-    drawn, head = pictures(result, chosen), headline(result, folder, chosen)
-    return Page(f"Identification: {result.dataset.title}", sections(result, drawn, chosen), headline=head, pictures=drawn)
+    chosen = style.spread([pair for pair in ordered if not pair[0].intact] or ordered, LOOPS)
+    head = headline(result, folder, chosen)
+    return Page(f"Identification: {result.dataset.title}", sections(result, chosen), headline=head)
 
 
 def write_table(result: Result, folder: Path) -> list[Path]:

@@ -25,15 +25,10 @@ def loops(result: Result, chosen: Sequence[tuple[Harmonic, str]], narrow: bool =
     for ax, (record, split) in zip(axes.flat, chosen, strict=False):
         simulated = predicted(damper, record, offset)
         for colour, name, force in ((style.GREY, "measured", record.force), (style.RED, "simulated", simulated)):
-            for dash, which, (a, b) in (
-                ("-", "first", (record.marks[0], record.marks[1])),
-                (":", "last", (record.marks[-2], record.marks[-1])),
-            ):
-                part = slice(int(a), int(b) + 1)
-                ax.plot(
-                    record.stroke[part] * 1e3, force[part], dash, color=colour, lw=1.4, label=f"{name}, {which} oscillation"
-                )
-        style.small_title(ax, f"{record.oil_level:.0%} oil, {record.top_speed:.3g} m/s, {SPLITS[split]}")
+            for dash, which, (a, b) in (("-", "first", record.marks[:2]), (":", "last", record.marks[-2:])):
+                part, label = slice(int(a), int(b) + 1), f"{name}, {which} oscillation"
+                ax.plot(record.stroke[part] * 1e3, force[part], dash, color=colour, lw=1.4, label=label)
+        style.title(ax, f"{record.oil_level:.0%} oil, {record.top_speed:.3g} m/s, {SPLITS[split]}", 9)
     style.label(axes, "stroke [mm]", "force [N]")
     style.legend_above(figure, axes[0, 0])
     return figure
@@ -71,8 +66,7 @@ def works(rows: Sequence[Validated], narrow: bool = False) -> Figure:
 
 def curve(result: Result, narrow: bool = False) -> Figure:
     """The identified F-v curve with the friction-reduced points of the intact records."""
-    figure, axes = style.grid(1, (8.0, 3.6), narrow)
-    ax = axes[0, 0]
+    figure, ((ax,),) = style.grid(1, (8.0, 3.6), narrow)
     damper = result.identification.damper
     intact = [h for h, _ in result.harmonics if h.intact]
     v = np.linspace(-1, 1, 401) * max(h.top_speed for h, _ in result.harmonics)
@@ -84,7 +78,7 @@ def curve(result: Result, narrow: bool = False) -> Figure:
         points = np.array(rebound + [(-a, -b) for a, b in compression])
         points[:, 1] += result.identification.offset * -1.0
         ax.plot(points[:, 0], points[:, 1], "o", color=style.RED, ms=4, label="records at stroke 0, less friction and gas")
-    style.label(axes, "velocity [m/s], rebound positive", "fluid force [N]")
+    ax.set(xlabel="velocity [m/s], rebound positive", ylabel="fluid force [N]")
     style.legend_above(figure, ax)
     return figure
 
@@ -92,8 +86,7 @@ def curve(result: Result, narrow: bool = False) -> Figure:
 def intervals(result: Result, narrow: bool = False) -> Figure:
     """Every parameter with its interval within its allowed range."""
     estimates = [e for e in result.identification.estimates if e.name in DEGRADATION]
-    figure, axes = style.grid(1, (8.0, 0.3 * len(estimates) + 0.5), narrow)
-    ax = axes[0, 0]
+    figure, ((ax,),) = style.grid(1, (8.0, 0.3 * len(estimates) + 0.5), narrow)
     for i, e in enumerate(estimates):
         low, width = e.bounds[0], e.bounds[1] - e.bounds[0]
         colour = style.BLUE if e.determined else style.FAINT
@@ -113,15 +106,13 @@ def convergence(result: Result, narrow: bool = False) -> Figure:
     for ax, step in zip(axes.flat, steps, strict=True):
         ax.plot(np.arange(1, len(step.best.trace) + 1), step.best.trace, color=style.BLUE)
         style.title(ax, step.title)
-        ax.set_xlabel("generation")
-        ax.set_ylabel(f"error [{step.unit}]")
+        ax.set(xlabel="generation", ylabel=f"error [{step.unit}]")
     return figure
 
 
 def drives(rows: Sequence[Validated], narrow: bool = False) -> Figure:
     """Work of the drives relative to the intact damper."""
-    figure, axes = style.grid(1, (9.0, 0.32 * len(rows) + 0.7), narrow)
-    ax = axes[0, 0]
+    figure, ((ax,),) = style.grid(1, (9.0, 0.32 * len(rows) + 0.7), narrow)
     at = np.arange(len(rows))
     ax.barh(at - 0.2, [r.relative_measured or 0.0 for r in rows], 0.38, color=style.GREY, label="measured")
     ax.barh(at + 0.2, [r.relative_simulated or 0.0 for r in rows], 0.38, color=style.RED, label="simulated")

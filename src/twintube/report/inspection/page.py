@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from twintube.common.grouping import grouped
 from twintube.common.words import listed
 from twintube.dampers import Damper
 from twintube.inspection import METHODS, Detection
@@ -41,9 +42,7 @@ def detection_tables(result: Inspection, damper: Damper) -> list[Table]:
     """Share detected and share that fails at the method's limit, a column per oil level."""
     here = [d for d in result.detections if d.damper == damper.name]
     levels = sorted({d.condition.oil_level for d in here}, reverse=True)
-    found: dict[tuple[str, bool, float], list[Detection]] = {}
-    for d in here:
-        found.setdefault((d.method.name, d.condition.scalar, d.condition.oil_level), []).append(d)
+    found = grouped(((d.method.name, d.condition.scalar, d.condition.oil_level), d) for d in here)
 
     def rows(text: Callable[[Sequence[Detection]], str]) -> list[list[str]]:
         return [
@@ -80,86 +79,72 @@ def windows_table(result: Inspection) -> Table:
     return Table(["damper", "oil", *WINDOWS], rows, caption, numeric=range(2, 2 + len(WINDOWS)))
 
 
-def damper_section(result: Inspection, damper: Damper, drawn: Picture) -> Section:
+def damper_section(result: Inspection, damper: Damper) -> Section:
     """Figures of one damper."""
+    drawn = Picture.drawn(partial(figures_over_oil, result.of, damper, result.methods), FIGURES, damper.name)
     head = ["oil", "preload", *(f"{m.title}{f' [{m.unit}]' if m.unit else ''}" for m in result.methods)]
     table = Table(head, figure_rows(result, damper), "Figure and verdict; [ ]: from way to way; ( ): scalar factor")
     return Section(damper.name, f"Figures of {damper.name}, {damper.title}", pictures=[drawn], tables=[table])
 
 
-def plate_section(result: Inspection) -> tuple[Section, Picture]:
-    """The coast of the EUSAMA plate of the first damper, and its picture."""
+def plate_section(result: Inspection) -> Section:
+    """The coast of the EUSAMA plate of the first damper."""
     first = result.dampers[0]
     states = [entry.condition for entry in result.of(first, result.methods[0])]
     caption = (
         "Force per height of the plate over tyre stiffness, and the angle by which the force leads, one value per cycle. "
         "Thick lines lie below thin ones. Dotted: resonance of the wheel; red: limit."
     )
-    drawn = Picture.drawn(partial(sweep, first, result.vehicle, states), caption)
+    drawn = Picture.drawn(partial(sweep, first, result.vehicle, states), caption, "plate")
     tables = [windows_table(result)] if any(entry.windows for entry in result.entries) else []
-    return Section("plate", f"The plate run of {first.name}", pictures=[drawn], tables=tables), drawn
+    return Section("plate", f"The plate run of {first.name}", pictures=[drawn], tables=tables)
 
 
 def headline(result: Inspection) -> Headline:
     """What the first screen says: down to which oil level the dampers pass, and which loss is seen in the scatter."""
     first = result.dampers[0]
-    seen: dict[str, list[str]] = {}
-    for m in result.methods if result.detections else ():
-        seen.setdefault(seen_in_words(result, first, m).removesuffix(EVERY_WAY), []).append(m.title)
+    methods = result.methods if result.detections else []
+    seen = grouped((seen_in_words(result, first, m).removesuffix(EVERY_WAY), m.title) for m in methods)
     levels = "; ".join(f"{level}: {', '.join(methods)}" for level, methods in seen.items())
     rule = f"{SEEN:.0%} of the cars at {FALSE_ALARMS:.0%} false alarms"
     remark = f"Oil levels of this study at which the loss of {first.name} is seen in {rule}. {levels}." if seen else ""
     step = NEXT if result.detections else "`--scatter 100` shows in how many of 100 cars the loss is seen."
     caption = f"Figure of each method at each oil level{gas(result)}."
-    drawn = Picture.drawn(partial(verdicts, result.of, result.dampers, result.methods), caption)
+    drawn = Picture.drawn(partial(verdicts, result.of, result.dampers, result.methods), caption, "verdicts")
     text = " ".join(sentence(result, damper) for damper in result.dampers)
     return Headline(text, remark=remark, next=step, picture=drawn)
 
 
-def detection_section(result: Inspection, damper: Damper) -> tuple[Section, dict[str, Picture]]:
-    """Which share of the drawn cars is detected, and its pictures by name."""
-    here = [d for d in result.detections if d.damper == damper.name]
-    drawn = {
-        f"{damper.name}_detected": Picture.drawn(
-            partial(shares, here, result.methods), "Detected share over the oil level."
-        ),
-        f"{damper.name}_roc": Picture.drawn(partial(roc_curves, here, result.methods), "The same for every limit."),
-    }
+def detection_section(result: Inspection, damper: Damper) -> Section:
+    """Which share of the drawn cars is detected."""
+    here, name = [d for d in result.detections if d.damper == damper.name], damper.name
+    drawn = [
+        Picture.drawn(partial(shares, here, result.methods), "Detected share over the oil level.", f"{name}_detected"),
+        Picture.drawn(partial(roc_curves, here, result.methods), "The same for every limit.", f"{name}_roc"),
+    ]
     text = (
         f"{result.samples} cars and testers, drawn from the ranges below, the same for all states. Bands: binomial, "
         f"{CONFIDENCE:.0%}, for the drawn limit, from the lowest to the highest of the freed gas {listed(result.ways)}."
     )
     tables = detection_tables(result, damper)
-    title = f"Detection of {damper.name}"
-    return Section(f"detection-{damper.name}", title, text=[text], pictures=list(drawn.values()), tables=tables), drawn
+    return Section(f"detection-{name}", f"Detection of {name}", text=[text], pictures=drawn, tables=tables)
 
 
 def page(result: Inspection) -> Page:
     """The page of an inspection with its pictures."""
-    first = headline(result)
-    assert first.picture is not None, "there is a method"
-    pictures, sections = {"verdicts": first.picture}, []
-    if result.detections:
-        sections.append(Section("seen", "Which loss is seen", tables=[seen_table(result)]))
-    for damper in result.dampers:
-        figures = partial(figures_over_oil, result.of, damper, result.methods)
-        pictures[damper.name] = Picture.drawn(figures, FIGURES)
-        sections.append(damper_section(result, damper, pictures[damper.name]))
+    sections = [Section("seen", "Which loss is seen", tables=[seen_table(result)])] if result.detections else []
+    sections += [damper_section(result, damper) for damper in result.dampers]
     for damper in result.dampers:
         if watched := result.of(damper, METHODS["tiring"]):
-            section, pictures[f"{damper.name}_tiring"] = tiring.section(damper, result.vehicle, watched)
-            sections.append(section)
+            sections.append(tiring.section(damper, result.vehicle, watched))
     if [m.name for m in result.methods] != ["tiring"]:
-        section, pictures["plate"] = plate_section(result)
-        sections.append(section)
-    for damper in result.dampers if result.detections else ():
-        section, drawn = detection_section(result, damper)
-        sections.append(section)
-        pictures |= drawn
+        sections.append(plate_section(result))
+    if result.detections:
+        sections += [detection_section(result, damper) for damper in result.dampers]
     sections.append(Section("methods", "Methods and limits", tables=[Table(METHOD_HEAD, method_rows())]))
     sections.append(Section("scatter", "Ranges of the scatter", tables=[Table(RANGE_HEAD, range_rows())]))
     lead = [
         f"Car: {result.vehicle.title}. {ONE_CORNER} Figures and lines: freed gas {result.ways[0]}"
         + (f"; shaded: from the lowest to the highest of {listed(result.ways)}." if len(result.ways) > 1 else "."),
     ]
-    return Page("Inspection of worn dampers", sections, lead, headline=first, pictures=pictures)
+    return Page("Inspection of worn dampers", sections, lead, headline=headline(result))

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from twintube.common.grouping import grouped
 from twintube.dampers import Damper
 from twintube.dampers.damper import gas_in_words
 from twintube.inspection import Condition, Detection, Entry, Method, Setting
@@ -17,6 +18,7 @@ from twintube.inspection.figures import ABOVE_BODY, measured_cycles
 from twintube.report.common import style
 from twintube.vehicle.cars import CarSet
 
+Of = Callable[[Damper, Method], list[Entry]]  # the entries of a damper and a method, highest oil level first
 PALETTE = (style.INK, style.BLUE, style.GREEN, style.ORANGE, style.RED, style.VIOLET)
 MOST_CURVES = 6
 FIELDS = {  # verdict -> what it is called, colour
@@ -37,12 +39,7 @@ def grid(methods: Sequence[Method], narrow: bool) -> tuple[Figure, list[tuple[Me
     return figure, pairs
 
 
-def verdicts(
-    of: Callable[[Damper, Method], list[Entry]],
-    dampers: Sequence[Damper],
-    methods: Sequence[Method],
-    narrow: bool = False,
-) -> Figure:
+def verdicts(of: Of, dampers: Sequence[Damper], methods: Sequence[Method], narrow: bool = False) -> Figure:
     """Every figure in a field of its oil level, in the colour of its verdict; a panel for each damper."""
     figure, axes = style.grid(len(dampers), (9.0, 0.5 * len(methods) + 0.8), narrow, most=1)
     for ax, damper in zip(axes.flat, dampers, strict=False):
@@ -58,20 +55,16 @@ def verdicts(
         names = ["\n".join([*textwrap.wrap(m.title, 18), m.rule]) for m in methods]
         ax.set_yticks(range(len(methods)), names, fontsize=7.5)
         ax.set_xticks(range(len(states)), [f"{100 * state.oil_level:.0f}" for state in states])
-        ax.set_xlim(-0.5, len(states) - 0.5)
-        ax.set_ylim(len(methods) - 0.5, -0.5)
         ax.grid(visible=False)
         ax.tick_params(length=0)
-        ax.set_xlabel("oil level [% of the intact volume]")
+        ax.set(xlabel="oil level [% of the intact volume]", xlim=(-0.5, len(states) - 0.5), ylim=(len(methods) - 0.5, -0.5))
         if len(dampers) > 1:
             style.title(ax, damper.name)
     style.legend_above(figure, *axes.flat)
     return figure
 
 
-def figures_over_oil(
-    of: Callable[[Damper, Method], list[Entry]], damper: Damper, methods: Sequence[Method], narrow: bool = False
-) -> Figure:
+def figures_over_oil(of: Of, damper: Damper, methods: Sequence[Method], narrow: bool = False) -> Figure:
     """Each method's figure over the oil level: model and scalar factor, with the side of the limit that fails."""
     figure, pairs = grid(methods, narrow)
     for method, ax in pairs:
@@ -84,21 +77,12 @@ def figures_over_oil(
         ax.plot(oil, values, "o-", ms=4, color=style.INK, label="model")
         ax.plot(oil, scalar, "s:", ms=5, mfc="white", color=style.BLUE, label="oil level as scalar factor")
         top = 1.1 * max(method.limit, *highest, *(x for x in scalar if np.isfinite(x)))
-        ax.set_ylim(0.0, top)
-        low, high = (0.0, method.limit) if method.low_fails else (method.limit, top)
-        ax.axhspan(low, high, color=style.RED, alpha=0.08, lw=0)
+        ax.axhspan(*((0.0, method.limit) if method.low_fails else (method.limit, top)), color=style.RED, alpha=0.08, lw=0)
         ax.axhline(method.limit, color=style.RED, lw=1)
         ax.invert_xaxis()
-        ax.set_xlabel("oil level [%]")
-        ax.set_ylabel(f"{method.name.replace('_', ' ')} [{method.unit or 1}]")
+        ax.set(xlabel="oil level [%]", ylabel=f"{method.name.replace('_', ' ')} [{method.unit or 1}]", ylim=(0.0, top))
     style.legend_above(figure, pairs[0][1])
     return figure
-
-
-def spread(states: Sequence[Condition]) -> list[Condition]:
-    """At most MOST_CURVES of the states, first and last among them."""
-    picked = {round(x) for x in np.linspace(0, len(states) - 1, min(MOST_CURVES, len(states)))}
-    return [states[i] for i in sorted(picked)]
 
 
 def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition], narrow: bool = False) -> Figure:
@@ -106,7 +90,7 @@ def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition], narrow: 
     figure, axes = style.grid(2, (5.5, 3.9), narrow)
     size, phase = axes.flat
     corner, run = vehicle.corner(damper), plate_motion(Setting().plate, DT)
-    for i, (state, colour) in enumerate(zip(spread(states), PALETTE, strict=False)):
+    for i, (state, colour) in enumerate(zip(style.spread(states, MOST_CURVES), PALETTE, strict=False)):
         lw = 0.8 + 0.8 * (MOST_CURVES - 1 - i)  # curves that lie on each other are all seen
         found = measured_cycles(run, on_plate(state.applied(damper), corner, run).wheel_load)
         label = f"{state.oil_level:.0%} oil, preload {gas_in_words(state.gas_preload)}"
@@ -115,11 +99,12 @@ def sweep(damper: Damper, vehicle: CarSet, states: Sequence[Condition], narrow: 
         phase.axvline(found.wheel_frequency, color=colour, lw=0.8, ls=":")
     phase.axvline(ABOVE_BODY, color=style.GREY, lw=1)
     phase.axhline(35.0, color=style.RED, lw=1)
-    style.title(size, "Force of the plate")
-    style.title(phase, "Lead of the force")
-    for ax, text in ((size, "force / (height × tyre stiffness) [1]"), (phase, "phase [deg]")):
-        ax.set_xlabel("frequency [Hz]")
-        ax.set_ylabel(text)
+    for ax, text, ylabel in (
+        (size, "Force of the plate", "force / (height × tyre stiffness) [1]"),
+        (phase, "Lead of the force", "phase [deg]"),
+    ):
+        style.title(ax, text)
+        ax.set(xlabel="frequency [Hz]", ylabel=ylabel)
     style.legend_above(figure, size)
     return figure
 
@@ -135,18 +120,14 @@ def shares(found: Sequence[Detection], methods: Sequence[Method], narrow: bool =
     figure, pairs = grid(methods, narrow)
     for method, ax in pairs:
         for scalar, colour, label in ((False, style.INK, "model"), (True, style.BLUE, "oil level as scalar factor")):
-            here: dict[float, list[Detection]] = {}
-            for d in found:
-                if d.method.name == method.name and d.condition.scalar == scalar:
-                    here.setdefault(100 * d.condition.oil_level, []).append(d)
+            own = [d for d in found if d.method.name == method.name and d.condition.scalar == scalar]
+            here = grouped((100 * d.condition.oil_level, d) for d in own)
             ax.plot(list(here), [100 * several[0].share for several in here.values()], "o-", ms=4, color=colour, label=label)
             low, high = zip(*(spanned(several) for several in here.values()), strict=True) if here else ((), ())
             ax.fill_between(list(here), 100 * np.array(low), 100 * np.array(high), color=colour, alpha=0.15, lw=0)
         ax.axhline(100 * FALSE_ALARMS, color=style.GREY, lw=1, ls="--", label="false alarms")
-        ax.set_ylim(-2, 102)
         ax.invert_xaxis()
-        ax.set_xlabel("oil level [%]")
-        ax.set_ylabel("detected [%]")
+        ax.set(xlabel="oil level [%]", ylabel="detected [%]", ylim=(-2, 102))
     style.legend_above(figure, pairs[0][1])
     return figure
 
@@ -157,12 +138,10 @@ def roc_curves(found: Sequence[Detection], methods: Sequence[Method], narrow: bo
     for method, ax in pairs:
         own = [d for d in found if d.method.name == method.name and not d.condition.scalar]
         here = [d for d in own if d.condition.freed_gas == own[0].condition.freed_gas]
-        for state, colour in zip(spread([d.condition for d in here]), PALETTE, strict=False):
-            item = next(d for d in here if d.condition == state)
-            false_alarms, detected = item.roc
+        for state, colour in zip(style.spread([d.condition for d in here], MOST_CURVES), PALETTE, strict=False):
+            false_alarms, detected = next(d for d in here if d.condition == state).roc
             ax.plot(100 * false_alarms, 100 * detected, color=colour, lw=1.4, label=f"{state.oil_level:.0%} oil")
         ax.axvline(100 * FALSE_ALARMS, color=style.GREY, lw=1, ls="--")
-        ax.set_xlabel("false alarms [%]")
-        ax.set_ylabel("detected [%]")
+        ax.set(xlabel="false alarms [%]", ylabel="detected [%]")
     style.legend_above(figure, pairs[0][1])
     return figure

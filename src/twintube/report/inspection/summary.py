@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from twintube.common.grouping import grouped
 from twintube.common.words import listed
 from twintube.dampers import Damper
 from twintube.dampers.damper import gas_in_words
@@ -107,10 +108,7 @@ def seen_at(result: Inspection, damper: Damper, method: Method, freed_gas: str) 
 def by_way(texts: Mapping[str, str]) -> str:
     """One text where all ways of the freed gas agree; else that of the first, and under which conditions it is another."""
     first, *others = texts.items()
-    conditions: dict[str, list[str]] = {}
-    for name, text in others:
-        if text != first[1]:
-            conditions.setdefault(text, []).append(name)
+    conditions = grouped((text, name) for name, text in others if text != first[1])
     if not conditions:
         return first[1] + (EVERY_WAY if others else "")
     flips = (f"{text} with freed gas {listed(names)}" for text, names in conditions.items())

@@ -5,6 +5,7 @@ from functools import partial
 
 from matplotlib.figure import Figure
 
+from twintube.common.grouping import grouped
 from twintube.dampers import Damper
 from twintube.inspection import INTACT, Condition, Entry
 from twintube.inspection.benches import DT
@@ -36,21 +37,16 @@ def words(entry: Entry) -> str:
     """The verdict with what the rest tells, or why there is none."""
     if entry.not_judged or entry.passed or entry.watched is None:
         return entry.not_judged or PASSES
-    texts: dict[str, list[str]] = {}
-    for name, (first, again) in entry.watched.rested.items():
-        texts.setdefault(says(first, again), []).append(f"{name} {min(1.0, max(0.0, returned(first, again))):.0%}")
+    rests = entry.watched.rested.items()
+    texts = grouped((says(*runs), f"{name} {min(1.0, max(0.0, returned(*runs))):.0%}") for name, runs in rests)
     rested = "; ".join(f"{', '.join(shares)}: {text}" for text, shares in texts.items())
     return f"fails; of the growth has returned after {REST:g} s of rest, with freed gas {rested}"
 
 
 def remarks(entries: Sequence[Entry]) -> list[str]:
     """What the terminal says below the figures: once each, with the oil levels to which it applies."""
-    levels: dict[str, list[str]] = {}
-    for entry in entries:
-        text = words(entry)
-        if text != PASSES:
-            levels.setdefault(text, []).append(f"{entry.condition.oil_level:.0%}")
-    return [f"tiring at {', '.join(at)} oil: {text}" for text, at in levels.items()]
+    levels = grouped((words(entry), f"{entry.condition.oil_level:.0%}") for entry in entries)
+    return [f"tiring at {', '.join(at)} oil: {text}" for text, at in levels.items() if text != PASSES]
 
 
 def plate_of(entries: Sequence[Entry]) -> Tired:
@@ -127,10 +123,10 @@ def table(entries: Sequence[Entry]) -> Table:
     return Table(head, rows, caption, numeric=range(1, 9))
 
 
-def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[Section, Picture]:
-    """The section of one damper, and its picture."""
+def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> Section:
+    """The section of one damper."""
     caption = "Velocity of the damper on the plate: where oil is lost it grows while the plate shakes."
-    drawn = Picture.drawn(partial(course, damper, vehicle.corner(damper), entries), caption)
+    drawn = Picture.drawn(partial(course, damper, vehicle.corner(damper), entries), caption, f"{damper.name}_tiring")
     text = [
         f"The plate shakes the wheel for {HOLD:g} s. A weak curve or a stiff tyre answers every cycle alike; oil loss frees "
         f"gas in every fast stroke, and the damper tires. Fails above {LIMIT:g}, more than the heat of the run does to an "
@@ -140,4 +136,4 @@ def section(damper: Damper, vehicle: CarSet, entries: Sequence[Entry]) -> tuple[
         RESTS_ON,
     ]
     title = f"Does {damper.name} tire?"
-    return Section(f"tiring-{damper.name}", title, text=text, pictures=[drawn], tables=[table(entries)]), drawn
+    return Section(f"tiring-{damper.name}", title, text=text, pictures=[drawn], tables=[table(entries)])

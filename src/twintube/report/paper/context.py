@@ -7,37 +7,20 @@ from typing import Any
 
 from twintube import dampers
 from twintube.claims import EVALUATORS, Claim
-from twintube.claims.claim import block
-from twintube.common.arrays import Array
 from twintube.common.bars import Bar
 from twintube.dampers import Damper
-from twintube.engine.simulate import simulate, work_between
-from twintube.engine.simulation import Simulation
 from twintube.provenance import fingerprint
-from twintube.report.paper import fitted, records
+from twintube.report.paper import fitted
 from twintube.report.paper.records import Records, harmonic_jobs, slow_jobs
-from twintube.rig.plan import at_oil_level
-from twintube.rig.signals import BLOCKS, Signal
-
-
-def loop(damper: Damper, level: float, velocity: float) -> tuple[Signal, Simulation]:
-    """The block and its simulation."""
-    signal = block(damper, velocity)
-    return signal, simulate(at_oil_level(damper, level), signal.stroke, signal.velocity)
-
-
-def works(damper: Damper, level: float, velocity: float) -> Array:
-    """Works [J] of the 19 oscillations."""
-    signal = block(damper, velocity)
-    return work_between(at_oil_level(damper, level), signal.stroke, signal.velocity, signal.marks)
+from twintube.rig.signals import BLOCKS
 
 
 class Context:
     """Shared by the figures of one report, so that every result is computed once."""
 
-    def __init__(self, folder: Path, *, quick: bool = True, processes: int | None = None, progress: bool = True) -> None:
-        self.folder, self.quick, self.progress = folder, quick, progress
-        self.records = Records(folder / "records", processes, progress)
+    def __init__(self, folder: Path, *, quick: bool = True, processes: int | None = None) -> None:
+        self.folder, self.quick = folder, quick
+        self.records = Records(folder / "records", processes)
         self._claims: dict[str, Claim] = {}
         self._fits: dict[str, Damper] = {}
 
@@ -58,22 +41,17 @@ class Context:
         if name not in self._fits:
             records = [self.records.get(job) for job in harmonic_jobs(name, BLOCKS)]
             slow = self.records.get(slow_jobs(name)[0])
-            file = self.folder / "identified" / f"{name}-{self._key()}.toml"
-            with Bar(total=fitted.generations(self.quick), unit="generation", desc=f"identify {name}", leave=False,
-                      disable=not self.progress) as bar:  # fmt: skip
+            versions = f"{fingerprint(fitted.__name__)}_{fingerprint(Records.__module__)}"
+            file = self.folder / "identified" / f"{name}-{versions}_{'quick' if self.quick else 'paper'}.toml"
+            total = fitted.generations(self.quick)
+            with Bar(total=total, unit="generation", desc=f"identify {name}", leave=False) as bar:
 
                 def advance(title: str, error: float) -> None:
                     bar.set_postfix_str(f"{title}: {error:.1f}", refresh=False)
                     bar.update()
 
                 self._fits[name] = fitted.fit(
-                    self.dampers[name],
-                    (slow.stroke, slow.force),
-                    [r for r in records if r.gas_preload],
-                    [r for r in records if not r.gas_preload],
-                    file=file,
-                    quick=self.quick,
-                    progress=advance,
+                    self.dampers[name], slow, records, file=file, quick=self.quick, progress=advance
                 )
         return self._fits[name]
 
@@ -84,6 +62,3 @@ class Context:
         parameters = self.dampers[name].parameters
         values: dict[str, Any] = {item: getattr(parameters, item) for item in table}
         return self.fit(name).with_(**values)
-
-    def _key(self) -> str:
-        return f"{fingerprint(fitted.__name__)}_{fingerprint(records.__name__)}_{'quick' if self.quick else 'paper'}"

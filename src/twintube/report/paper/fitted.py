@@ -5,7 +5,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from twintube import dampers
-from twintube.common.arrays import Array
 from twintube.common.files import write_text
 from twintube.dampers import Damper
 from twintube.identification import Harmonic
@@ -15,38 +14,34 @@ from twintube.identification.workflow import PAPER, identify_damper
 HOW = "identified from the virtual rig's records as by twintube identify"
 # The walkers compute intervals, which this report does not show.
 BUDGET = replace(PAPER, intervals=(32, 2))
+METHODS = {True: DEFAULT, False: "pso"}  # by whether it is to be quick; else the paper's swarms
 
 
 def fit(
     damper: Damper,
-    slow: tuple[Array, Array] | None,
-    intact: Sequence[Harmonic],
-    degraded: Sequence[Harmonic],
+    slow: Harmonic,
+    records: Sequence[Harmonic],
     *,
     file: Path,
     quick: bool,
-    progress: Callable[[str, float], None] | None = None,
+    progress: Callable[[str, float], None],
 ) -> Damper:
     """The identified damper, read from `file` if an earlier run wrote it.
 
-    `slow` is stroke [m] and force [N] of the quasi-static record. An interrupted run continues from its journal.
+    `slow` is the quasi-static record. An interrupted run continues from its journal.
     """
     if not file.exists():
-        file.parent.mkdir(parents=True, exist_ok=True)
         journal = file.with_suffix("")
-        journal.mkdir(exist_ok=True)
+        journal.mkdir(parents=True, exist_ok=True)
+        ramps = slow.stroke, slow.force
+        intact, degraded = ([r for r in records if bool(r.gas_preload) is there] for there in (True, False))
         result = identify_damper(
-            damper, slow, intact, degraded, method=method(quick), budget=BUDGET, journal=journal, progress=progress
+            damper, ramps, intact, degraded, method=METHODS[quick], budget=BUDGET, journal=journal, progress=progress
         )
         write_text(file, dampers.to_toml(result.damper.with_(oil_level=1.0, gas_preload=1)))
     return dampers.load(file, as_published=True)
 
 
-def method(quick: bool) -> str:
-    """The default, or the paper's swarms."""
-    return DEFAULT if quick else "pso"
-
-
 def generations(quick: bool) -> int:
     """Largest number of calls of `progress`."""
-    return BUDGET.generations(method(quick))
+    return BUDGET.generations(METHODS[quick])

@@ -1,18 +1,15 @@
-"""Records of the virtual rig, stand-ins for the unpublished measurements: computed on all cores, stored as Parquet."""
+"""Records of the virtual rig, stand-ins for the unpublished measurements: computed on all cores and stored."""
 
 import os
 from collections.abc import Iterable
 from concurrent.futures import as_completed
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
-from numpy.typing import NDArray
 
-from twintube.common.arrays import Array
 from twintube.common.bars import Bar
 from twintube.common.files import replacing
 from twintube.common.processes import pool
@@ -48,8 +45,8 @@ class Job:
 
     @property
     def file(self) -> str:
-        """Name of the Parquet file."""
-        return f"{self.damper}_{self.kind}_{self.value:g}_{100 * self.level:.2f}.parquet"
+        """Name of the file of its samples."""
+        return f"{self.damper}_{self.kind}_{self.value:g}_{100 * self.level:.2f}.npz"
 
 
 def levels(damper: str) -> tuple[float, ...]:
@@ -85,55 +82,42 @@ def excitation(damper: str, kind: str, value: float) -> Signal:
     return drive_signal(loaded, next(m for m in MANEUVERS if m.number == int(value)))
 
 
-def rig_input(job: Job) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Time [s] and stroke [m] of a job."""
-    signal = excitation(job.damper, job.kind, job.value)
-    return np.asarray(signal.time, dtype=np.float64), np.asarray(signal.stroke, dtype=np.float64)
-
-
 def rig_oil_level(job: Job) -> float:
     """The oil level [1] of the rig: the job's, lowered in steps of 1 % until the reserve also holds gas."""
-    rig = virtual_rig.virtual_damper(job.damper)
-    time, stroke, constants = *rig_input(job), rig.constants(job.gas_preload, 25.0)
-    for percent in range(10):
-        try:
-            check(rig, time, stroke, job.level - percent / 100, constants)
-        except ValueError:
-            continue
-        return job.level - percent / 100
+    rig, signal = virtual_rig.virtual_damper(job.damper), excitation(job.damper, job.kind, job.value)
+    for level in (job.level - percent / 100 for percent in range(10)):
+        with suppress(ValueError):
+            check(rig, signal.time, signal.stroke, level, rig.constants(job.gas_preload, 25.0))
+            return level
     raise InputError(f"{job.damper}: the virtual rig cannot hold {job.level:.0%} oil in {job.kind} {job.value:g}")
 
 
 def compute(job: Job, folder: Path) -> None:
-    """Run the rig and write time [s], stroke [m], velocity [m/s] and force [N] to a Parquet file."""
+    """Run the rig and write time [s], stroke [m], velocity [m/s], force [N] and the marks of the oscillations to a file."""
     signal = excitation(job.damper, job.kind, job.value)
     rig = virtual_rig.virtual_damper(job.damper)
-    record = virtual_rig.run(rig, *rig_input(job), rig_oil_level(job), gas_preload=job.gas_preload)
+    record = virtual_rig.run(rig, signal.time, signal.stroke, rig_oil_level(job), gas_preload=job.gas_preload)
     samples = np.arange(len(signal.time))
     samples = samples[(samples >= signal.marks[0]) | (samples % THINNING == 0)]
-    names = ("time", "stroke", "velocity", "force")
     # The excitation's velocity: the rig uses the slope of a spline, which differs at the first sample of a block.
-    columns = (record.time, record.stroke, signal.velocity, record.force)
-    table = pa.table({name: column[samples] for name, column in zip(names, columns, strict=True)})
-    marks = np.searchsorted(samples, signal.marks)
-    table = table.replace_schema_metadata({"marks": " ".join(str(m) for m in marks), "stand_in": "virtual rig"})
-    with replacing(folder / job.file) as temporary:
-        pq.write_table(table, temporary, compression="zstd")
+    columns = {"time": record.time, "stroke": record.stroke, "velocity": signal.velocity, "force": record.force}
+    kept = {name: values[samples] for name, values in columns.items()}
+    with replacing(folder / job.file) as temporary, temporary.open("wb") as file:
+        np.savez_compressed(file, marks=np.searchsorted(samples, signal.marks), **kept)
 
 
 class Records:
     """The records of a report, in `folder`; records of another version of the rig are not used."""
 
-    def __init__(self, folder: Path, processes: int | None = None, progress: bool = True) -> None:
+    def __init__(self, folder: Path, processes: int | None = None) -> None:
         self.folder = folder / fingerprint(__name__)
         self.processes = processes or os.cpu_count() or 1
-        self.progress = progress
 
     def prepare(self, jobs: Iterable[Job]) -> None:
         """Compute the missing records, longest first, in worker processes."""
         self.folder.mkdir(parents=True, exist_ok=True)
         missing = sorted({j for j in jobs if not (self.folder / j.file).exists()}, key=lambda j: (j.kind, j.value))
-        with Bar(total=len(missing), unit="record", desc="virtual rig", leave=False, disable=not self.progress) as bar:
+        with Bar(total=len(missing), unit="record", desc="virtual rig", leave=False) as bar:
             if len(missing) <= FEW_JOBS or self.processes == 1:
                 for job in missing:
                     compute(job, self.folder)
@@ -150,11 +134,5 @@ class Records:
         if not file.exists():
             self.folder.mkdir(parents=True, exist_ok=True)
             compute(job, self.folder)
-        table = pq.read_table(file)
-        time, stroke, velocity, force = (table[n].to_numpy() for n in ("time", "stroke", "velocity", "force"))
-        marks = np.array([int(m) for m in table.schema.metadata[b"marks"].split()])
-        return Harmonic(job.level, int(job.gas_preload), time, stroke, velocity, force, marks)
-
-    def works(self, jobs: Iterable[Job]) -> list[Array]:
-        """Works [J] per oscillation of each record."""
-        return [self.get(job).works() for job in jobs]
+        with np.load(file) as columns:
+            return Harmonic(job.level, int(job.gas_preload), **columns)

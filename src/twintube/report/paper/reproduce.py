@@ -15,7 +15,7 @@ from twintube.report.common import style
 from twintube.report.common.html_page import Finding, Page, Picture, Section, Table
 from twintube.report.paper.context import Context
 from twintube.report.paper.figures import FIGURES
-from twintube.report.paper.statement import Plot, Statement, as_json, plain
+from twintube.report.paper.statement import Plot, Statement, as_json, plain, verdict
 from twintube.version import __version__
 
 TITLE = "Degraded twin-tube shock absorbers: the paper's figures, reproduced"
@@ -77,7 +77,6 @@ def reproduce(
     figures: Sequence[str | int] | None = None,
     quick: bool = True,
     processes: int | None = None,
-    progress: bool = True,
     report: Callable[[str], None] | None = None,
 ) -> Report:
     """Draw the paper's figures and write `index.html`, a PNG per figure and `reproduce.json` into the folder `output`.
@@ -87,7 +86,6 @@ def reproduce(
         figures: numbers or ranges like `"19-26"`; all if None.
         quick: identify with the small budget instead of the paper's swarms.
         processes: for the virtual rig; all cores if None.
-        progress: show bars on standard error.
         report: called with a line of text per figure.
 
     Raises:
@@ -99,54 +97,44 @@ def reproduce(
     if processes is not None and processes < 1:
         raise InputError(f"processes = {processes}: must be at least 1")
     output.mkdir(parents=True, exist_ok=True)
-    context = Context(output, quick=quick, processes=processes, progress=progress)
+    context = Context(output, quick=quick, processes=processes)
     context.records.prepare(job for number in numbers for job in FIGURES[number].jobs())
-    entries, sections, pictures, verdicts = [], [], [], {}
-    for number in Bar(numbers, unit="figure", leave=False, disable=not progress):
+    entries, sections, verdicts = [], [], {}
+    for number in Bar(numbers, unit="figure", leave=False):
         plot = FIGURES[number].draw(context)
-        png = style.png(plot.figure)
-        path = output / f"figure_{number:02}.png"
-        write_bytes(path, png)
-        pictures.append(path)
         entries.append(as_json(plot))
-        sections.append(section(plot, png))
+        sections.append(section(plot))
         verdicts[number] = plot.verdict
         if report is not None:
             report(f"Figure {number:2}  {plot.verdict:14} {plot.tally}")
     content: dict[str, Any] = {"paper": PAPER, "twintube": __version__, "bases": BASES, "figures": entries}
     write_bytes(output / "reproduce.json", (json.dumps(content, indent=1) + "\n").encode())
-    Page(TITLE, sections, LEAD, [summary(entries)]).write(output, "index.html")
-    return Report(output / "index.html", output / "reproduce.json", tuple(pictures), verdicts)
+    *pictures, page = Page(TITLE, sections, LEAD, [summary(entries)]).write(output, "index.html")
+    return Report(page, output / "reproduce.json", tuple(pictures), verdicts)
 
 
-def section(plot: Plot, png: bytes) -> Section:
+def section(plot: Plot) -> Section:
     """A figure as a section of the page."""
     notes = [("Stand-in", text.removeprefix("stand-in: ")) for text in plot.stand_ins]
-    if plot.assumed:
-        notes.append(("Assumed (unpublished)", ", ".join(plot.assumed)))
+    notes += [("Assumed (unpublished)", ", ".join(plot.assumed))] if plot.assumed else []
     notes += [("Remark", text) for text in plot.remarks]
     return Section(
         anchor=f"figure-{plot.number}",
         title=f"Figure {plot.number}. {plot.title}",
         verdict=plot.verdict,
         tally=plot.tally,
-        pictures=[Picture(png, f"Figure {plot.number}. {plot.title}")],
+        pictures=[Picture(style.png(plot.figure), f"Figure {plot.number}. {plot.title}", name=f"figure_{plot.number:02}")],
         findings=[finding(statement) for statement in plot.statements],
         notes=notes,
     )
 
 
-def finding(statement: Statement) -> Finding:
+def finding(s: Statement) -> Finding:
     """The page's finding of a statement."""
-    facts = [("Source", statement.source)]
-    if statement.claim:
-        facts.append(("Claim", f"{statement.claim} of twintube paper claims"))
-    facts.append(("Basis", f"{statement.basis}: {BASES[statement.basis]}"))
-    if statement.criterion:
-        facts.append(("Criterion", statement.criterion))
-    if statement.reason:
-        facts.append(("Reason", statement.reason))
-    return Finding(statement.text, statement.verdict, facts, plain(statement.numbers))
+    claim = s.claim and f"{s.claim} of twintube paper claims"
+    facts = {"Source": s.source, "Claim": claim, "Basis": f"{s.basis}: {BASES[s.basis]}", "Criterion": s.criterion}
+    given = [(name, text) for name, text in (facts | {"Reason": s.reason}).items() if text]
+    return Finding(s.statement, verdict([s.holds]), given, plain(s.numbers))
 
 
 def summary(entries: Sequence[dict[str, Any]]) -> Table:

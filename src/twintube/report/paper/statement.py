@@ -1,50 +1,63 @@
-"""Statements of the paper with their verdicts, and figures with their statements."""
+"""Statements of the paper with their verdicts, and figures with their statements, stand-ins and assumed values."""
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from matplotlib.figure import Figure
 
 from twintube.claims import Claim
+from twintube.report.common.style import STAND_IN
 
 NOT_CHECKABLE = "not checkable"
+VIRTUAL = (STAND_IN,)
+# Unpublished values, named alike in pictures, page and JSON
+FV = "F-v curve"
+FRICTION = "friction"
+GAS = "gas spring"
+REACH = "maximum stroke"
+SPEEDS = "block velocities"
+DEAD = "dead length (calibrated)"
+DRIVES = "strokes of the drives (quarter car, road, obstacles)"
+HARMONIC = (FV, FRICTION, GAS, DEAD, REACH, SPEEDS)
+
+
+def verdict(holds: Iterable[bool | None]) -> str:
+    """`holds` if all that can be checked holds, `does not hold`, or `not checkable`."""
+    checked = [each for each in holds if each is not None]
+    return NOT_CHECKABLE if not checked else "holds" if all(checked) else "does not hold"
 
 
 @dataclass(frozen=True)
 class Statement:
     """One statement of the paper; `holds` is computed, None if the check needs unpublished data."""
 
-    text: str
+    statement: str
     source: str  # section or figure of the paper
     holds: bool | None
     numbers: dict[str, Any]
     basis: str  # a `Claim.kind`, or stand-in | consistency | not checkable
     criterion: str = ""  # of the verdict: a claim's test, or our own where the paper gives no number
-    reason: str = ""  # why it does not hold, or why it cannot be checked
+    reason: str = ""  # why it does not hold, given or not where it does; or why it cannot be checked
     claim: str = ""  # id in `twintube paper claims`
 
     def __post_init__(self) -> None:
         if self.holds is not None:
             object.__setattr__(self, "holds", bool(self.holds))  # numpy's bool cannot be written as JSON
+        if self.holds:
+            object.__setattr__(self, "reason", "")
 
-    @property
-    def verdict(self) -> str:
-        """`holds`, `does not hold` or `not checkable`."""
-        return NOT_CHECKABLE if self.holds is None else "holds" if self.holds else "does not hold"
+
+def unchecked(statement: str, source: str, reason: str, numbers: dict[str, Any] | None = None) -> Statement:
+    """A statement that needs unpublished data."""
+    return Statement(statement, source, None, numbers or {}, NOT_CHECKABLE, reason=reason)
 
 
 def from_claim(claim: Claim, numbers: dict[str, Any] | None = None) -> Statement:
     """A claim as statement, with all its figures or the given ones."""
-    return Statement(
-        text=claim.statement,
-        source=claim.source,
-        holds=claim.holds,
-        numbers=claim.figures if numbers is None else numbers,
-        basis=claim.kind,
-        criterion=claim.tested,
-        reason=f"{claim.because}: {claim.reason}" if claim.reason else "",
-        claim=claim.id,
-    )
+    why = f"{claim.because}: {claim.reason}" if claim.reason else ""
+    figures = claim.figures if numbers is None else numbers
+    return Statement(claim.statement, claim.source, claim.holds, figures, claim.kind, claim.tested, why, claim.id)
 
 
 @dataclass(frozen=True)
@@ -55,15 +68,22 @@ class Plot:
     title: str
     figure: Figure
     statements: tuple[Statement, ...]
-    stand_ins: tuple[str, ...] = ()  # replacements of unpublished measurements
     assumed: tuple[str, ...] = ()  # unpublished values that are used
-    remarks: tuple[str, ...] = field(default=())  # differences from the paper's figure, contradictions in the paper
+    stand_ins: tuple[str, ...] = ()  # replacements of unpublished measurements
+    remarks: tuple[str, ...] = ()  # differences from the paper's figure, contradictions in the paper
+    model: str = ""  # which one it is, where it is not the published one
+
+    @property
+    def notes(self) -> list[str]:
+        """The lines under the picture."""
+        texts = [f"{text[0].upper()}{text[1:]}." for text in self.stand_ins]
+        texts += [f"Model: {self.model}."] if self.model else []
+        return texts + ([f"Assumed (unpublished): {', '.join(self.assumed)}."] if self.assumed else [])
 
     @property
     def verdict(self) -> str:
         """`holds` if all checkable statements hold."""
-        checked = [s.holds for s in self.statements if s.holds is not None]
-        return NOT_CHECKABLE if not checked else "holds" if all(checked) else "does not hold"
+        return verdict(s.holds for s in self.statements)
 
     @property
     def tally(self) -> str:
@@ -80,9 +100,7 @@ def plain(value: Any) -> Any:
         return [plain(item) for item in value]
     if hasattr(value, "tolist"):
         return plain(value.tolist())
-    if isinstance(value, float):
-        return float(f"{value:.4g}")
-    return value
+    return float(f"{value:.4g}") if isinstance(value, float) else value
 
 
 def as_json(plot: Plot) -> dict[str, Any]:
@@ -92,19 +110,7 @@ def as_json(plot: Plot) -> dict[str, Any]:
         "title": plot.title,
         "picture": f"figure_{plot.number:02}.png",
         "verdict": plot.verdict,
-        "statements": [
-            {
-                "statement": s.text,
-                "source": s.source,
-                "holds": s.holds,
-                "basis": s.basis,
-                "criterion": s.criterion,
-                "numbers": plain(s.numbers),
-                "reason": s.reason,
-                "claim": s.claim,
-            }
-            for s in plot.statements
-        ],
+        "statements": [plain(asdict(statement)) for statement in plot.statements],
         "stand_ins": list(plot.stand_ins),
         "assumed": list(plot.assumed),
         "remarks": list(plot.remarks),

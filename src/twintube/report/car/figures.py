@@ -1,12 +1,20 @@
-"""All figures of the drives as tables: intact and worn, each with its range over seeds and ways of the freed gas."""
+"""The figures of the drives as pictures and tables: intact and worn, with the range over seeds and ways of the freed gas."""
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+from matplotlib.figure import Figure
+
+from twintube.common.grouping import grouped
 from twintube.dampers.freed_gas import DEFAULT, SCALAR
 from twintube.report.common.html_page import Table
+from twintube.report.common.style import BLUE, GREEN, GREY, INK, ORANGE, RED, VIOLET, grid, legend_above, title
 from twintube.vehicle.full.car import WHEELS
+from twintube.vehicle.full.catalogue import MANEUVERS
 
+Row = Mapping[str, Any]
 # Figures of a drive: name, title, unit, decimals; those of the wheels have a line for each wheel.
 FIGURES = (
     ("stopping_distance_m", "stopping distance", "m", 1),
@@ -51,31 +59,28 @@ FIGURES = (
     ("pitch_max_deg", "largest pitch angle, nose down", "deg", 2),
     ("damping_work_J", "work of the damper", "J", 0),
 )
+COLOURS = {"smooth": GREY, "A": VIOLET, "B": GREEN, "C": BLUE, "D": RED, "E": ORANGE}
+TITLES = {name: each.title for name, each in MANEUVERS.items()}
 
 
 def tables(entries: Sequence[Mapping[str, Any]]) -> list[Table]:
     """One table for each drive: a line per figure, a column per oil level and model."""
-    drives: dict[tuple[Any, ...], list[Mapping[str, Any]]] = {}
-    for row in entries:
-        drives.setdefault((row["maneuver"], row["speed_kmh"], row["road"]), []).append(row)
-    return [table(drive, rows) for drive, rows in drives.items()]
+    drives = grouped(((row["maneuver"], row["speed_kmh"], row["road"]), row) for row in entries)
+    return [table(*drive, rows) for drive, rows in drives.items()]
 
 
-def table(drive: tuple[Any, ...], rows: Sequence[Mapping[str, Any]]) -> Table:
+def table(maneuver: str, speed: float, road: str, rows: Sequence[Row]) -> Table:
     """The figures of one drive; each cell is the mean over the seeds, with the range over seeds and ways."""
-    maneuver, speed, road = drive
-    states: dict[str, list[Mapping[str, Any]]] = {}
-    for row in rows:
-        states.setdefault(state_of(row), []).append(row)
+    states = grouped((state_of(row), row) for row in rows)
     cells = []
-    for name, title, unit, decimals in FIGURES:
+    for name, words, unit, decimals in FIGURES:
         for wheel in WHEELS if any(isinstance(row.get(name), Mapping) for row in rows) else (None,):
             line = [cell(several, name, wheel, decimals) for several in states.values()]
             if any(line):
                 place = f", {wheel.replace('_', ' ')}" if wheel else ""
-                cells.append([f"{title}{place}{f' [{unit}]' if unit != '1' else ''}", *line])
+                cells.append([f"{words}{place}{f' [{unit}]' if unit != '1' else ''}", *line])
     seeds = len({row["seed"] for row in rows})
-    where = road if maneuver == "table3" else f"{speed:.0f} km/h, {'smooth road' if road == 'smooth' else f'class {road}'}"
+    where = road if maneuver == "table3" else f"{speed:.0f} km/h, {road_of(road)}"
     over = f"range over {seeds} seeds" if seeds > 1 else "1 seed; range over"
     caption = f"{where}: mean ({over}{' and' if seeds > 1 else ''} the ways of the freed gas)"
     return Table(["figure", *states], cells, caption, numeric=range(1, len(states) + 1))
@@ -101,3 +106,62 @@ def cell(rows: Sequence[Mapping[str, Any]], name: str, wheel: str | None, decima
         return "not driven" if values == [] and any("failed" in row for row in rows) else ""
     low, mean, high = (f"{x:.{decimals}f}" for x in (min(values), sum(usual) / len(usual), max(values)))
     return f"{mean} ({low} to {high})"
+
+
+def road_of(road: str) -> str:
+    """A road in words; the drives of Table 3 have one of their own name."""
+    return {"smooth": "smooth road"}.get(road, f"class {road}" if road in COLOURS else road)
+
+
+def answer(firsts: Sequence[Mapping[str, Any]], rows: Sequence[Mapping[str, Any]], narrow: bool = False) -> Figure:
+    """A bar for each row of `firsts`, with its band and what a scalar factor says of the same drive."""
+    same = ("maneuver", "speed_kmh", "road", "oil_level")
+    figure, ((ax,),) = grid(1, (9.0, 0.5 * len(firsts) + 0.8), narrow)
+    names = []
+    for at, row in enumerate(firsts):
+        low, high = (100 * x for x in row["change_band"])
+        ax.barh(at, 100 * row["change"], 0.5, color=BLUE, label="change, worn against intact")
+        ax.plot([low, high], [at, at], "|-", color=INK, lw=1.5, ms=9, label="band")
+        for other in rows:
+            if other["model"] == SCALAR and other["change"] is not None and all(other[k] == row[k] for k in same):
+                ax.plot(100 * other["change"], at, "s", color=RED, mfc="white", ms=7, label="by a scalar factor")
+        drive = f"{TITLES[row['maneuver']]}, {row['speed_kmh']:.0f} km/h, {road_of(row['road'])}, {row['oil_level']:.0%} oil"
+        names.append("\n".join([row["figure"], *textwrap.wrap(drive, 28 if narrow else 60)]))
+    ax.set_yticks(range(len(firsts)), names, fontsize=7.5 if narrow else 9)
+    ax.set_ylim(len(firsts) - 0.5, -0.5)
+    ax.axvline(0.0, color=INK, lw=0.8)
+    ax.set_xlabel("worn against intact [%]")
+    legend_above(figure, ax)
+    return figure
+
+
+def drives(rows: Sequence[Mapping[str, Any]]) -> list[tuple[str, float]]:
+    """Manoeuvre and speed of what is drawn; the drives of Table 3, each on a road of its own, are in the tables only."""
+    return list(dict.fromkeys((row["maneuver"], row["speed_kmh"]) for row in rows if row["maneuver"] != "table3"))
+
+
+def over_levels(rows: Sequence[Mapping[str, Any]], narrow: bool = False) -> Figure:
+    """Change of the headline figures over the oil level, by manoeuvre and speed; bars span the seeds."""
+    shown = drives(rows)
+    figure, axes = grid(len(shown), (3.7, 3.0), narrow)
+    for ax, (maneuver, speed) in zip(axes.flat, shown, strict=False):
+        own = [row for row in rows if (row["maneuver"], row["speed_kmh"]) == (maneuver, speed) and row["change"] is not None]
+        for road in dict.fromkeys(row["road"] for row in own):
+            for model in dict.fromkeys(row["model"] for row in own):
+                some = sorted((r for r in own if (r["road"], r["model"]) == (road, model)), key=lambda r: r["oil_level"])
+                levels = [100 * r["oil_level"] for r in some]
+                means = np.array([100 * r["change"] for r in some])
+                bands = 100 * np.array([r["change_band"] for r in some]).T
+                line: dict[str, Any] = {"color": COLOURS[road], "ms": 4, "lw": 1.2, "capsize": 2, "label": road_of(road)}
+                if model == SCALAR:
+                    line |= {"ls": ":", "mfc": "white", "label": f"{road_of(road)}, scalar factor"}
+                ax.errorbar(levels, means, np.abs(bands - means), marker="s" if model == SCALAR else "o", **line)
+        unit = next((row["figure"] for row in own), "")
+        title(ax, f"{TITLES[maneuver]}, {speed:.0f} km/h")
+        ax.axhline(0.0, color="black", lw=0.6)
+        ax.set_xticks(sorted({100 * row["oil_level"] for row in own}))
+        ax.margins(x=0.2)
+        ax.set_xlabel("oil level [%]")
+        ax.set_ylabel(f"{unit}\nagainst intact [%]", fontsize=8.5)
+    legend_above(figure, *axes.flat[: len(shown)])
+    return figure
