@@ -9,16 +9,18 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
+import pyarrow.parquet as pq
 import typer
 
 from twintube.cli.base import standalone
 from twintube.common.words import counted
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving import detection
-from twintube.driving.model import FILE, WORN, from_json, to_json
+from twintube.driving.draws import vehicle
+from twintube.driving.model import AXLES, FILE, WORN, from_json, to_json
 from twintube.driving.training import Drive, load, train
 
-PARTS = (0.25, 0.5, 1.0)  # of the cars, for the learning curve
+MUCH = 100.0  # [N] friction of the suspension that hides wear
 
 
 def trained(drives: Sequence[Drive]) -> dict[str, Any]:
@@ -32,21 +34,32 @@ def trained(drives: Sequence[Drive]) -> dict[str, Any]:
     return {"says": says, "cars": cars, "drives": len(drives), "minutes": minutes, "worn_oil_level": WORN}
 
 
-def lines(figures: dict[str, Any]) -> list[str]:
+def lines(answers: Sequence[dict[str, Any]]) -> list[str]:
     """What was said, in Markdown, of the longest drives."""
-    head = ("cars", "sensors", "compared with", "min", "good: called", "good: fine", "good: unlike", "worn: seen",
+    head = ("dampers of", "sensors", "compared with", "min", "good: called", "good: fine", "good: unlike", "worn: seen",
             "all four: seen", "worn: fine")  # fmt: skip
     table = ["| " + " | ".join(head) + " |", "|" + " --- |" * len(head)]
-    longest = max(row["minutes"] for row in figures["answers"])
-    for row in figures["answers"]:
+    longest = max(row["minutes"] for row in answers)
+    for row in answers:
         if row["minutes"] == longest:
             cells = [
-                f"{row['cars']} {row['group']}", row["sensors"], row["compared_with"], row["minutes"],
+                f"{row['cars']} cars, {row['kind']}", row["sensors"], row["compared_with"], row["minutes"],
                 f"{row['called']} of {row['good']}", row["fine"], row["unlike"], f"{row['seen']} of {row['worn']}",
                 f"{row['all four seen']} of {row['all four']}", row["missed"],
             ]  # fmt: skip
             table.append("| " + " | ".join(map(str, cells)) + " |")
     return table
+
+
+def frictions(path: Path, drives: Sequence[Drive]) -> dict[tuple[str, str], float]:
+    """Friction [N] of the suspension by car and axle; a study's file says from which seed its cars were drawn."""
+    seed = json.loads(pq.read_schema(path).metadata[b"twintube.study"])["seed"]
+    found: dict[tuple[str, str], float] = {}
+    for car in {drive.car for drive in drives}:
+        group, number, *_ = car.split()
+        for axle, values in vehicle(group, int(number), seed).car.axles.items():
+            found[car, axle] = values["friction"]
+    return found
 
 
 def main(
@@ -61,20 +74,28 @@ def main(
     json_file: Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Write all figures to this file.")] = None,
 ) -> None:
     """Make the monitor's tables from the cars of the training, and judge the drives of the others."""
-    loaded = [drive for path in drives for drive in load(path)]
-    training = [drive for drive in loaded if drive.group == "train"]
-    test = [drive for drive in loaded if drive.group != "train"]
+    loaded = {path: load(path) for path in drives}
+    every = [drive for some in loaded.values() for drive in some]
+    training = [drive for drive in every if drive.group == "train"]
+    test = [drive for drive in every if drive.group != "train"]
     strange = [drive for path in others or [] for drive in load(path)]
     model = from_json(to_json(train(training, trained(training), strange)))
     if model_file is not None:
         model_file.write_text(to_json(model), encoding="utf-8")
     if not test:
         return
-    figures = detection.summary(model, training, test)
-    figures["learning_curve"] = detection.learning_curve(training, test, PARTS)
+    friction = {key: value for path, some in loaded.items() for key, value in frictions(path, some).items()}
+
+    def rubbing(each: detection.Judged) -> str:
+        """Whether friction may hide the wear of a damper."""
+        above = friction[each.drive.car, AXLES[each.place]] > MUCH
+        return f"friction {'above' if above else 'up to'} {MUCH:g} N"
+
+    some = detection.tested(model, training, test)
+    figures = detection.summary(some) | {"by_friction": detection.answers(some, rubbing)}
     if json_file is not None:
         json_file.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-    typer.echo("\n".join(lines(figures)))
+    typer.echo("\n".join([*lines(figures["answers"]), "", *lines(figures["by_friction"])]))
 
 
 if __name__ == "__main__":

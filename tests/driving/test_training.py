@@ -64,7 +64,7 @@ def test_detection_rises_with_oil_loss() -> None:
     random = np.random.default_rng(2)
     test = [each for i, level in enumerate((0.95, 0.55, 0.15)) for each in drives(f"test {i}", (level, 1, 1, 1), random)]
     training = drives("train 1", (1.0, 1.0, 1.0, 1.0), random)
-    found = detection.summary(shipped(), training, test)["detection"]
+    found = detection.summary(detection.tested(shipped(), training, test))["detection"]
     seen = {
         each["oil"]: each["seen"]
         for each in found
@@ -77,7 +77,7 @@ def test_detection_rises_with_oil_loss() -> None:
 def test_training_and_test_share_no_car() -> None:
     both = drives("train 1", (0.3, 1.0, 1.0, 1.0), np.random.default_rng(3))
     with pytest.raises(InputError, match="share the car train 1"):
-        detection.summary(shipped(), both, both)
+        detection.tested(shipped(), both, both)
 
 
 def test_minutes_do_not_hold_the_truth() -> None:

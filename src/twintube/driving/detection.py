@@ -3,7 +3,7 @@
 The drives that are judged are those of other cars, tyres and roads than the training's.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -14,7 +14,7 @@ from twintube.common.arrays import Array
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving.channels import PLACES
 from twintube.driving.model import AXLES, FLEET, REFERENCE, Model
-from twintube.driving.training import FALSE_ALARMS, FOLDS, Drive, examples, train
+from twintube.driving.training import FALSE_ALARMS, Drive, examples
 from twintube.errors import InputError
 
 CONFIDENCE: Final = 0.95
@@ -135,12 +135,12 @@ def rows(some: Iterable[Judged]) -> list[dict[str, Any]]:
     return [dict(zip(names, key, strict=True)) | share(group) for key, group in sorted(groups.items())]
 
 
-def answers(some: Iterable[Judged]) -> list[dict[str, Any]]:
-    """What was said of good dampers, and of those as worn as in the training, by group of cars, way, sensors and length."""
+def answers(some: Iterable[Judged], kind: Callable[[Judged], str]) -> list[dict[str, Any]]:
+    """What was said of good dampers, and of those as worn as in the training, by their kind, way, sensors and length."""
     groups: dict[tuple[Any, ...], list[Judged]] = {}
     for each in some:
         if each.method == MONITOR and each.drive.model == DEFAULT:
-            groups.setdefault((each.drive.group, each.way, each.sensors, each.minutes), []).append(each)
+            groups.setdefault((kind(each), each.way, each.sensors, each.minutes), []).append(each)
     found = []
     for key, group in sorted(groups.items()):
         good, worn = [each for each in group if each.good], [each for each in group if is_worn(each)]
@@ -151,7 +151,7 @@ def answers(some: Iterable[Judged]) -> list[dict[str, Any]]:
             "worn": len(worn), "seen": sum(x.seen for x in worn), "missed": sum(x.passed for x in worn),
             "all four": len(whole), "all four seen": sum(x.seen for x in whole),
         }  # fmt: skip
-        found.append(dict(zip(("group", "compared_with", "sensors", "minutes"), key, strict=True)) | counts)
+        found.append(dict(zip(("kind", "compared_with", "sensors", "minutes"), key, strict=True)) | counts)
     return found
 
 
@@ -194,21 +194,6 @@ def mean(values: Array, weight: Array) -> float:
     return float(values @ weight / weight.sum())
 
 
-def learning_curve(training: Sequence[Drive], test: Sequence[Drive], parts: Sequence[float]) -> list[dict[str, Any]]:
-    """Share seen of the worn dampers, with a reference, by the number of cars in the training."""
-    cars, found = sorted({drive.car for drive in training}), []
-    for part in parts:
-        few = set(cars[: max(FOLDS, round(part * len(cars)))])
-        own = [drive for drive in training if drive.car in few]
-        model = train(own, {})
-        some = judged(model, test, baseline_limits(model, own))
-        for sensors in model.tables[REFERENCE]:
-            here = [x for x in some if (x.method, x.way, x.sensors) == (MONITOR, REFERENCE, sensors)]
-            worn, good = ([x for x in here if x.drive.model == DEFAULT and ok(x)] for ok in (is_worn, is_good))
-            found.append({"cars": len(few), "sensors": sensors, "seen": share(worn), "false_alarms": share(good)})
-    return found
-
-
 def is_worn(each: Judged) -> bool:
     """Whether a damper is as worn as those of the training."""
     return each.drive.worn(each.place)
@@ -219,15 +204,18 @@ def is_good(each: Judged) -> bool:
     return each.good
 
 
-def summary(model: Model, training: Sequence[Drive], test: Sequence[Drive]) -> dict[str, Any]:
-    """All figures of the study for JSON; raises InputError where training and test share a car."""
+def tested(model: Model, training: Sequence[Drive], test: Sequence[Drive]) -> list[Judged]:
+    """All judgements of the test; raises InputError where it shares a car with the training."""
     if shared := {drive.car for drive in training} & {drive.car for drive in test}:
         raise InputError(f"training and test share the car {sorted(shared)[0]}: they must not")
-    some = judged(model, test, baseline_limits(model, training))
+    return judged(model, test, baseline_limits(model, training))
+
+
+def summary(some: Sequence[Judged]) -> dict[str, Any]:
+    """All figures of a test for JSON."""
     return {
-        "trained": {"cars": len({d.car for d in training}), "drives": len(training)},
-        "tested": {"cars": len({d.car for d in test}), "drives": len(test)},
-        "answers": answers(some),
+        "tested": {"cars": len({each.drive.car for each in some}), "drives": len({id(each.drive) for each in some})},
+        "answers": answers(some, lambda each: each.drive.group),
         "detection": rows(some),
         "false_alarms": false_alarms(some),
         "reliability": reliability(some),
