@@ -26,7 +26,8 @@ from twintube.driving.drives import CURVES, SETTLED, WANDER, slow_noise
 from twintube.driving.monitor import watch
 from twintube.driving.scenes import RUNOUT, TOOTH
 from twintube.driving.sensors import INERTIAL, RASTER, STEERING, VERTICAL, Encoder, resolutions, rounded, sensed, wheel_speed
-from twintube.driving.signals import Signals, write
+from twintube.driving.signals import Signals
+from twintube.driving.writing import write
 from twintube.errors import InputError
 from twintube.vehicle.full.rolling import shrinking
 from twintube.vehicle.road import SPACING

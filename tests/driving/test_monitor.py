@@ -17,8 +17,9 @@ from twintube.driving.features import LEAST, MINUTE, table
 from twintube.driving.model import DRIVEN, FLEET, MOST, REFERENCE, SETS, SIGNS, Difference, names_of, shipped
 from twintube.driving.monitor import FINE, UNCLEAR, WATCH, WORN_OUT, Watched, watch
 from twintube.driving.physical import wheel_hop
-from twintube.driving.signals import Signals, write
+from twintube.driving.signals import Signals
 from twintube.driving.spectra import HOP, coherence, density, hold, spectra
+from twintube.driving.writing import write
 from twintube.errors import InputError
 from twintube.report.monitor import terminal
 

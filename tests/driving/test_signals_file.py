@@ -17,7 +17,8 @@ from twintube.driving import signals as signals_file
 from twintube.driving.channels import CHANNELS
 from twintube.driving.columns import BARE
 from twintube.driving.sheet import data_sheet
-from twintube.driving.signals import KEY, Signals, from_frame, read, write
+from twintube.driving.signals import KEY, Signals, from_frame, read
+from twintube.driving.writing import write
 from twintube.errors import InputError
 from twintube.readers.tables import parquet
 from twintube.vehicle.cars import load_car

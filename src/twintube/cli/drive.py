@@ -42,7 +42,8 @@ def drive(
     from twintube.dampers.damper import in_words
     from twintube.driving.drives import driven
     from twintube.driving.scenes import Conditions, Vehicle, Wear, scene
-    from twintube.driving.signals import check_suffix, write
+    from twintube.driving.signals import check_suffix
+    from twintube.driving.writing import write
     from twintube.vehicle.cars import load_car
     from twintube.vehicle.full.study import WORN
     from twintube.vehicle.road import GD_N0
@@ -86,7 +87,8 @@ def join(
     """
     from twintube.driving import joining
     from twintube.driving.sheet import data_sheet
-    from twintube.driving.signals import check_suffix, write
+    from twintube.driving.signals import check_suffix
+    from twintube.driving.writing import write
 
     check_suffix(output)
     drive = joining.join(signals, None if car is None else data_sheet(car))

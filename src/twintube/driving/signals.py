@@ -1,4 +1,4 @@
-"""Signals of a drive, as the car's bus shows them: read from and written to Parquet and ASAM MDF 4.
+"""Signals of a drive, as the car's bus shows them: read from text, Parquet and ASAM MDF 4.
 
 One row per sample of the finest raster; a slower channel repeats its last value, as a bus logger writes it. Beside the
 channels stands what is known of car, drive and sensors, and the truth where a simulation wrote the file (`labels`).
@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from twintube.common.arrays import Array, read_only
-from twintube.common.files import replacing
 from twintube.common.reading import ReadError, check_regular
 from twintube.common.words import listed, shown
 from twintube.core.checks import outside
@@ -269,41 +268,3 @@ def known_of(text: str) -> dict[str, dict[str, Any]]:
         if not isinstance(part, dict):
             raise InputError(f"metadata {KEY}, {name}: must be a table, not {shown(part)}")
     return parts
-
-
-def write(signals: Signals, path: str | Path) -> None:
-    """Write signals as Parquet or MDF 4, by the ending, whole or not at all; raises InputError, OSError."""
-    path = Path(path)
-    check_suffix(path)
-    text = json.dumps(signals.known(), allow_nan=False)
-    with replacing(path) as part:
-        (write_mdf if path.suffix.lower() == ".mf4" else write_parquet)(signals, part, text)
-
-
-def write_parquet(signals: Signals, path: Path, text: str) -> None:
-    """Columns in the order of CHANNELS behind the time."""
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
-    columns = {TIME: signals.time} | {name: signals.values[name] for name in CHANNELS if name in signals.values}
-    units = {TIME: "s"} | {name: channel.unit for name, channel in CHANNELS.items()}
-    fields = [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in columns]
-    schema = pa.schema(fields, metadata={KEY: text})
-    pq.write_table(pa.table([pa.array(values) for values in columns.values()], schema=schema), path, compression="zstd")
-
-
-def write_mdf(signals: Signals, path: Path, text: str) -> None:
-    """One channel group, the text as an attachment."""
-    from asammdf import MDF, Signal
-
-    with MDF(version="4.10") as file:
-        file.append(
-            [
-                Signal(np.array(values), np.array(signals.time), CHANNELS[name].unit, name, comment=CHANNELS[name].meaning)
-                for name, values in signals.values.items()
-            ],
-            comment=KEY,
-            common_timebase=True,
-        )
-        file.attach(text.encode(), file_name=f"{KEY}.json", mime="application/json")
-        file.save(path, overwrite=True, compression=2)

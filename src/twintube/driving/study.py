@@ -19,7 +19,7 @@ from twintube.driving.draws import GROUPS, PER_CAR, REFERENCES, Drawn, draw
 from twintube.driving.drives import driven
 from twintube.driving.features import table
 from twintube.driving.scenes import scene
-from twintube.driving.signals import write
+from twintube.driving.writing import write
 from twintube.errors import InputError
 from twintube.provenance import fingerprint
 from twintube.studies.definition import StudyError

@@ -10,7 +10,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from twintube.common.arrays import Array
 from twintube.dampers.freed_gas import DEFAULT
 from twintube.driving.channels import PLACES
 from twintube.driving.features import CONDITIONS, mean_of, of_the_damper
@@ -30,7 +29,7 @@ from twintube.driving.model import (
     Table,
     names_of,
 )
-from twintube.driving.usual import Usual, fitted
+from twintube.driving.usual import Usual, fitted, means
 from twintube.errors import InputError
 
 LENGTHS: Final = (1, 2, 5, 20)  # [min] of drives that are judged
@@ -128,13 +127,6 @@ def usual_values(drives: Sequence[Drive], middle: Sequence[float]) -> dict[str, 
                 value, list(map(float, slopes)), [(driven[car == i], each[car == i]) for i in range(car.max() + 1)]
             )
     return found
-
-
-def means(values: Array, group: Any) -> Array:
-    """Of each row (n, k) the mean of its group (n,)."""
-    count = np.bincount(group)
-    sums = np.column_stack([np.bincount(group, column) for column in values.T])
-    return np.asarray((sums / count[:, None])[group])
 
 
 def examples(

@@ -7,7 +7,7 @@ less than four, and without any the mean of all cars is left, as uncertain as ca
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from scipy import linalg, optimize
@@ -44,6 +44,13 @@ class Usual:
         known = linalg.cho_factor(self.alike(there, there) + self.drives**2 * np.eye(len(values)))
         weights = linalg.cho_solve(known, between)
         return float(self.value + weights @ (values - self.value)), variance - float(weights @ between)
+
+
+def means(values: Array, group: Any) -> Array:
+    """Of each row (n, k) the mean of its group (n,)."""
+    count = np.bincount(group)
+    sums = np.column_stack([np.bincount(group, column) for column in values.T])
+    return np.asarray((sums / count[:, None])[group])
 
 
 def fitted(value: float, slopes: Sequence[float], cars: Sequence[tuple[Array, Array]]) -> Usual:
