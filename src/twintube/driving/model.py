@@ -7,7 +7,8 @@ what is usual.
 
 That says which of two kinds a damper is likelier of, and nothing of whether it is of either. So there is a distance, too: of
 all features, and of speed and road, to what good dampers show plus any amount of what wear adds, at this wheel, at the other
-wheel of the axle and at the other axle. What is further off than 99 of 100 good dampers is not judged.
+wheel of the axle and at the other axle; and of speed and road alone. What is further off than 99 of 100 good dampers is not
+judged.
 """
 
 import json
@@ -106,6 +107,12 @@ class Table:
         return 1.0 / (1.0 + math.exp(-self.odds(difference)))
 
 
+def deviates(distance: float, count: int) -> float:
+    """How rare a distance of `count` features is, as deviates of a normal distribution (Wilson and Hilferty 1931)."""
+    spread = 2.0 / (9.0 * count)
+    return float(((distance**2 / count) ** (1.0 / 3.0) - 1.0 + spread) / math.sqrt(spread))
+
+
 @dataclass(frozen=True)
 class Known:
     """What the training showed at the wheels of an axle, in the order of `names`, all features and DRIVEN.
@@ -121,8 +128,12 @@ class Known:
     scatter: tuple[tuple[float, ...], ...]
 
     def distance(self, difference: Difference, sensors: str) -> float:
-        """How far a difference is from good dampers and any wear, in standard deviations of good ones, root of the sum."""
-        names = (*names_of(sensors), *DRIVEN)
+        """How far a difference is from good dampers and any wear, or its speed and road from the training: what is rarer."""
+        both = (*names_of(sensors), *DRIVEN), DRIVEN
+        return max(deviates(self.away(difference, names), len(names)) for names in both)
+
+    def away(self, difference: Difference, names: Sequence[str]) -> float:
+        """The same of some features, in standard deviations of good dampers, root of the sum."""
         which = [self.names.index(name) for name in names]
         own, more = (np.array(each)[np.ix_(which, which)] for each in (self.covariance, self.scatter))
         wear, seen = np.array(self.wear)[:, which].T, np.array([difference.values[name] for name in names])

@@ -132,7 +132,7 @@ def summary(answer: Answer) -> Table:
     rows = [
         [
             damper(each.place), each.state, percent(each.probability), percent(each.limit), f"{each.damping:.2f}",
-            f"{np.exp(each.difference['speed_hop']):.1f}", f"{each.distance / each.far:.2f}",
+            f"{np.exp(each.difference['speed_hop']):.1f}", f"{max(0.0, each.distance / each.far):.2f}",
         ]
         for each in answer.dampers
     ]  # fmt: skip
