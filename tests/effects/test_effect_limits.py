@@ -10,7 +10,7 @@ import pytest
 from twintube.core import model
 from twintube.core.effects import EFFECTS, State, oil_temperature
 from twintube.core.outputs import total_force
-from twintube.core.variables import Derived, Flow, Outputs, blank
+from twintube.core.variables import Derived, Flow, Outputs, Parameters, blank
 from twintube.dampers import Damper
 
 BOUND = {item.name: item.metadata for item in fields(Outputs)}["k_degr"]["upper"]
@@ -37,10 +37,11 @@ def wandering(seed: int, steps: int) -> list[tuple[float, float, float]]:
 
 
 def test_the_bound_of_k_degr_is_that_of_its_factors() -> None:
-    """The phases give at most the intact damper's force, which a stiffer valve and cold oil raise."""
+    """The phases give at most the intact damper's force, which a stiffer valve and cold oil raise, by the law and beyond."""
     ranges = {item.name: item.metadata for effect in EFFECTS.values() for item in effect.parameters}
     stiff = 1.0 + max(ranges["wear_re"]["upper"], ranges["wear_co"]["upper"])
-    cold = math.exp(oil_temperature.THICKEST)
+    (law,) = (item.metadata["upper"] for item in fields(Parameters) if item.name == "k_cold")
+    cold = law * math.exp(oil_temperature.THICKEST)
     assert 0.95 * BOUND < stiff * cold < BOUND
 
 
@@ -57,10 +58,11 @@ def test_a_gradual_build_up_never_exceeds_the_intact_damper(sa8: Damper, seed: i
 
 
 def test_the_largest_k_degr_is_reached(sa8: Damper) -> None:
-    damper = sa8.with_(wear_re=1.0, fade_heat=1e-3, H_start=-2e4)
+    damper = sa8.with_(wear_re=1.0, fade_heat=1e-3, H_start=-2e4, k_cold=10.0)
     p, d, s, f = started(damper)
+    s.temperature = damper.parameters.T_cold
     model.advance(p, d, s, f, 1e-6, 0.1, 0.1, 1e-5)
-    assert s.k_degr == pytest.approx(2.0 * math.exp(2.0), rel=1e-3)
+    assert s.k_degr == pytest.approx(20.0 * math.exp(2.0), rel=1e-3)
     assert s.k_degr < BOUND
 
 

@@ -218,7 +218,7 @@ class Outputs(Generic[T]):
 
     force: T = var("", "F_SA", "N", "force, positive when the damper resists rebound", source="equation 1",
                    value="total_force(s)")
-    # At most 10 of cold oil (k_cold), 7.4 of oil that is colder still (oil_temperature) and 2 of a tight valve.
+    # At most 10 of cold oil (k_cold), 7.4 of what an effect makes it colder still, and 2 of a tight valve.
     k_degr: T = var("", "k_degr", "1", "fluid force over the intact one at T_curve, mean of the step", lower=0, upper=150,
                     source="equations 23-39", value="degradation(d, s)")
     F_fluid: T = var("", "F_Fl k_degr", "N", "fluid force, degraded", source="equation 1", fmi="force_fluid",
