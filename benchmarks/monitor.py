@@ -29,7 +29,7 @@ def trained(drives: Sequence[Drive]) -> dict[str, Any]:
     cars, minutes = len({drive.car for drive in drives}), sum(len(drive.minutes) for drive in drives)
     says = (
         f"The tables were made from {counted(len(drives), 'simulated drive')} of {cars} cars, {minutes} minutes in all. "
-        f"Worn means {WORN:.0%} oil or less. No measured car has been judged with them."
+        f"Worn means {WORN:.0%} oil or less. No measured car whose dampers are known has been judged with them."
     )
     return {"says": says, "cars": cars, "drives": len(drives), "minutes": minutes, "worn_oil_level": WORN}
 

@@ -124,6 +124,15 @@ def test_the_answer_does_not_read_the_truth(good: Signals) -> None:
     assert watch(drive, [good]).as_json == watch(labelled, [good]).as_json
 
 
+def test_the_order_of_the_references_does_not_matter(good: Signals) -> None:
+    drive, other = (
+        rolling(zeta, seconds=120.0, rough=ROUGH, seed=i) for i, zeta in ((3, (0.05, 0.3, 0.3, 0.3)), (4, (0.3,) * 4))
+    )
+    one, two = (watch(drive, order) for order in ([good, other], [other, good]))
+    for a, b in zip(one.dampers, two.dampers, strict=True):
+        assert (a.probability, a.distance) == pytest.approx((b.probability, b.distance), rel=1e-9)
+
+
 def test_more_damping_lost_is_never_less_worn() -> None:
     for ways in shipped().tables.values():
         for axles in ways.values():

@@ -21,7 +21,8 @@ FINE, UNCLEAR, WATCH, WORN_OUT = "fine", "cannot tell", "watch", "replace"
 STATES: Final = {
     FINE: "damps more than 95 of 100 worn dampers, and is likelier good than worn: at most 50 %",
     UNCLEAR: "unlike the good and the worn dampers of the training, further off than 99 of 100 good ones; or between: more "
-    "than 1 in 20 worn dampers and more than 1 in 100 good ones look the same",
+    "than 1 in 20 worn dampers and more than 1 in 100 good ones look the same; or by wheel speeds without references, which "
+    "call nothing",
     WATCH: "damps less than 99 of 100 good dampers: above the limit",
     WORN_OUT: "has lost its damping: above the limit, and 99 % or more",
 }
@@ -33,11 +34,11 @@ class Watched:
 
     place: str
     probability: float  # that it is worn [1], a worn one taken as likely as a good one before the drive
-    limit: float  # that 1 in 100 good dampers passes
+    limit: float  # that 1 in 100 good dampers passes; 1 where nothing is called
     damping: float  # damping ratio of wheel hop over that of the reference or the fleet
     parts: dict[str, float]  # what each feature adds to the log odds
     difference: dict[str, float]  # from what is usual
-    distance: float = 0.0  # from all that was trained, in standard deviations
+    distance: float = 0.0  # from all that was trained, in deviates of a normal distribution: below 0 it is usual
     far: float = np.inf  # that 1 in 100 good dampers passes
     fine: float = LIKELIER  # below it lie at most 1 in 20 worn dampers
 

@@ -254,7 +254,8 @@ def trained_axle(model: Model, drives: Sequence[Drive], way: str, axle: str) -> 
 def for_other_cars(model: Model, tables: dict[str, Table], others: Sequence[Drive], axle: str) -> dict[str, Table]:
     """The tables without references, with limits that at most 1 in 100 good dampers of another kind of car passes, too.
 
-    By wheel speeds alone one drive calls no damper: it would miss most of the worn ones.
+    By wheel speeds alone one drive calls no damper: a decision, after it missed most worn ones and passed the limit on the
+    one real drive, whose dampers nobody knows.
     """
     good = [each for drive, place, each in examples_of(model, others, FLEET, axle) if drive.good(place)]
     limits = {

@@ -62,7 +62,10 @@ def sentence(answer: Answer) -> str:
         if some := answer.of(state):
             parts.append(f"The {dampers(some)} {one if len(some) == 1 else several}.")
     between = [each for each in answer.of(UNCLEAR) if not each.unlike]
-    for some, why in ((answer.unlike, "unlike all that was trained"), (between, "good and worn dampers look like that")):
+    for some, why in (
+        (answer.unlike, "unlike all that was trained"),
+        (between, SILENT if any(x.limit == 1.0 for x in between) else "good and worn dampers look like that"),
+    ):
         if some:
             who = "any damper" if len(some) == len(PLACES) else f"the {dampers(some)}"
             parts.append(f"{UNTOLD[answer.way]} about {who}: {why}.")
@@ -73,6 +76,7 @@ def sentence(answer: Answer) -> str:
     return " ".join(parts)
 
 
+SILENT = "wheel speeds alone call nothing"
 UNTOLD = {REFERENCE: "Cannot tell from this drive", FLEET: "Cannot tell from one drive without references"}
 SAID = (  # of one damper and of several
     (WORN_OUT, "has lost its damping: replace", "have lost their damping: replace"),
